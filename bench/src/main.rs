@@ -8,6 +8,7 @@
 
 mod arguments;
 mod bench;
+mod bending;
 mod counted;
 mod docs;
 mod floor;

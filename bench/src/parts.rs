@@ -7,7 +7,7 @@
 
 use crate::bench::Bench;
 use crate::{
-    gltf_loading, growth, live, loading, memory, neighbours, noise_displace, paper_scenes, sampling,
+    bending, gltf_loading, growth, live, loading, memory, neighbours, noise_displace, paper_scenes, sampling,
     sequence, solving, stroke_pass,
 };
 
@@ -36,6 +36,7 @@ pub const PARTS: &[Part] = &[
         "projection and turn of all particles, beside gathers, numpy, numba and Eigen",
         solving::run,
     ),
+    part("bending", "vertices, strain and particles of a body that bends", bending::run),
     part("loading", "a mesh file of a million triangles, beside tobj", loading::run),
     part("loading_gltf", "a glTF file of a million triangles, beside gltf", gltf_loading::run),
     part("paper_scenes", "table 2 of the source paper, measured again", paper_scenes::run),

@@ -8,7 +8,7 @@ out vec2 texture_at;
 out float depth_along_gaze;
 
 void main() {
-    vec4 view = view_from_world * (world_from_model * vec4(body_vertex().position, 1.0));
+    vec4 view = view_from_world * body_position();
     texture_at = uv;
     depth_along_gaze = -view.z;
     gl_Position = clip_from_view * view;

@@ -4,5 +4,5 @@
 uniform mat4 shadow_from_world;
 
 void main() {
-    gl_Position = shadow_from_world * (world_from_model * vec4(body_vertex().position, 1.0));
+    gl_Position = shadow_from_world * body_position();
 }

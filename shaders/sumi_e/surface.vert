@@ -2,15 +2,15 @@
 // made unit again in between.
 #include "shared/body.glsl"
 
+uniform mat3 world_from_normal;
 uniform mat4 view_from_world;
 uniform mat4 clip_from_view;
 
 out vec3 normal_in_view;
 
 void main() {
-    BodyVertex vertex = body_vertex();
-    vec4 view = view_from_world * (world_from_model * vec4(vertex.position, 1.0));
-    vec3 n = mat3(view_from_world) * (mat3(world_from_model) * vertex.normal);
+    vec4 view = view_from_world * body_position();
+    vec3 n = mat3(view_from_world) * (world_from_normal * normal_in_model);
     float size = length(n);
     normal_in_view = size > 0.0 ? n / size : vec3(0.0);
     gl_Position = clip_from_view * view;

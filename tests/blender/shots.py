@@ -104,6 +104,57 @@ def mirrored():
     camera(scene, (2, -9, 3), toward=left)
 
 
+def bending():
+    scene = fresh()
+    # Shape keys, two at once, under an uneven scale that changes.
+    ball = monkey('ball', (-2.5, 0, 0))
+    for key, stretch in (('Basis', (1, 1, 1)), ('Tall', (1, 1, 1.7)), ('Wide', (1.5, 0.8, 1))):
+        block = ball.shape_key_add(name=key)
+        for point in block.data:
+            point.co = [at * by for at, by in zip(point.co, stretch)]
+    for key, values in (('Tall', [(0, 0.0), (24, 1.0)]), ('Wide', [(0, 0.3), (12, 0.9), (24, 0.1)])):
+        keyed(ball.data.shape_keys.key_blocks[key], 'value', values)
+    keyed(ball, 'scale', [(0, (1, 1, 1)), (24, (1.6, 0.7, 1.1))])
+    # A figure of 10,000 vertices, which 40 bones in a chain roll up.
+    bones, rings, around, length = 40, 200, 50, 4.0
+    points = [(length * ring / (rings - 1), 0.4 * math.cos(2 * math.pi * side / around),
+               0.4 * math.sin(2 * math.pi * side / around)) for ring in range(rings) for side in range(around)]
+    faces = [(ring * around + side, ring * around + (side + 1) % around,
+              (ring + 1) * around + (side + 1) % around, (ring + 1) * around + side)
+             for ring in range(rings - 1) for side in range(around)]
+    data = bpy.data.meshes.new('worm')
+    data.from_pydata(points, [], faces)
+    worm = bpy.data.objects.new('worm', data)
+    scene.collection.objects.link(worm)
+    rig = bpy.data.objects.new('rig', bpy.data.armatures.new('rig'))
+    scene.collection.objects.link(rig)
+    rig.location, rig.rotation_euler = (0.5, 0.3, -0.2), (0, 0, 0.4)
+    bpy.context.view_layer.objects.active = rig
+    bpy.ops.object.mode_set(mode='EDIT')
+    before = None
+    for number in range(bones):
+        bone = rig.data.edit_bones.new('bone%d' % number)
+        bone.head, bone.tail = (length * number / bones, 0, 0), (length * (number + 1) / bones, 0, 0)
+        bone.parent, bone.use_connect = before, before is not None
+        before = bone
+    bpy.ops.object.mode_set(mode='OBJECT')
+    worm.parent = rig
+    worm.modifiers.new('rig', 'ARMATURE').object = rig
+    groups = [worm.vertex_groups.new(name='bone%d' % number) for number in range(bones)]
+    for index, (x, _, _) in enumerate(points):
+        weights = [math.exp(-((x * bones / length - number - 0.5) / 0.8) ** 2) for number in range(bones)]
+        largest = sorted(range(bones), key=lambda number: -weights[number])[:4]
+        total = sum(weights[number] for number in largest)
+        for number in largest:
+            groups[number].add([index], weights[number] / total, 'REPLACE')
+    for number in range(bones):
+        pose = rig.pose.bones['bone%d' % number]
+        pose.rotation_mode = 'XYZ'
+        keyed(pose, 'rotation_euler', [(0, (0, 0, 0)), (24, (0.02 * (number % 3), 0, 0.11))])
+    keyed(rig, 'location', [(0, (0.5, 0.3, -0.2)), (24, (0, 1.0, 0.4))])
+    camera(scene, (1, -11, 3), toward=ball)
+
+
 def say(name):
     scene = bpy.context.scene
     frames = []
@@ -132,7 +183,7 @@ def say(name):
 
 
 os.makedirs(OUT, exist_ok=True)
-for make in (nested, constrained, layered, mirrored):
+for make in (nested, constrained, layered, mirrored, bending):
     make()
     say(make.__name__)
     bpy.context.scene.frame_set(0)

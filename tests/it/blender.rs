@@ -4,11 +4,12 @@
 
 use std::path::Path;
 use std::process::Command;
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3, DVec4};
+use impasto_painting::{Painting, Preparer};
 use impasto_scene::document::Lens;
 use impasto_scene::load::{LoadOptions, load};
-use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion::{CameraPose, camera_at, poses_at};
 use serde_json::Value;
 
@@ -19,6 +20,9 @@ const MOST_PX: f64 = 0.01;
 
 /// How far a field of view may be from Blender's.
 const MOST_RAD: f64 = 1e-5;
+
+/// The furthest that a vertex may be from where Blender has it in the world, in sizes of its object.
+const MOST_SHARE: f64 = 1e-4;
 
 /// Where a point is in the picture, pixels from the lower left; `None` behind the eye.
 fn seen(camera: &CameraPose, at: DVec3) -> Option<DVec2> {
@@ -42,19 +46,22 @@ fn places(frame: &Value, object: &str) -> Vec<(DVec3, DVec2)> {
 }
 
 /// Our vertices of an object in a frame, in the world.
-fn vertices(loaded: &LoadedScene, index: usize, frame: f64) -> Vec<DVec3> {
-    let (object, pose) = (&loaded.scene.objects[index], poses_at(&loaded.scene, frame)[index]);
-    let positions = &loaded.meshes[&object.mesh].mesh.positions;
-    positions.iter().map(|at| pose.transform_point3(object.model_from_file() * at.as_dvec3())).collect()
+fn vertices(painting: &Painting, index: usize, frame: f64) -> Vec<DVec3> {
+    let pose = poses_at(painting.scene(), frame)[index];
+    let positions = painting.surface(index).positions_at(&painting.shapes_at(frame)[index]);
+    positions.iter().map(|at| pose.transform_point3(at.as_dvec3())).collect()
 }
 
-/// The largest difference of a vertex in the picture, over all frames and objects, pixels; and of the field of view, radians.
-fn differences(shot: &Path, frames: &[Value]) -> [f64; 2] {
+/// The largest difference of a vertex in the picture, over all frames and objects, pixels; of the field of view, radians; and of a vertex
+/// in the world, in sizes of its object.
+fn differences(shot: &Path, frames: &[Value]) -> [f64; 3] {
     let loaded = load(shot, &LoadOptions::default()).unwrap_or_else(|report| panic!("{report}"));
-    let (mut most_px, mut most_rad, mut compared) = (0.0f64, 0.0f64, 0);
+    let painting = Preparer::default().prepare_plain(&Arc::new(loaded.clone())).unwrap();
+    let (mut most_px, mut most_rad, mut most_share, mut compared) = (0.0f64, 0.0f64, 0.0f64, 0);
     for (index, object) in loaded.scene.objects.iter().enumerate() {
         // Which of our vertices is which of Blender's is found once: then they must stay together.
-        let first = vertices(&loaded, index, 0.0);
+        let first = vertices(&painting, index, 0.0);
+        let (low, high) = first.iter().fold((DVec3::MAX, DVec3::MIN), |(l, h), at| (l.min(*at), h.max(*at)));
         let pairs: Vec<usize> = places(&frames[0], &object.name)
             .iter()
             .map(|(at, _)| {
@@ -64,8 +71,9 @@ fn differences(shot: &Path, frames: &[Value]) -> [f64; 2] {
             .collect();
         for truth in frames {
             let frame = truth["frame"].as_f64().unwrap();
-            let (camera, ours) = (camera_at(&loaded.scene, frame), vertices(&loaded, index, frame));
-            for (&own, (_, blenders)) in pairs.iter().zip(places(truth, &object.name)) {
+            let (camera, ours) = (camera_at(&loaded.scene, frame), vertices(&painting, index, frame));
+            for (&own, (in_world, blenders)) in pairs.iter().zip(places(truth, &object.name)) {
+                most_share = most_share.max(ours[own].distance(in_world) / (high - low).length());
                 let Some(at) = seen(&camera, ours[own]) else { continue };
                 most_px = most_px.max(at.distance(blenders));
                 compared += 1;
@@ -81,7 +89,7 @@ fn differences(shot: &Path, frames: &[Value]) -> [f64; 2] {
         }
     }
     assert!(compared > 10_000, "{compared}");
-    [most_px, most_rad]
+    [most_px, most_rad, most_share]
 }
 
 #[test]
@@ -93,11 +101,17 @@ fn shots_stand_where_blender_has_them() {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("blender/shots.py");
     let made = Command::new(python).arg(script).arg(folder.path()).output().unwrap();
     assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
-    for name in ["nested", "constrained", "layered", "mirrored"] {
+    for name in ["nested", "constrained", "layered", "mirrored", "bending"] {
         let truth = std::fs::read_to_string(folder.path().join(format!("{name}.json"))).unwrap();
         let frames: Vec<Value> = serde_json::from_str(&truth).unwrap();
-        let [px, rad] = differences(&folder.path().join(format!("{name}.glb")), &frames);
-        eprintln!("{name}: at most {px:.5} px and {rad:.1e} rad from Blender in {} frames", frames.len());
-        assert!(px <= MOST_PX && rad <= MOST_RAD, "{name}: {px} px, {rad} rad");
+        let [px, rad, share] = differences(&folder.path().join(format!("{name}.glb")), &frames);
+        let count = frames.len();
+        eprintln!(
+            "{name}: at most {px:.5} px, {rad:.1e} rad and {share:.1e} of a size from Blender in {count} frames"
+        );
+        assert!(
+            px <= MOST_PX && rad <= MOST_RAD && share <= MOST_SHARE,
+            "{name}: {px} px, {rad} rad, {share}"
+        );
     }
 }

@@ -115,7 +115,11 @@ fn three_things(edit: impl FnOnce(&mut Scene)) -> std::sync::Arc<LoadedScene> {
     let mut scene = shapes::scene(names.map(|name| shapes::object(name, 3000)).into());
     let places = [([0.3, 0.0, 0.6], 0.6), ([-0.3, 0.0, -0.4], 0.6), ([0.0, 0.0, -1.5], 2.0)];
     for (object, (translation, scale)) in scene.objects.iter_mut().zip(places) {
-        object.keys = vec![ObjectKey { translation, scale, ..ObjectKey::at(0.0) }];
+        object.keys = vec![ObjectKey {
+            translation,
+            scale: impasto_scene::document::Scale::even(scale),
+            ..ObjectKey::at(0.0)
+        }];
     }
     scene.regions = names.map(|name| Region::new(name, Selector::Object(name.to_owned()))).into();
     edit(&mut scene);

@@ -9,7 +9,7 @@ use impasto_core::TriangleMesh;
 use impasto_painting::frame::LayerKind;
 use impasto_painting::{Frame, FrameOptions, Painting, prepare};
 use impasto_scene::document::{
-    Bend, Dab, Direction, Guide, ObjectKey, Reference, Region, Scene, Seam, Selector, StrokeSettings,
+    Bend, Dab, Direction, Guide, ObjectKey, Reference, Region, Scale, Scene, Seam, Selector, StrokeSettings,
 };
 use impasto_scene::motion::CameraPose;
 use impasto_tests::gestures::{camera, drag};
@@ -433,7 +433,8 @@ fn sizes_follow_the_surface_as_far_as_size_follow_says() {
         let mut scene = combed(Direction::Up, Vec::new(), 6000);
         scene.strokes = StrokeSettings { size_follow: Some(follow), ..scene.strokes };
         scene.timeline.last = 1;
-        scene.objects[0].keys = vec![ObjectKey::at(0.0), ObjectKey { scale: 1.7, ..ObjectKey::at(1.0) }];
+        scene.objects[0].keys =
+            vec![ObjectKey::at(0.0), ObjectKey { scale: Scale::even(1.7), ..ObjectKey::at(1.0) }];
         let painting = painted(scene, shapes::sheet(8));
         [0.0, 1.0].map(|frame| -> BTreeMap<u32, (f32, f32)> {
             let frame = painting.at(frame, &FrameOptions::new(SIZE_PX));

@@ -14,7 +14,7 @@ use impasto_editor_model::picking::{Picker, View};
 use impasto_painting::frame::LayerKind;
 use impasto_painting::{FrameOptions, Painting, prepare};
 use impasto_scene::document::{
-    Direction, Falloff, Guide, GuideMode, Lens, ObjectKey, Region, Scene, Selector,
+    Direction, Falloff, Guide, GuideMode, Lens, ObjectKey, Region, Scale, Scene, Selector,
 };
 use impasto_scene::motion::{self, CameraPose};
 use impasto_tests::shapes;
@@ -37,7 +37,7 @@ fn scene(direction: Direction, guides: Vec<Guide>) -> Scene {
     scene.objects[0].keys = vec![ObjectKey {
         translation: [0.4, 0.1, 0.2],
         rotation_deg: [5.0, -25.0, 8.0],
-        scale: 1.2,
+        scale: Scale::even(1.2),
         ..ObjectKey::at(0.0)
     }];
     scene.regions =
@@ -53,15 +53,26 @@ struct Setup {
     painting: Painting,
     picker: Picker,
     poses: Vec<DAffine3>,
+    /// The frame that is looked at.
+    frame: f64,
 }
 
 impl Setup {
+    /// A scene with one object, which morphs into another mesh.
+    fn bending(scene: Scene, meshes: [&TriangleMesh; 2], frame: f64) -> Self {
+        let poses = motion::poses_at(&scene, frame);
+        let painting = prepare(shapes::morphing(scene, meshes.map(TriangleMesh::clone))).unwrap();
+        let mut picker = Picker::default();
+        picker.follow(&painting, frame);
+        Self { painting, picker, poses, frame }
+    }
+
     fn new(scene: Scene, mesh: &TriangleMesh) -> Self {
         let poses = motion::poses_at(&scene, 0.0);
         let painting = prepare(shapes::loaded(scene, [mesh.clone()])).unwrap();
         let mut picker = Picker::default();
-        picker.update(&[(Arc::clone(painting.surface(0)), 0.0)]);
-        Self { painting, picker, poses }
+        picker.update(&[(Arc::clone(painting.surface(0)), impasto_painting::BodyShape::default())]);
+        Self { painting, picker, poses, frame: 0.0 }
     }
 
     /// The guides of a drag through these pixels.
@@ -80,12 +91,14 @@ impl Setup {
     /// A view and the reference, in the object's space.
     fn views(&self, view: &View) -> [ObjectView; 2] {
         let shot = motion::camera_at(self.painting.scene(), 0.0);
-        [&view.camera, &shot].map(|camera| ObjectView::new(camera, self.poses[0]))
+        let frame = |frame: f64| self.picker.bends(0).then_some(frame);
+        let seen = ObjectView::new(&view.camera, self.poses[0]).at_frame(frame(self.frame));
+        [seen, ObjectView::new(&shot, self.poses[0]).at_frame(frame(0.0))]
     }
 
     /// Of each stroke of the body layer that faces the camera: its place in pixels (Y down) and its angle (Y up).
     fn strokes(&self, camera: &CameraPose) -> Vec<(DVec2, f64)> {
-        let frame = self.painting.seen_by(camera, 0.0, &FrameOptions::new(SIZE_PX));
+        let frame = self.painting.seen_by(camera, self.frame, &FrameOptions::new(SIZE_PX));
         let run = frame.layers.iter().find(|run| run.kind == LayerKind::Body).expect("a body layer");
         (run.first as usize..(run.first + run.count) as usize)
             .filter(|&index| frame.sources[index].facing > 0.35)
@@ -206,6 +219,52 @@ fn what_is_dragged_is_what_is_seen_in_any_view() {
     assert!(worst_curved <= 3.0, "{worst_curved} degrees");
 }
 
+/// What is combed on a bent body at a frame shows as combed at that frame, and the guide lies on the surface at rest.
+#[test]
+fn what_is_dragged_on_a_bent_body_is_what_is_seen_then() {
+    let mesh = shapes::sphere(192, 96);
+    // Twisted about the upright axis, stretched sideways and bowed.
+    let bent = |at: DVec3| {
+        let (sin, cos) = (0.9 * at.y).sin_cos();
+        DVec3::new(1.3 * (at.x * cos + at.z * sin), at.y + 0.25 * at.x * at.x, at.z * cos - at.x * sin)
+    };
+    let target = shapes::moved(&mesh, bent);
+    let (mut worst, mut count) = (0.0f64, 0);
+    for frame in [5.0, 10.0] {
+        let moving = |guides: Vec<Guide>| {
+            let mut moving = scene(Direction::Auto, guides);
+            moving.timeline.last = 10;
+            moving.objects[0].morph = Some("target.obj".to_owned());
+            let first = moving.objects[0].keys[0].clone();
+            moving.objects[0].keys.push(ObjectKey { frame: 10.0, morph: 1.0, ..first });
+            moving
+        };
+        let bare = Setup::bending(moving(Vec::new()), [&mesh, &target], frame);
+        let centre =
+            bare.picker.bounds_in_world([0], &bare.poses).map(|[low, high]| (low + high) * 0.5).unwrap();
+        let shot = motion::camera_at(bare.painting.scene(), 0.0);
+        for (name, view) in views(&shot, centre).into_iter().step_by(2) {
+            let middle = view.project(centre).unwrap() + DVec2::new(6.0, 9.0);
+            for angle_deg in [7.0f64, -60.0] {
+                let half = DVec2::from_angle(angle_deg.to_radians()) * 42.0;
+                let straight = |t: f64| middle + half * (2.0 * t - 1.0);
+                let events: Vec<DVec2> = (0..25).map(|event| straight(f64::from(event) / 24.0)).collect();
+                let guides = bare.drag(&view, &events);
+                assert!(guides[0].view.as_ref().is_some_and(|view| view.frame == Some(frame)), "{name}");
+                let off = |at: DVec3| (at.length() - 1.0).abs();
+                assert!(guides[0].points.iter().all(|point| off(DVec3::from(point.at)) < 0.01), "{name}");
+                let combed = Setup::bending(moving(guides), [&mesh, &target], frame);
+                let found = errors(&combed.strokes(&view.camera), straight, CORE_PX);
+                assert!(!found.is_empty(), "no stroke lies under the drag: {name}");
+                count += found.len();
+                worst = found.iter().copied().fold(worst, f64::max);
+            }
+        }
+    }
+    println!("dragged on a bent body against shown: at most {worst:.3} over {count} strokes");
+    assert!(count >= 40 && worst <= 0.5, "{worst} degrees over {count} strokes");
+}
+
 #[test]
 fn mirror_images_show_mirrored_from_the_other_side() {
     let mesh = shapes::sphere(96, 48);
@@ -244,8 +303,9 @@ fn a_shipped_scene_is_picked_where_it_is_painted() {
     let scene = loaded.scene.clone();
     let painting = prepare(Arc::new(loaded)).unwrap();
     let mut picker = Picker::default();
-    let bodies: Vec<_> =
-        (0..scene.objects.len()).map(|object| (Arc::clone(painting.surface(object)), 0.0)).collect();
+    let bodies: Vec<_> = (0..scene.objects.len())
+        .map(|object| (Arc::clone(painting.surface(object)), impasto_painting::BodyShape::default()))
+        .collect();
     picker.update(&bodies);
     let (camera, poses) = (motion::camera_at(&scene, 45.0), motion::poses_at(&scene, 45.0));
     let size = [640u32, 360];

@@ -152,7 +152,12 @@ fn horn_is_close_to_the_papers_unweighted_sum() {
         for case in cases.iter().filter(|case| faces(&reference, case) && faces(&now, case)) {
             let Some(lift) = horn(case, &reference.map) else { continue };
             let baked = lift.map(now.map.jacobian(case.center)).angle_rad();
-            let exact = turn_rad(case.center, case.neighbours.iter().copied(), &reference.clip, &now.clip);
+            let exact = turn_rad(
+                [case.center; 2],
+                case.neighbours.iter().map(|&neighbour| [neighbour; 2]),
+                &reference.clip,
+                &now.clip,
+            );
             errors.push(degrees_apart(baked, exact));
         }
     }

@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a failed step is a failed test")]
 
+mod bending;
 mod blender;
 mod cli;
 mod corpus;

@@ -14,7 +14,7 @@ use impasto_core::noise_displace::gaussian;
 use impasto_gl_render::context::Driver;
 use impasto_painting::{FrameOptions, Painting, prepare};
 use impasto_scene::document::{
-    MaterialOverride, NoiseAlong, NoiseDisplace, NoiseSpace, ObjectKey, Scene, Style, VertexNoise,
+    MaterialOverride, NoiseAlong, NoiseDisplace, NoiseSpace, ObjectKey, Scale, Scene, Style, VertexNoise,
 };
 use impasto_tests::pictures::renderer;
 use impasto_tests::shapes;
@@ -60,7 +60,12 @@ fn moves(scene: Scene, frame: f64) -> Vec<DVec3> {
 
 /// A single key with this translation, turned and enlarged.
 fn keys_at(translation: [f64; 3]) -> Vec<ObjectKey> {
-    vec![ObjectKey { translation, rotation_deg: [10.0, 40.0, 20.0], scale: 1.2, ..ObjectKey::at(0.0) }]
+    vec![ObjectKey {
+        translation,
+        rotation_deg: [10.0, 40.0, 20.0],
+        scale: Scale::even(1.2),
+        ..ObjectKey::at(0.0)
+    }]
 }
 
 #[test]
@@ -254,7 +259,7 @@ fn noise_that_moves_nothing_changes_no_pixel() {
     let plain = || {
         let mut scene = shapes::scene(vec![shapes::object("ball", 3000), shapes::object("cube", 3000)]);
         scene.objects[1].keys =
-            vec![ObjectKey { translation: [1.0, 0.2, 0.5], scale: 0.5, ..ObjectKey::at(0.0) }];
+            vec![ObjectKey { translation: [1.0, 0.2, 0.5], scale: Scale::even(0.5), ..ObjectKey::at(0.0) }];
         scene
     };
     let mut beside = plain();
@@ -275,8 +280,8 @@ fn the_shadow_of_a_displaced_body_is_displaced() {
         scene.objects[0].material =
             material(moved_by(VertexNoise { value: [0.4, 0.4], scale, ..Default::default() }));
         scene.objects[0].keys =
-            vec![ObjectKey { translation: [-0.3, 0.4, 1.6], scale: 0.4, ..ObjectKey::at(0.0) }];
-        scene.objects[1].keys = vec![ObjectKey { scale: 2.0, ..ObjectKey::at(0.0) }];
+            vec![ObjectKey { translation: [-0.3, 0.4, 1.6], scale: Scale::even(0.4), ..ObjectKey::at(0.0) }];
+        scene.objects[1].keys = vec![ObjectKey { scale: Scale::even(2.0), ..ObjectKey::at(0.0) }];
         let painting = prepare(shapes::loaded(scene, [shapes::sphere(48, 24), shapes::sheet(4)])).unwrap();
         let mut renderer = renderer(Driver::Egl);
         let picture = renderer.render(&painting.at(0.0, &FrameOptions::new([320, 180]))).unwrap();

@@ -4,7 +4,7 @@
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::Driver;
 use impasto_painting::{FrameOptions, prepare};
-use impasto_scene::document::{Color, Lens, Light, LightKind, ObjectKey, Style};
+use impasto_scene::document::{Color, Lens, Light, LightKind, ObjectKey, Scale, Style};
 use impasto_tests::pictures::{Grey, faulty_renderer, renderer};
 use impasto_tests::shapes;
 
@@ -25,10 +25,10 @@ fn light_in_a_canyon(renderer: &mut Renderer, half_width: f64) -> f64 {
         vec![Light { ground: Some(Color::white()), intensity: 1.0, ..Light::new("sky", LightKind::Ambient) }];
     const BLOCK: f64 = 0.4;
     let beside = half_width * RADIUS + BLOCK;
-    scene.objects[0].keys = vec![ObjectKey { scale: 1.5, ..ObjectKey::at(0.0) }];
+    scene.objects[0].keys = vec![ObjectKey { scale: Scale::even(1.5), ..ObjectKey::at(0.0) }];
     for (object, x) in scene.objects[1..].iter_mut().zip([-beside, beside]) {
         let translation = [x, 0.0, 0.45 * RADIUS - BLOCK];
-        object.keys = vec![ObjectKey { translation, scale: BLOCK, ..ObjectKey::at(0.0) }];
+        object.keys = vec![ObjectKey { translation, scale: Scale::even(BLOCK), ..ObjectKey::at(0.0) }];
     }
     let meshes = [shapes::sheet(1), shapes::cube(), shapes::cube()];
     let painting = prepare(shapes::loaded(scene, meshes)).unwrap();

@@ -5,8 +5,8 @@ use std::sync::{Arc, OnceLock};
 
 use impasto_painting::{Frame, FrameOptions, Painting, PrepareError, PrepareOptions, Preparer, prepare};
 use impasto_scene::document::{
-    Bend, Dab, Direction, Ease, Edges, Light, LightKind, ObjectKey, Region, Scene, Seam, Selector, Solver,
-    Style,
+    Bend, Dab, Direction, Ease, Edges, Light, LightKind, ObjectKey, Region, Scale, Scene, Seam, Selector,
+    Solver, Style,
 };
 use impasto_scene::loaded::LoadedScene;
 use impasto_tests::gestures::{camera, drag};
@@ -33,7 +33,14 @@ fn start() -> Arc<LoadedScene> {
 }
 
 fn key(frame: f64, translation: [f64; 3]) -> ObjectKey {
-    ObjectKey { frame, translation, rotation_deg: [0.0; 3], scale: 1.0, morph: 0.0, ease: Ease::Linear }
+    ObjectKey {
+        frame,
+        translation,
+        rotation_deg: [0.0; 3],
+        scale: Scale::default(),
+        morph: 0.0,
+        ease: Ease::Linear,
+    }
 }
 
 type Edit = (&'static str, Box<dyn Fn(&mut Scene)>);

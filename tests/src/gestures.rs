@@ -32,7 +32,7 @@ pub fn drag(mesh: &TriangleMesh, camera: &CameraPose, height_px: f64, ends_px: [
         mode: GuideMode::Comb,
         curve: false,
         object: None,
-        view: Some(GuideView { eye: camera.eye.to_array(), target: camera.target.to_array() }),
+        view: Some(GuideView { eye: camera.eye.to_array(), target: camera.target.to_array(), frame: None }),
         points: points?,
         radius: 0.25,
         strength: 1.0,

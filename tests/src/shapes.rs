@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::command::root;
-use glam::{Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 use impasto_core::TriangleMesh;
 use impasto_scene::document::{
     Camera, CameraKey, Color, Direction, Ease, LayerSettings, Lens, Object, Reference, Region, Scene,
@@ -188,11 +188,8 @@ pub fn loaded(scene: Scene, meshes: impl IntoIterator<Item = TriangleMesh>) -> A
         .iter()
         .zip(meshes)
         .map(|(object, mesh)| {
-            let file = MeshFile {
-                mesh,
-                groups: vec!["whole".to_owned()],
-                materials: vec![Material::plain(String::new(), [0.7, 0.4, 0.3])],
-            };
+            let plain = Material::plain(String::new(), [0.7, 0.4, 0.3]);
+            let file = MeshFile::still(mesh, vec!["whole".to_owned()], vec![plain]);
             (object.mesh.clone(), Arc::new(file))
         })
         .collect();
@@ -200,10 +197,32 @@ pub fn loaded(scene: Scene, meshes: impl IntoIterator<Item = TriangleMesh>) -> A
         path: PathBuf::from("scene.ron"),
         scene,
         meshes,
+        caches: BTreeMap::new(),
         textures: BTreeMap::new(),
         brushes: BTreeMap::new(),
         warnings: Vec::new(),
     })
+}
+
+/// A mesh with its vertices moved; normals by the faces round them.
+pub fn moved(mesh: &TriangleMesh, by: impl Fn(DVec3) -> DVec3) -> TriangleMesh {
+    let positions: Vec<Vec3> = mesh.positions.iter().map(|at| by(at.as_dvec3()).as_vec3()).collect();
+    let mut normals = vec![Vec3::ZERO; positions.len()];
+    for corners in &mesh.triangles {
+        let [a, b, c] = corners.map(|vertex| positions[vertex as usize]);
+        corners.iter().for_each(|&vertex| normals[vertex as usize] += (b - a).cross(c - a));
+    }
+    let normals = normals.iter().map(|normal| normal.normalize_or(Vec3::Y)).collect();
+    TriangleMesh { positions, normals, ..mesh.clone() }
+}
+
+/// A scene whose first object has the first mesh, and morphs into the second one as `target.obj`.
+pub fn morphing(scene: Scene, [mesh, target]: [TriangleMesh; 2]) -> Arc<LoadedScene> {
+    let mut loaded = LoadedScene::clone(&loaded(scene, [mesh]));
+    let mut file = MeshFile::clone(loaded.meshes.values().next().expect("the scene has an object"));
+    file.mesh = target;
+    loaded.meshes.insert("target.obj".to_owned(), file.into());
+    Arc::new(loaded)
 }
 
 /// The same scene with every mesh textured with cells of random grey, so that each stroke differs from its neighbours.

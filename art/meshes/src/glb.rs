@@ -6,6 +6,10 @@ use serde_json::{Value, json};
 
 use crate::poly_mesh::PolyMesh;
 
+mod soft;
+
+pub use soft::{Bend, Influence, Target};
+
 /// A shot that is being put together.
 #[derive(Default)]
 pub struct Glb {
@@ -18,6 +22,9 @@ pub struct Glb {
     images: Vec<Value>,
     lights: Vec<Value>,
     nodes: Vec<Value>,
+    /// The nodes that have no parent.
+    roots: Vec<usize>,
+    skins: Vec<Value>,
     channels: Vec<Value>,
     samplers: Vec<Value>,
 }
@@ -35,13 +42,15 @@ pub struct Node<'a> {
 }
 
 /// What the corners of a mesh have beside their positions.
-pub enum Skin<'a> {
+pub enum Coat<'a> {
     /// The materials of its palette.
     Palette,
     /// One material, and a texture coordinate (V down) for each point.
     Texture(usize, &'a [DVec2]),
     /// A colour for each point, linear 0..=1.
     Colors(&'a [DVec3]),
+    /// The materials of its palette, each multiplied by a colour for each point.
+    Tinted(&'a [DVec3]),
 }
 
 impl Glb {
@@ -77,13 +86,33 @@ impl Glb {
     ///
     /// # Errors
     /// It has more points than 16 bits count, or a colour of its palette is none.
-    pub fn mesh(&mut self, mesh: &PolyMesh, skin: &Skin<'_>) -> anyhow::Result<usize> {
+    pub fn mesh(&mut self, mesh: &PolyMesh, coat: &Coat<'_>) -> anyhow::Result<usize> {
+        let attributes = json!({ "POSITION": self.positions(mesh)? });
+        let primitives = self.primitives(mesh, coat, attributes)?;
+        self.meshes.push(json!({ "name": mesh.name, "primitives": primitives }));
+        Ok(self.meshes.len() - 1)
+    }
+
+    /// Adds the points of a mesh. Returns the index of their accessor.
+    fn positions(&mut self, mesh: &PolyMesh) -> anyhow::Result<usize> {
         ensure!(mesh.positions.len() < 65_536, "{}: too many points", mesh.name);
-        let positions: Vec<[f64; 3]> = mesh.positions.iter().map(DVec3::to_array).collect();
-        let mut attributes = json!({ "POSITION": self.floats(positions.as_flattened(), "VEC3") });
+        Ok(self.vectors(&mesh.positions))
+    }
+
+    /// Adds what the corners of a mesh have beside these attributes, its materials and its faces: one primitive for each
+    /// material.
+    fn primitives(
+        &mut self,
+        mesh: &PolyMesh,
+        coat: &Coat<'_>,
+        mut attributes: Value,
+    ) -> anyhow::Result<Vec<Value>> {
+        if let Coat::Tinted(colors) = *coat {
+            attributes["COLOR_0"] = json!(self.tints(colors));
+        }
         let mut primitives = Vec::new();
-        match *skin {
-            Skin::Palette => {
+        match *coat {
+            Coat::Palette | Coat::Tinted(_) => {
                 for (name, hex) in mesh.palette {
                     let faces = mesh.faces.iter().filter(|face| face.look.material == *name);
                     let indices = self.indices(faces.map(|face| face.corners.as_slice()));
@@ -91,28 +120,21 @@ impl Glb {
                     primitives.extend(indices.map(|indices| (indices, material)));
                 }
             }
-            Skin::Texture(material, uvs) => {
+            Coat::Texture(material, uvs) => {
                 let uvs: Vec<[f64; 2]> = uvs.iter().map(DVec2::to_array).collect();
                 attributes["TEXCOORD_0"] = json!(self.floats(uvs.as_flattened(), "VEC2"));
                 let indices = self.indices(mesh.faces.iter().map(|face| face.corners.as_slice()));
                 primitives.extend(indices.map(|indices| (indices, material)));
             }
-            Skin::Colors(colors) => {
-                let colors: Vec<[f64; 3]> = colors.iter().map(DVec3::to_array).collect();
-                attributes["COLOR_0"] = json!(self.floats(colors.as_flattened(), "VEC3"));
+            Coat::Colors(colors) => {
+                attributes["COLOR_0"] = json!(self.vectors(colors));
                 let indices = self.indices(mesh.faces.iter().map(|face| face.corners.as_slice()));
                 let material = self.material(mesh.name, [1.0; 3], None, 0.5);
                 primitives.extend(indices.map(|indices| (indices, material)));
             }
         }
-        let primitives: Vec<Value> = primitives
-            .into_iter()
-            .map(|(indices, material)| {
-                json!({ "attributes": attributes, "indices": indices, "material": material })
-            })
-            .collect();
-        self.meshes.push(json!({ "name": mesh.name, "primitives": primitives }));
-        Ok(self.meshes.len() - 1)
+        let primitive = |(indices, material)| json!({ "attributes": attributes, "indices": indices, "material": material });
+        Ok(primitives.into_iter().map(primitive).collect())
     }
 
     /// Adds a light, as KHR_lights_punctual states it. Returns its index.
@@ -127,36 +149,39 @@ impl Glb {
         self.nodes.push(json!({
             "name": node.name, "translation": node.place.to_array(), "rotation": node.turn.to_array(), member: value,
         }));
+        self.roots.push(self.nodes.len() - 1);
         self.nodes.len() - 1
     }
 
     /// Gives a node keys of place and turn, each with its time in seconds; linear between.
     pub fn keys(&mut self, node: usize, keys: &[(f64, DVec3, DQuat)]) {
         let times: Vec<f64> = keys.iter().map(|(time_s, ..)| *time_s).collect();
-        let places: Vec<[f64; 3]> = keys.iter().map(|(_, place, _)| place.to_array()).collect();
+        let places: Vec<DVec3> = keys.iter().map(|(_, place, _)| *place).collect();
         let turns: Vec<[f64; 4]> = keys.iter().map(|(.., turn)| turn.to_array()).collect();
         let input = self.floats(&times, "SCALAR");
-        for (path, output) in [
-            ("translation", self.floats(places.as_flattened(), "VEC3")),
-            ("rotation", self.floats(turns.as_flattened(), "VEC4")),
-        ] {
-            let sampler = self.samplers.len();
-            self.samplers.push(json!({ "input": input, "output": output }));
-            self.channels.push(json!({ "sampler": sampler, "target": { "node": node, "path": path } }));
+        for (path, output) in
+            [("translation", self.vectors(&places)), ("rotation", self.floats(turns.as_flattened(), "VEC4"))]
+        {
+            self.channel(node, path, [input, output]);
         }
+    }
+
+    /// Lets what a node has at `path` follow two accessors: times, and values.
+    fn channel(&mut self, node: usize, path: &str, [input, output]: [usize; 2]) {
+        let sampler = self.samplers.len();
+        self.samplers.push(json!({ "input": input, "output": output }));
+        self.channels.push(json!({ "sampler": sampler, "target": { "node": node, "path": path } }));
     }
 
     /// The file, seen by a camera of this vertical field of view in a picture of 16 by 9. Nodes show the camera as `("camera", 0)`.
     pub fn finish(self, fov_y_rad: f64) -> Vec<u8> {
-        let root = json!({
+        let mut root = json!({
             "asset": { "version": "2.0", "generator": "cargo xtask meshes" },
             "scene": 0,
-            "scenes": [{ "nodes": (0..self.nodes.len()).collect::<Vec<_>>() }],
+            "scenes": [{ "nodes": self.roots }],
             "nodes": self.nodes,
             "meshes": self.meshes,
             "materials": self.materials,
-            "textures": self.textures,
-            "images": self.images,
             "cameras": [{ "type": "perspective",
                 "perspective": { "yfov": fov_y_rad, "aspectRatio": 16.0 / 9.0, "znear": 0.05, "zfar": 60.0 } }],
             "animations": [{ "name": "Shot", "channels": self.channels, "samplers": self.samplers }],
@@ -166,6 +191,15 @@ impl Glb {
             "bufferViews": self.views,
             "buffers": [{ "byteLength": self.bin.len() }],
         });
+        // An empty list is against the rules of glTF.
+        for (name, list) in [("textures", self.textures), ("images", self.images)] {
+            if !list.is_empty() {
+                root[name] = list.into();
+            }
+        }
+        if !self.skins.is_empty() {
+            root["skins"] = json!(self.skins);
+        }
         let mut text = root.to_string().into_bytes();
         text.resize(text.len().next_multiple_of(4), b' ');
         let whole = 12 + 8 + text.len() + 8 + self.bin.len();
@@ -189,13 +223,20 @@ impl Glb {
         self.views.len() - 1
     }
 
+    /// Adds points or directions. Returns the index of their accessor.
+    fn vectors(&mut self, vectors: &[DVec3]) -> usize {
+        let numbers: Vec<[f64; 3]> = vectors.iter().map(DVec3::to_array).collect();
+        self.floats(numbers.as_flattened(), "VEC3")
+    }
+
     /// Adds numbers. Returns the index of their accessor.
     fn floats(&mut self, numbers: &[f64], kind: &str) -> usize {
         let width = match kind {
             "SCALAR" => 1,
             "VEC2" => 2,
             "VEC3" => 3,
-            _ => 4,
+            "VEC4" => 4,
+            _ => 16,
         };
         let numbers: Vec<f32> = numbers.iter().map(|&number| number as f32).collect();
         let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();

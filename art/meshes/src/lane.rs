@@ -6,7 +6,7 @@ use glam::{DQuat, DVec2, DVec3};
 use serde_json::json;
 
 use crate::curve::hash;
-use crate::glb::{Glb, Node, Skin, linear};
+use crate::glb::{Coat, Glb, Node, linear};
 use crate::poly_mesh::{Look, PolyMesh};
 use crate::{cottage, tree};
 
@@ -25,9 +25,9 @@ pub fn lane() -> anyhow::Result<Vec<u8>> {
     let mut shot = Glb::default();
     let paving = paving(&mut shot)?;
     add(&mut shot, "Paving", paving, DVec3::ZERO, 0.0);
-    let house = shot.mesh(&cottage::cottage(), &Skin::Palette)?;
+    let house = shot.mesh(&cottage::cottage(), &Coat::Palette)?;
     add(&mut shot, "Cottage", house, DVec3::new(0.55, 0.0, -0.9), -14.0);
-    let poplar = shot.mesh(&tree::poplar(), &Skin::Palette)?;
+    let poplar = shot.mesh(&tree::poplar(), &Coat::Palette)?;
     for (name, x, z) in [("Poplar", -1.7, -1.6), ("Poplar.001", -2.6, -2.3), ("Poplar.002", 2.6, -2.1)] {
         add(&mut shot, name, poplar, DVec3::new(x, 0.0, z), 40.0 * x);
     }
@@ -80,7 +80,7 @@ fn paving(shot: &mut Glb) -> anyhow::Result<usize> {
     floor.sheet(SIDES, place, |_, _| Look { group: "floor", material: "flagstones" });
     // A sheet's points run row by row.
     let uvs: Vec<DVec2> = floor.positions.iter().map(|point| DVec2::new(point.x, point.z) / 2.4).collect();
-    shot.mesh(&floor, &Skin::Texture(material, &uvs))
+    shot.mesh(&floor, &Coat::Texture(material, &uvs))
 }
 
 /// A ball in stripes of vertex colours.
@@ -98,7 +98,7 @@ fn ball(shot: &mut Glb) -> anyhow::Result<usize> {
         let round = (-at.z).atan2(at.x).rem_euclid(TAU) / TAU;
         colors.push(stripes[(round * 6.0 + 1e-9) as usize % 3]);
     }
-    shot.mesh(&ball, &Skin::Colors(&colors))
+    shot.mesh(&ball, &Coat::Colors(&colors))
 }
 
 /// Place and turn of the ball: it rolls without slipping along a straight line, and slows down a little.

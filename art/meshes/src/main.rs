@@ -1,4 +1,4 @@
-//! The shipped meshes and the shipped shot, modelled in code: `cargo xtask meshes` writes them to `scenes/meshes`.
+//! The shipped meshes and the shipped shots, modelled in code: `cargo xtask meshes` writes them to `scenes/meshes`.
 
 mod apple;
 mod apple_fine;
@@ -23,6 +23,7 @@ mod lane;
 mod lemon;
 mod limb;
 mod orange;
+mod parade;
 mod poly_mesh;
 mod puppet;
 mod room;
@@ -42,10 +43,7 @@ use poly_mesh::PolyMesh;
 /// Where the meshes are kept, from the repository's root.
 const FOLDER: &str = "scenes/meshes";
 
-/// The shipped shot, in the folder.
-const SHOT: &str = "lane.glb";
-
-/// Writes every shipped mesh, an OBJ and its MTL, and the shot.
+/// Writes every shipped mesh, an OBJ and its MTL, the shots, and what moves point by point.
 fn main() -> anyhow::Result<()> {
     let folder = folder();
     std::fs::create_dir_all(&folder).with_context(|| format!("cannot make {}", folder.display()))?;
@@ -55,8 +53,16 @@ fn main() -> anyhow::Result<()> {
             std::fs::write(&path, text).with_context(|| format!("cannot write {}", path.display()))?;
         }
     }
-    let path = folder.join(SHOT);
-    std::fs::write(&path, lane::lane()?).with_context(|| format!("cannot write {}", path.display()))
+    for (name, bytes) in shots()? {
+        let path = folder.join(name);
+        std::fs::write(&path, bytes).with_context(|| format!("cannot write {}", path.display()))?;
+    }
+    Ok(())
+}
+
+/// Name and bytes of each shipped shot, and of each point cache.
+fn shots() -> anyhow::Result<[(&'static str, Vec<u8>); 3]> {
+    Ok([("lane.glb", lane::lane()?), ("parade.glb", parade::parade()?), ("flag.pc2", parade::cache())])
 }
 
 /// The folder of the meshes in the repository that this package lies in.
@@ -82,6 +88,7 @@ fn shipped() -> Vec<PolyMesh> {
         effects::floor(),
         effects::mushroom_cloud(),
         fish::fish(),
+        parade::flag(),
         globe::globe(),
         head::head(),
         jug::jug(),
@@ -130,8 +137,10 @@ mod tests {
                 assert!(committed == text, "{name} is stale: run `cargo xtask meshes`");
             }
         }
-        let committed = std::fs::read(folder.join(SHOT)).unwrap();
-        assert!(committed == lane::lane().unwrap(), "{SHOT} is stale: run `cargo xtask meshes`");
+        for (name, bytes) in shots().unwrap() {
+            let committed = std::fs::read(folder.join(name)).unwrap();
+            assert!(committed == bytes, "{name} is stale: run `cargo xtask meshes`");
+        }
     }
 
     #[test]
@@ -143,7 +152,7 @@ mod tests {
     }
 
     /// Sheets that only ever show one side.
-    const OPEN: [&str; 8] = ["cloth", "floor", "hills", "seal", "sky", "valley", "wall", "water"];
+    const OPEN: [&str; 9] = ["cloth", "flag", "floor", "hills", "seal", "sky", "valley", "wall", "water"];
 
     /// Meshes whose billows touch along an edge: that edge is walked twice in each direction.
     const TOUCHING: [&str; 2] = ["blast_fire", "blast_smoke"];

@@ -262,7 +262,7 @@ impl PolyMesh {
     }
 
     /// A unit normal per point: the mean of the normals of the faces round it, weighted by their areas.
-    fn normals(&self) -> Vec<DVec3> {
+    pub fn normals(&self) -> Vec<DVec3> {
         let mut sums = vec![DVec3::ZERO; self.positions.len()];
         for face in &self.faces {
             let at = |corner: usize| self.positions[face.corners[corner]];

@@ -22,19 +22,19 @@ impl ClipView {
 }
 
 /// The angle by which a stroke turns from the reference to this frame, radians: `arg Σ p̄ c` over its neighbours. As
-/// complex numbers, p and c are a neighbour's offset from the stroke in the reference picture and in this frame. 0 when
-/// there are no neighbours or the sum is not finite.
+/// complex numbers, p and c are a neighbour's offset from the stroke in the reference picture and in this frame. Each point is
+/// given where it is in the reference and where it is now, model space. 0 when there are no neighbours or the sum is not finite.
 pub fn turn_rad(
-    center: DVec3,
-    neighbours: impl Iterator<Item = DVec3>,
+    center: [DVec3; 2],
+    neighbours: impl Iterator<Item = [DVec3; 2]>,
     reference: &ClipView,
     now: &ClipView,
 ) -> f64 {
-    let (center_then, center_now) = (reference.pixel(center), now.pixel(center));
+    let (center_then, center_now) = (reference.pixel(center[0]), now.pixel(center[1]));
     let (mut dot, mut cross) = (0.0, 0.0);
     for neighbour in neighbours {
-        let p = reference.pixel(neighbour) - center_then;
-        let c = now.pixel(neighbour) - center_now;
+        let p = reference.pixel(neighbour[0]) - center_then;
+        let c = now.pixel(neighbour[1]) - center_now;
         dot += p.x * c.x + p.y * c.y;
         cross += p.x * c.y - p.y * c.x;
     }

@@ -11,6 +11,7 @@
 //! ```
 
 pub mod angle;
+pub mod bending;
 pub mod brush;
 pub mod color;
 pub mod direction;

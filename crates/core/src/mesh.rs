@@ -36,7 +36,12 @@ impl TriangleMesh {
     /// Least and greatest corner of the axis-aligned box round the triangles' vertices, in model space;
     /// `None` for a mesh without triangles. Vertices that no triangle uses do not count.
     pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
-        let mut used = self.triangles.iter().flatten().map(|&vertex| self.positions[vertex as usize]);
+        self.bounds_at(&self.positions)
+    }
+
+    /// As [`Self::bounds`], with the vertices at these positions.
+    pub fn bounds_at(&self, positions: &[Vec3]) -> Option<(Vec3, Vec3)> {
+        let mut used = self.triangles.iter().flatten().map(|&vertex| positions[vertex as usize]);
         let first = used.next()?;
         Some(used.fold((first, first), |(low, high), position| (low.min(position), high.max(position))))
     }

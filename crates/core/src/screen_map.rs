@@ -1,6 +1,6 @@
 //! The map from points of model space to pixels of the picture, and its Jacobian.
 
-use glam::{DAffine3, DMat4, DVec2, DVec3, DVec4};
+use glam::{DAffine3, DMat3, DMat4, DVec2, DVec3, DVec4};
 
 /// Projects points of one body into one picture: pixels, origin in the picture's centre, Y up.
 ///
@@ -16,6 +16,8 @@ pub struct ScreenMap {
     pub row_w: DVec4,
     /// Depth along the gaze, world units, positive in front.
     pub row_depth: DVec4,
+    /// The linear part of the body's pose, where it does not scale all directions alike.
+    pub uneven: Option<DMat3>,
 }
 
 /// How the camera projects, with the picture's height.
@@ -38,14 +40,23 @@ impl ScreenMap {
     pub fn new(view_from_world: DMat4, world_from_model: DAffine3, lens: PixelLens) -> Self {
         let view_from_model = view_from_world * DMat4::from(world_from_model);
         let (x, y, depth) = (view_from_model.row(0), view_from_model.row(1), -view_from_model.row(2));
-        match lens {
-            PixelLens::Perspective { focal_px } => {
-                Self { row_x: x * focal_px, row_y: y * focal_px, row_w: depth, row_depth: depth }
-            }
-            PixelLens::Orthographic { px_per_unit } => {
-                Self { row_x: x * px_per_unit, row_y: y * px_per_unit, row_w: DVec4::W, row_depth: depth }
-            }
-        }
+        let (scale, row_w) = match lens {
+            PixelLens::Perspective { focal_px } => (focal_px, depth),
+            PixelLens::Orthographic { px_per_unit } => (px_per_unit, DVec4::W),
+        };
+        let uneven = Some(world_from_model.matrix3).filter(|pose| is_uneven(*pose));
+        Self { row_x: x * scale, row_y: y * scale, row_w, row_depth: depth, uneven }
+    }
+
+    /// As [`facing`], also where the body's pose scales directions differently.
+    #[inline]
+    pub fn facing(&self, jacobian: [DVec3; 2], normal_in_model: DVec3) -> f64 {
+        let Some(pose) = self.uneven else { return facing(jacobian, normal_in_model) };
+        // In world space the normal is M⁻ᵀ n, and the direction to the eye M m, m being the one in model space.
+        let towards_eye = jacobian[0].cross(jacobian[1]);
+        let lengths = (pose.inverse().transpose() * normal_in_model).length() * (pose * towards_eye).length();
+        let cosine = normal_in_model.dot(towards_eye) / lengths;
+        if cosine.is_finite() { cosine } else { 0.0 }
     }
 
     /// Where a point of model space shows, in pixels from the picture's centre; not finite on the eye's plane.
@@ -70,6 +81,14 @@ impl ScreenMap {
             (self.row_y.truncate() - self.row_w.truncate() * v) / w,
         ]
     }
+}
+
+/// Whether a linear map scales directions differently.
+fn is_uneven(pose: DMat3) -> bool {
+    let [x, y, z] = [pose.x_axis, pose.y_axis, pose.z_axis];
+    let size = x.length_squared();
+    let off = [y.length_squared() - size, z.length_squared() - size, x.dot(y), y.dot(z), z.dot(x)];
+    off.iter().any(|off| off.abs() > 1e-9 * size)
 }
 
 /// Projected area in px² per unit of surface with this unit normal, positive where the surface faces the eye:
@@ -117,11 +136,26 @@ mod tests {
     }
 
     #[test]
+    fn a_stretched_body_faces_the_eye_as_its_surface_in_the_world_does() {
+        let view = DMat4::from_translation(DVec3::new(0.0, 0.0, -5.0));
+        let lens = PixelLens::Perspective { focal_px: 700.0 };
+        let pose = DAffine3::from_scale(DVec3::new(3.0, 1.0, 0.4)) * DAffine3::from_rotation_y(0.7);
+        let (stretched, still) =
+            (ScreenMap::new(view, pose, lens), ScreenMap::new(view, DAffine3::IDENTITY, lens));
+        let (at, normal) = (DVec3::new(0.2, -0.3, 0.4), DVec3::new(0.3, 0.2, 0.9).normalize());
+        let normal_in_world = (pose.matrix3.inverse().transpose() * normal).normalize();
+        let expected = still.facing(still.jacobian(pose.transform_point3(at)), normal_in_world);
+        let found = stretched.facing(stretched.jacobian(at), normal);
+        assert!((found - expected).abs() < 1e-12 && expected > 0.1, "{found} {expected}");
+        assert!(stretched.uneven.is_some() && still.uneven.is_none());
+    }
+
+    #[test]
     fn facing_is_the_cosine_to_the_eye() {
         let map = tilted_map(PixelLens::Perspective { focal_px: 900.0 });
         let at = DVec3::new(0.4, -0.3, 0.5);
         // The eye is where numerators and denominator vanish together.
-        let eye = glam::DMat3::from_cols(map.row_x.truncate(), map.row_y.truncate(), map.row_w.truncate())
+        let eye = DMat3::from_cols(map.row_x.truncate(), map.row_y.truncate(), map.row_w.truncate())
             .transpose()
             .inverse()
             * -DVec3::new(map.row_x.w, map.row_y.w, map.row_w.w);

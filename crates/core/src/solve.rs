@@ -2,7 +2,7 @@
 
 mod cull;
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use crate::ScreenMap;
@@ -20,7 +20,8 @@ const CHUNK: usize = 8192;
 pub struct BakedParticles {
     /// Position in model space: x, y, z.
     pub position: [Vec<f32>; 3],
-    /// Unit normal in model space: x, y, z.
+    /// Unit normal in model space: x, y, z. Of particles that a bent surface has carried, its length is the area of the surface now
+    /// over that at rest.
     pub normal: [Vec<f32>; 3],
     /// First column of N': x, y, z.
     pub along: [Vec<f32>; 3],
@@ -51,6 +52,14 @@ impl BakedChunk<'_> {
             array[index] = *number as f32;
         }
     }
+
+    /// Sets a particle of the chunk: position, normal, and both columns of its lift.
+    #[inline(always)]
+    pub(crate) fn set_f32(&mut self, index: usize, vectors: [Vec3; 4]) {
+        for (array, number) in self.arrays.iter_mut().zip(vectors.map(|v| v.to_array()).as_flattened()) {
+            array[index] = *number;
+        }
+    }
 }
 
 /// The particles of [`BakedParticles`] in one view, one array per component, in the same order.
@@ -64,7 +73,7 @@ pub struct SolvedParticles {
     pub depth: Vec<f32>,
     /// Angle of the stroke, counter-clockwise from +X, radians in (−π, π].
     pub angle_rad: Vec<f32>,
-    /// Projected area in px² per unit of surface; positive where it faces the eye.
+    /// Projected area in px² per unit of surface at rest; positive where it faces the eye.
     pub area_px: Vec<f32>,
 }
 
@@ -137,7 +146,7 @@ impl BakedParticles {
         vector(&self.position, particle)
     }
 
-    /// A particle's unit normal in model space.
+    /// A particle's normal in model space, of the length that [`BakedParticles::normal`] tells.
     #[inline]
     pub fn normal_of(&self, particle: usize) -> DVec3 {
         vector(&self.normal, particle)

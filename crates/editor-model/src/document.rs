@@ -66,6 +66,7 @@ impl Document {
             scene,
             meshes: Default::default(),
             textures: Default::default(),
+            caches: Default::default(),
             brushes: Default::default(),
             warnings: Vec::new(),
         };

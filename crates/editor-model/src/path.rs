@@ -31,6 +31,7 @@ const STEP_PX: f64 = 1.0;
 const STAMP_SHARE: f64 = 0.25;
 /// Points that deviate from a path by at most this are dropped.
 const TOLERANCE_PX: f64 = 0.5;
+const BENT_TOLERANCE_PX: f64 = 0.1;
 /// If two steps are farther apart on the surface than this many pixels, it is checked whether the surface is connected
 /// there.
 const LEAP_PX: f64 = 4.0;
@@ -214,7 +215,9 @@ impl SurfacePath {
     ) -> Vec<Guide> {
         let mut guides = Vec::new();
         for piece in &self.pieces {
-            let kept = simplify::within(piece, TOLERANCE_PX / self.px_per_unit);
+            // A straight gesture on a bent body is a curve where that is at rest.
+            let tolerance_px = if seen.frame.is_some() { BENT_TOLERANCE_PX } else { TOLERANCE_PX };
+            let kept = simplify::within(piece, tolerance_px / self.px_per_unit);
             let length_px: f64 = piece.windows(2).map(|pair| pair[0].at_px.distance(pair[1].at_px)).sum();
             if kept.len() < 2 || length_px < 2.0 * STEP_PX {
                 continue;

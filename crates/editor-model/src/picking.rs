@@ -35,7 +35,7 @@ pub struct Hit {
     pub triangle: u32,
     /// Weights of the triangle's three corners, sum 1.
     pub barycentric: [f64; 3],
-    /// Where, in the object's own space.
+    /// Where, in the object's own space, as the surface has it at rest.
     pub position_in_model: DVec3,
     /// Smooth normal of the painted side, unit. Of a sheet, which is painted on both sides, that of the side that was
     /// met.
@@ -53,12 +53,8 @@ pub struct Hit {
 }
 
 impl Picker {
-    /// Takes the objects' surfaces in the order of the scene, each with its shape: how it is morphed (0 is at rest) or
-    /// moved by noise. Returns how many trees had to be built.
-    pub fn update<S>(&mut self, bodies: &[(Arc<BodySurface>, S)]) -> usize
-    where
-        S: Clone + Into<BodyShape>,
-    {
+    /// Takes the objects' surfaces in the order of the scene, each with its shape. Returns how many trees had to be built.
+    pub fn update(&mut self, bodies: &[(Arc<BodySurface>, BodyShape)]) -> usize {
         let kept = std::mem::take(&mut self.trees);
         let offered = std::mem::take(&mut self.offered);
         let mut built = 0;
@@ -66,10 +62,9 @@ impl Picker {
             .iter()
             .enumerate()
             .map(|(index, (surface, shape))| {
-                let shape = shape.clone().into();
                 // The same index is tried first. Then all are, because an added or removed object shifts the others.
                 let all = kept.get(index).into_iter().chain(&kept).chain(&offered);
-                let known = all.into_iter().find(|tree| tree.is_of(surface, &shape));
+                let known = all.into_iter().find(|tree| tree.is_of(surface, shape));
                 known.map_or_else(
                     || {
                         built += 1;
@@ -107,14 +102,14 @@ impl Picker {
             let direction = model_from_world.transform_vector3(ray.direction);
             let farthest = nearest.map_or(f64::INFINITY, |hit| hit.distance);
             if let Some((point, distance, front)) = tree.first_hit(origin, direction, farthest) {
-                let at = pose.transform_point3(point.position);
+                let at = pose.transform_point3(point.position_now);
                 nearest = Some(Hit::new(object, &point, at, distance, front));
             }
         }
         nearest
     }
 
-    /// The point of an object's surface that is nearest to `position_in_model`, at most `max_distance` (model units)
+    /// The point of an object's surface at rest that is nearest to `position_in_model`, at most `max_distance` (model units)
     /// from it. Only points whose painted side faces as `facing` does count. A sheet has two painted sides: the one
     /// that faces so is taken.
     pub fn closest_on_surface(
@@ -127,7 +122,17 @@ impl Picker {
         self.trees.get(object)?.closest(position_in_model, max_distance, facing)
     }
 
-    /// Least and greatest corner of the box round an object, in its own space; `None` without triangles.
+    /// Where a point near an object's surface at rest is now, and the direction of a normal there, in the object's own space.
+    pub fn carried(&self, object: usize, at_rest: DVec3, normal: DVec3) -> [DVec3; 2] {
+        self.trees.get(object).map_or([at_rest, normal], |tree| tree.carried(at_rest, normal))
+    }
+
+    /// Whether joints, shape keys or a point cache may bend an object.
+    pub fn bends(&self, object: usize) -> bool {
+        self.trees.get(object).is_some_and(|tree| tree.bends())
+    }
+
+    /// Least and greatest corner of the box round an object as it is now, in its own space; `None` without triangles.
     pub fn bounds_in_model(&self, object: usize) -> Option<[DVec3; 2]> {
         self.trees.get(object)?.bounds()
     }
@@ -144,7 +149,7 @@ impl Picker {
         let mut bounds: Option<[DVec3; 2]> = None;
         for triangle in 0..tree.surface().mesh.triangles.len() as u32 {
             let middle = tree.middle(triangle);
-            let hit = Hit::new(object, &middle, middle.position, 0.0, true);
+            let hit = Hit::new(object, &middle, middle.position_now, 0.0, true);
             if within(&hit) {
                 for corner in tree.corners(triangle) {
                     let [low, high] = bounds.unwrap_or([corner, corner]);

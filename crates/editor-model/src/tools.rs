@@ -6,6 +6,7 @@
 //! ```
 
 use glam::{DAffine3, DVec2, DVec3};
+use impasto_core::bending::CarriedPlace;
 use impasto_scene::document::{Object, Scene};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion;
@@ -45,6 +46,8 @@ pub struct Surroundings<'a> {
     pub view: &'a View,
     /// The objects' `world_from_model` at the frame that is shown.
     pub poses: &'a [DAffine3],
+    /// That frame.
+    pub frame: f64,
     /// The objects' surfaces.
     pub picker: &'a Picker,
     /// Settings of the tools.
@@ -62,6 +65,9 @@ pub trait Painted {
 
     /// How strokes show at a hit now.
     fn shown_at(&self, hit: &Hit) -> Option<PaintedDirection>;
+
+    /// Where a hit is at a frame; `None` where its object is at rest then.
+    fn carried(&self, hit: &Hit, frame: f64) -> Option<CarriedPlace>;
 }
 
 /// How strokes show at a point of a surface.
@@ -197,7 +203,9 @@ impl<'a> Surroundings<'a> {
     /// The current view and the view of a region's reference, both relative to an object.
     pub(crate) fn views(&self, object: usize, region: Option<usize>) -> [ObjectView; 2] {
         let (camera, pose) = self.reference(object, region);
-        [ObjectView::new(&self.view.camera, self.pose(object)), ObjectView::new(&camera, pose)]
+        let frame = |frame: f64| self.picker.bends(object).then_some(frame);
+        let now = ObjectView::new(&self.view.camera, self.pose(object)).at_frame(frame(self.frame));
+        [now, ObjectView::new(&camera, pose).at_frame(frame(self.reference_frame(region)))]
     }
 
     /// The camera of a region's reference, and an object's pose there.
@@ -209,13 +217,21 @@ impl<'a> Surroundings<'a> {
         (camera, pose.unwrap_or(DAffine3::IDENTITY))
     }
 
+    /// The frame of a region's reference.
+    pub(crate) fn reference_frame(&self, region: Option<usize>) -> f64 {
+        let scene = self.scene();
+        let own = region.and_then(|region| scene.regions.get(region)?.reference.as_ref());
+        motion::referred_to(scene, own.unwrap_or(&scene.reference)).1
+    }
+
     pub(crate) fn pose(&self, object: usize) -> DAffine3 {
         self.poses.get(object).copied().unwrap_or(DAffine3::IDENTITY)
     }
 
-    /// Takes a point of an object's own space into the world.
+    /// Takes a point of an object's own space, near its surface at rest, to where it is now in the world.
     pub(crate) fn world(&self, object: usize, position: DVec3) -> DVec3 {
-        self.pose(object).transform_point3(position)
+        let [now, _] = self.picker.carried(object, position, DVec3::Y);
+        self.pose(object).transform_point3(now)
     }
 
     /// The selected region, or that of the selected guide.

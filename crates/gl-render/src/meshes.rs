@@ -1,13 +1,14 @@
-//! Surfaces on the GPU: each is uploaded once and stays until no frame uses it any more.
+//! Surfaces on the GPU: each is uploaded once and stays until no frame uses it any more. The vertices of a body that is not at rest are
+//! uploaded for each frame; every pass draws from them.
 
 use std::cell::RefCell;
-use std::rc::Rc;
+use std::rc::{Rc, Weak as RcWeak};
 use std::sync::{Arc, Weak};
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec4};
 use impasto_core::shells::Side;
-use impasto_painting::frame::{BodySurface, FrameBody};
+use impasto_painting::frame::{Bent, BodySurface, FrameBody, Vertices as BodyVertices};
 
 use crate::gl::{Attribute, Buffer, BufferUse, Format, GlError, Gpu, Texture, VertexArray, Vertices};
 
@@ -15,16 +16,21 @@ use crate::gl::{Attribute, Buffer, BufferUse, Format, GlError, Gpu, Texture, Ver
 pub(crate) struct DrawnBody<'a> {
     pub(crate) body: &'a FrameBody,
     pub(crate) mesh: Rc<MeshOnGpu>,
+    /// Its vertices in this frame.
+    pub(crate) array: Rc<VertexArray>,
 }
 
 /// One uploaded surface.
 pub(crate) struct MeshOnGpu {
-    pub(crate) array: VertexArray,
+    /// The vertices at rest.
+    array: Rc<VertexArray>,
     pub(crate) parts: Vec<Part>,
+    /// At rest.
     vertices: Buffer,
+    uvs: Buffer,
     /// What each vertex takes away of each channel, linear; `None` where the mesh has no colours of its own.
     shades: Option<Buffer>,
-    _indices: Buffer,
+    indices: Buffer,
     /// Created when the first draft is drawn.
     front: RefCell<Option<FrontFaces>>,
     /// Lowest and highest corner of the bounding box, model space.
@@ -61,7 +67,17 @@ impl Part {
 /// All surfaces on the GPU.
 pub(crate) struct MeshCache {
     entries: Vec<(Weak<BodySurface>, Rc<MeshOnGpu>)>,
+    bent: Vec<BentOnGpu>,
     white: Rc<Texture>,
+}
+
+/// The vertices of a body that is not at rest.
+struct BentOnGpu {
+    mesh: RcWeak<MeshOnGpu>,
+    /// What the buffer holds.
+    bent: Weak<Bent>,
+    vertices: Buffer,
+    array: Rc<VertexArray>,
 }
 
 #[repr(C)]
@@ -69,10 +85,6 @@ pub(crate) struct MeshCache {
 struct Vertex {
     position: [f32; 3],
     normal: [f32; 3],
-    uv: [f32; 2],
-    /// Where the morph takes the vertex; without a morph, its own position and normal.
-    target_position: [f32; 3],
-    target_normal: [f32; 3],
 }
 
 impl MeshOnGpu {
@@ -117,8 +129,7 @@ impl MeshOnGpu {
             Some(faces) => faces,
             None => {
                 let indices = Buffer::new(gpu, BufferUse::Streamed)?;
-                let array =
-                    VertexArray::new(gpu, &inputs(&self.vertices, self.shades.as_ref()), Some(&indices))?;
+                let array = VertexArray::new(gpu, &self.inputs(&self.vertices), Some(&indices))?;
                 FrontFaces { array: Rc::new(array), indices }
             }
         };
@@ -128,36 +139,117 @@ impl MeshOnGpu {
     }
 }
 
-/// The fields of [`Vertex`] as shader inputs, and the shades. Where there are none, the shader reads zeros.
-fn inputs<'a>(vertices: &'a Buffer, shades: Option<&'a Buffer>) -> Vec<Attribute<'a>> {
-    let of = |location: usize,
-              buffer: &'a Buffer,
-              components: i32,
-              [stride_bytes, offset_bytes]: [i32; 2]| Attribute {
-        location: location as u32,
+impl MeshOnGpu {
+    /// The shader inputs of the mesh, with these vertices. Where there are no shades, the shader reads zeros.
+    fn inputs<'a>(&'a self, vertices: &'a Buffer) -> Vec<Attribute<'a>> {
+        let mut inputs = vec![
+            attribute(0, vertices, 3, [24, 0]),
+            attribute(1, vertices, 3, [24, 12]),
+            attribute(2, &self.uvs, 2, [8, 0]),
+        ];
+        inputs.extend(self.shades.as_ref().map(|shades| attribute(3, shades, 3, [12, 0])));
+        inputs
+    }
+}
+
+impl BentOnGpu {
+    fn is_of(&self, bent: &Arc<Bent>) -> bool {
+        std::ptr::eq(self.bent.as_ptr(), Arc::as_ptr(bent))
+    }
+}
+
+fn attribute(
+    location: u32,
+    buffer: &Buffer,
+    components: i32,
+    [stride_bytes, offset_bytes]: [i32; 2],
+) -> Attribute<'_> {
+    Attribute {
+        location,
         buffer,
         components,
         integer: false,
         stride_bytes,
         offset_bytes,
         per_instance: false,
+    }
+}
+
+fn interleaved(positions: &[Vec3], normals: &[Vec3]) -> Vec<Vertex> {
+    let vertex = |(position, normal): (&Vec3, &Vec3)| Vertex {
+        position: position.to_array(),
+        normal: normal.to_array(),
     };
-    let fields = [(3, 0), (3, 12), (2, 24), (3, 32), (3, 44)];
-    let stride_bytes = size_of::<Vertex>() as i32;
-    let of_vertex = fields.into_iter().enumerate().map(|(location, (components, offset_bytes))| {
-        of(location, vertices, components, [stride_bytes, offset_bytes])
-    });
-    of_vertex.chain(shades.map(|shades| of(fields.len(), shades, 3, [12, 0]))).collect()
+    positions.iter().zip(normals).map(vertex).collect()
 }
 
 impl MeshCache {
     pub(crate) fn new(gpu: &Gpu) -> Result<Self, GlError> {
         let white = Texture::with_driver_levels(gpu, Format::SrgbAlpha8, [1, 1], &[255; 4])?;
-        Ok(Self { entries: Vec::new(), white: Rc::new(white) })
+        Ok(Self { entries: Vec::new(), bent: Vec::new(), white: Rc::new(white) })
+    }
+
+    /// A body with its surface on the GPU.
+    pub(crate) fn drawn<'a>(&mut self, gpu: &Gpu, body: &'a FrameBody) -> Result<DrawnBody<'a>, GlError> {
+        let mesh = self.get(gpu, &body.surface)?;
+        let array = match body.bent.as_ref().filter(|_| !body.hidden) {
+            Some(bent) => Rc::clone(&self.bent(gpu, &mesh, bent)?.array),
+            None => Rc::clone(&mesh.array),
+        };
+        Ok(DrawnBody { body, mesh, array })
+    }
+
+    /// A vertex array that has a body of `now` also as it stands `then`.
+    pub(crate) fn with_then(
+        &mut self,
+        gpu: &Gpu,
+        now: &FrameBody,
+        then: &FrameBody,
+    ) -> Result<VertexArray, GlError> {
+        let mesh = self.get(gpu, &now.surface)?;
+        // Held, so that the second upload does not take the buffer of the first.
+        let mut held = Vec::new();
+        for bent in now.bent.iter().chain(&then.bent) {
+            held.push(Rc::clone(&self.bent(gpu, &mesh, bent)?.array));
+        }
+        let vertices = |body: &FrameBody| {
+            let known = body.bent.as_ref().and_then(|bent| self.bent.iter().find(|known| known.is_of(bent)));
+            known.map_or(&mesh.vertices, |known| &known.vertices)
+        };
+        let mut inputs = mesh.inputs(vertices(now));
+        inputs.push(attribute(4, vertices(then), 3, [24, 0]));
+        VertexArray::new(gpu, &inputs, Some(&mesh.indices))
+    }
+
+    /// The vertices of a body that is not at rest. Uploads them into a buffer that no body is drawn from any more.
+    fn bent(&mut self, gpu: &Gpu, mesh: &Rc<MeshOnGpu>, bent: &Arc<Bent>) -> Result<&BentOnGpu, GlError> {
+        if let Some(known) = self.bent.iter().position(|known| known.is_of(bent)) {
+            return Ok(&self.bent[known]);
+        }
+        self.bent.retain(|known| known.mesh.strong_count() > 0);
+        let is_free = |known: &BentOnGpu| {
+            std::ptr::eq(known.mesh.as_ptr(), Rc::as_ptr(mesh)) && Rc::strong_count(&known.array) == 1
+        };
+        let index = match self.bent.iter().position(is_free) {
+            Some(index) => index,
+            None => {
+                let vertices = Buffer::new(gpu, BufferUse::Streamed)?;
+                let array = Rc::new(VertexArray::new(gpu, &mesh.inputs(&vertices), Some(&mesh.indices))?);
+                self.bent.push(BentOnGpu { mesh: Rc::downgrade(mesh), bent: Weak::new(), vertices, array });
+                self.bent.len() - 1
+            }
+        };
+        let entry = &mut self.bent[index];
+        // Empty meanwhile, so that what was not uploaded whole is not taken for it.
+        entry.bent = Weak::new();
+        let BodyVertices { positions, normals } = &bent.vertices;
+        entry.vertices.upload(bytemuck::cast_slice(&interleaved(positions, normals)))?;
+        entry.bent = Arc::downgrade(bent);
+        Ok(entry)
     }
 
     /// The surface on the GPU. Uploads it the first time, and frees surfaces that no frame uses any more.
-    pub(crate) fn get(&mut self, gpu: &Gpu, surface: &Arc<BodySurface>) -> Result<Rc<MeshOnGpu>, GlError> {
+    fn get(&mut self, gpu: &Gpu, surface: &Arc<BodySurface>) -> Result<Rc<MeshOnGpu>, GlError> {
         let here = |weak: &Weak<BodySurface>| std::ptr::eq(weak.as_ptr(), Arc::as_ptr(surface));
         if let Some((_, mesh)) = self.entries.iter().find(|(weak, _)| here(weak)) {
             return Ok(Rc::clone(mesh));
@@ -170,20 +262,10 @@ impl MeshCache {
 
     fn upload(&self, gpu: &Gpu, surface: &BodySurface) -> Result<MeshOnGpu, GlError> {
         let mesh = &surface.mesh;
-        let (target_positions, target_normals) = match &surface.morph {
-            Some(target) => (&target.positions, &target.normals),
-            None => (&mesh.positions, &mesh.normals),
-        };
-        let vertices: Vec<Vertex> = (0..mesh.positions.len())
-            .map(|index| Vertex {
-                position: mesh.positions[index].to_array(),
-                normal: mesh.normals[index].to_array(),
-                // A mesh without texture coordinates gets X and Y instead. In such a mesh only noise reads them.
-                uv: mesh.uvs.get(index).copied().unwrap_or(mesh.positions[index].truncate()).to_array(),
-                target_position: target_positions[index].to_array(),
-                target_normal: target_normals[index].to_array(),
-            })
-            .collect();
+        let vertices = interleaved(&mesh.positions, &mesh.normals);
+        // A mesh without texture coordinates gets X and Y instead. In such a mesh only noise reads them.
+        let uv_of = |index: usize| mesh.uvs.get(index).copied().unwrap_or(mesh.positions[index].truncate());
+        let uvs: Vec<[f32; 2]> = (0..mesh.positions.len()).map(|index| uv_of(index).to_array()).collect();
         let material_of =
             |triangle: usize| mesh.material_of_triangle.get(triangle).map_or(0, |&m| m as usize);
         let mut by_material: Vec<usize> = (0..mesh.triangles.len()).collect();
@@ -203,6 +285,8 @@ impl MeshCache {
         }
         let mut vertex_buffer = Buffer::new(gpu, BufferUse::Fixed)?;
         vertex_buffer.upload(bytemuck::cast_slice(&vertices))?;
+        let mut uv_buffer = Buffer::new(gpu, BufferUse::Fixed)?;
+        uv_buffer.upload(bytemuck::cast_slice(&uvs))?;
         let mut index_buffer = Buffer::new(gpu, BufferUse::Fixed)?;
         index_buffer.upload(bytemuck::cast_slice(&indices))?;
         let shades: Vec<[f32; 3]> = mesh.colors.iter().map(|color| (Vec3::ONE - *color).to_array()).collect();
@@ -214,17 +298,19 @@ impl MeshCache {
                 Some(buffer)
             }
         };
-        let array = VertexArray::new(gpu, &inputs(&vertex_buffer, shades.as_ref()), Some(&index_buffer))?;
-        let front = RefCell::new(None);
-        Ok(MeshOnGpu {
-            array,
+        let mut on_gpu = MeshOnGpu {
+            array: Rc::new(VertexArray::empty(gpu)?),
             parts,
             vertices: vertex_buffer,
+            uvs: uv_buffer,
             shades,
-            _indices: index_buffer,
-            front,
+            indices: index_buffer,
+            front: RefCell::new(None),
             bounds: mesh.bounds(),
-        })
+        };
+        let array = VertexArray::new(gpu, &on_gpu.inputs(&on_gpu.vertices), Some(&on_gpu.indices))?;
+        on_gpu.array = Rc::new(array);
+        Ok(on_gpu)
     }
 
     fn texture(&self, gpu: &Gpu, surface: &BodySurface, material: usize) -> Result<Rc<Texture>, GlError> {

@@ -3,10 +3,10 @@
 
 use std::rc::Rc;
 
-use glam::{UVec2, Vec4};
+use glam::UVec2;
 use impasto_painting::Frame;
 
-use crate::body_program::{BodyProgram, lookup_rows};
+use crate::body_program::BodyProgram;
 use crate::gl::{DrawState, Filter, Format, Framebuffer, GlError, Gpu, ProgramSource, Texture};
 use crate::meshes::DrawnBody;
 use crate::reference::ReferencePass;
@@ -66,32 +66,27 @@ impl MotionPass {
             }
         };
         let bodies = reference.bodies(now)?;
-        let tiles = reference.tiles(now)?;
         self.program.prepare(now)?;
         let state = DrawState { depth_test: true, clear: Some([0.0; 4]), ..DrawState::default() };
         self.gpu.begin_pass(&target, state);
-        for (index, DrawnBody { body, mesh }) in bodies.iter().enumerate() {
+        for (index, DrawnBody { body, mesh, .. }) in bodies.iter().enumerate() {
             if body.hidden {
                 continue;
             }
             let body_then = then.bodies.get(index).unwrap_or(body);
-            let noise_then = body_then.noise.as_ref().or(body.noise.as_ref());
-            let [u, v] = noise_then.map_or([Vec4::ZERO; 2], |noise| lookup_rows(&noise.lookup));
+            let array = reference.with_then(body, body_then)?;
             for part in &mesh.parts {
                 let bound = self
                     .program
-                    .bind(body, part, tiles)
+                    .bind(body, part)
                     .set("world_from_model_then", body_then.world_from_model)
-                    .set("morph_then", body_then.morph)
-                    .set("lookup_u_then", u)
-                    .set("lookup_v_then", v)
                     .set("view_from_world", now.view.view_from_world)
                     .set("view_from_world_then", then.view.view_from_world)
                     .set("clip_from_view", now.view.clip_from_view)
                     .set("clip_from_view_then", then.view.clip_from_view)
                     .set("size_px", UVec2::from(now.size_px).as_vec2())
                     .set("body_id", (index + 1) as f32);
-                self.gpu.draw(bound, &mesh.array, part.vertices())?;
+                self.gpu.draw(bound, &array, part.vertices())?;
             }
         }
         let values = target.read_floats(0);
@@ -120,13 +115,11 @@ fn motion_pixels(size_px: [u32; 2], values: &[f32]) -> MotionPixels {
 }
 
 const MOTION: ProgramSource<'static> = ProgramSource {
-    optional: &["lookup_u_then", "lookup_v_then"],
     ..ProgramSource::new(
         "reference/motion.vert",
         Some("reference/motion.frag"),
         &[&[
             "world_from_model_then",
-            "morph_then",
             "view_from_world",
             "view_from_world_then",
             "clip_from_view",

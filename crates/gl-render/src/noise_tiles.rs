@@ -1,4 +1,4 @@
-//! Tiles of noise on the GPU: each is uploaded once and stays until no frame uses it any more.
+//! Tiles of noise that colour bodies, on the GPU: each is uploaded once and stays until no frame uses it any more.
 
 use std::rc::Rc;
 use std::sync::{Arc, Weak};
@@ -23,10 +23,8 @@ impl NoiseTiles {
     pub(crate) fn prepare(&mut self, frame: &Frame) -> Result<(), GlError> {
         let noises = frame.bodies.iter().filter(|body| !body.hidden).filter_map(|body| body.noise.as_ref());
         for noise in noises {
-            let of_vertices = noise.noise.vertex.as_ref().map(|vertex| &vertex.tile);
-            let of_layers = noise.noise.layers.as_ref().map(|layers| &layers.tile);
-            for tile in of_vertices.into_iter().chain(of_layers) {
-                self.upload(tile)?;
+            if let Some(layers) = &noise.noise.layers {
+                self.upload(&layers.tile)?;
             }
         }
         Ok(())

@@ -4,7 +4,7 @@ use glam::{Vec3, Vec4};
 use impasto_painting::frame::{FrameBody, FrameView};
 use impasto_painting::{Frame, Quality};
 
-use crate::body_program::{BodyProgram, is_displaced};
+use crate::body_program::BodyProgram;
 use crate::gl::{DrawState, GlError, Gpu, Halt, Program, ProgramSource, VertexArray, Vertices};
 use crate::lens::{LENS_UNIFORMS, LensSetup, VIEW_LENS_UNIFORMS};
 use crate::lighting::{LIGHT_UNIFORMS, LightSetup};
@@ -61,7 +61,7 @@ impl ReferencePass {
         self.shadow.program().prepare(frame)?;
         self.surface.prepare(frame)?;
         if let Some(shadow_from_world) = lights.shadow_from_world() {
-            self.shadow.draw(&bodies, &self.tiles, shadow_from_world)?;
+            self.shadow.draw(&bodies, shadow_from_world)?;
         }
         watch.passed("shadow")?;
         self.draw_surfaces(frame, &bodies, targets)?;
@@ -116,19 +116,13 @@ impl ReferencePass {
     /// The bodies of a frame with their surfaces on the GPU.
     pub(crate) fn bodies<'a>(&mut self, frame: &'a Frame) -> Result<Vec<DrawnBody<'a>>, GlError> {
         let gpu = self.gpu.clone();
-        let drawn = |body: &'a FrameBody| Ok(DrawnBody { body, mesh: self.meshes.get(&gpu, &body.surface)? });
-        frame.bodies.iter().map(drawn).collect()
+        frame.bodies.iter().map(|body| self.meshes.drawn(&gpu, body)).collect()
     }
 
-    /// The noise of a frame's bodies on the GPU.
-    pub(crate) fn tiles(&mut self, frame: &Frame) -> Result<&NoiseTiles, GlError> {
-        self.tiles.prepare(frame)?;
-        Ok(&self.tiles)
-    }
-
-    /// The noise of the bodies that were drawn last.
-    pub(crate) fn drawn_tiles(&self) -> &NoiseTiles {
-        &self.tiles
+    /// A vertex array that has a body of `now` also as it stands `then`.
+    pub(crate) fn with_then(&mut self, now: &FrameBody, then: &FrameBody) -> Result<VertexArray, GlError> {
+        let gpu = self.gpu.clone();
+        self.meshes.with_then(&gpu, now, then)
     }
 
     fn draw_surfaces(
@@ -142,14 +136,14 @@ impl ReferencePass {
         let view = &frame.view;
         let eye = eye_in_world(view);
         let is_drawn_here = |body: &FrameBody| !body.hidden && !noise_displace::is_coloured(body);
-        for (index, DrawnBody { body, mesh }) in bodies.iter().enumerate() {
+        for (index, DrawnBody { body, mesh, array }) in bodies.iter().enumerate() {
             if !is_drawn_here(body) {
                 continue;
             }
             // A draft draws only the triangles that face the eye, which are found on the mesh as it is stored. That
-            // would be wrong for an eye inside the body, and where morph or noise has moved the surface.
+            // would be wrong for an eye inside the body, and where the body is not at rest.
             let front = match frame.quality {
-                Quality::Draft if body.morph == 0.0 && !is_displaced(body) => {
+                Quality::Draft if body.bent.is_none() => {
                     let eye = body.world_from_model.inverse() * eye;
                     let is_outside = mesh.is_outside(eye);
                     is_outside.then(|| mesh.front(&self.gpu, &body.surface, eye)).transpose()?
@@ -162,7 +156,7 @@ impl ReferencePass {
                 let is_lit = material.is_none_or(|material| !material.unlit);
                 let bound = self
                     .surface
-                    .bind(body, part, &self.tiles)
+                    .bind(body, part)
                     .set("view_from_world", view.view_from_world)
                     .set("clip_from_view", view.clip_from_view)
                     .set("albedo", Vec3::from(albedo))
@@ -176,7 +170,7 @@ impl ReferencePass {
                         let [first, count] = ranges[number];
                         (&**array, Vertices::Indexed { first, count })
                     }
-                    None => (&mesh.array, part.vertices()),
+                    None => (&**array, part.vertices()),
                 };
                 self.gpu.draw(bound, array, vertices)?;
             }

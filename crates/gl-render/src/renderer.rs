@@ -304,8 +304,7 @@ impl Renderer {
             Entry::Occupied(entry) => entry.into_mut(),
             Entry::Vacant(entry) => entry.insert(styles::open(gpu, &frame.style)?),
         };
-        let tiles = self.reference.drawn_tiles();
-        style.draw(&StyleInput { frame, reference, lights, bodies: &bodies, tiles }, output, watch)?;
+        style.draw(&StyleInput { frame, reference, lights, bodies: &bodies }, output, watch)?;
         self.last_view = Some(frame.view);
         Ok(self.read_output(&frame.view)?)
     }

@@ -40,7 +40,6 @@ pub(crate) const SHARED: &[ShaderFile] = shader_files![
     "shared/stroke_shape.glsl",
     "shared/body.glsl",
     "shared/cutout.glsl",
-    "noise_displace/displace.glsl",
 ];
 
 /// Bodies that noise colours.

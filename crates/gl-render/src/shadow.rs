@@ -4,14 +4,12 @@ use std::rc::Rc;
 use std::sync::{Arc, Weak};
 
 use glam::{Mat4, Vec3, Vec4};
-use impasto_painting::FrameNoise;
-use impasto_painting::frame::{BodySurface, FrameBody};
+use impasto_painting::frame::{Bent, BodySurface, FrameBody};
 
 use crate::body_program::BodyProgram;
 use crate::gl::{DrawState, Filter, Format, Framebuffer, GlError, Gpu, ProgramSource, Texture};
 use crate::materials::noise_displace;
 use crate::meshes::DrawnBody;
-use crate::noise_tiles::NoiseTiles;
 use crate::shader_files::{REFERENCE, SHARED};
 
 /// Side of the shadow map in texels.
@@ -29,8 +27,8 @@ pub(crate) struct ShadowMap {
 
 /// What a shadow map is drawn from.
 struct Casters {
-    /// Surface, pose and shape of every body. The weak pointer keeps a surface's address from being used again.
-    bodies: Vec<(Weak<BodySurface>, Mat4, f32, Option<FrameNoise>)>,
+    /// Surface, pose and shape of every body. The weak pointers keep addresses from being used again.
+    bodies: Vec<(Weak<BodySurface>, Mat4, Option<Weak<Bent>>)>,
     shadow_from_world: Mat4,
 }
 
@@ -41,7 +39,8 @@ impl Casters {
             .map(|drawn| drawn.body)
             .filter(|body| casts_shadow(body))
             .map(|body| {
-                (Arc::downgrade(&body.surface), body.world_from_model, body.morph, body.noise.clone())
+                let bent = body.bent.as_ref().map(Arc::downgrade);
+                (Arc::downgrade(&body.surface), body.world_from_model, bent)
             })
             .collect();
         Self { bodies, shadow_from_world }
@@ -50,13 +49,17 @@ impl Casters {
 
 impl PartialEq for Casters {
     fn eq(&self, other: &Self) -> bool {
+        let same = |a: Option<&Weak<Bent>>, b: Option<&Weak<Bent>>| match (a, b) {
+            (Some(a), Some(b)) => a.ptr_eq(b),
+            (a, b) => a.is_none() && b.is_none(),
+        };
         self.shadow_from_world == other.shadow_from_world
             && self.bodies.len() == other.bodies.len()
             && self
                 .bodies
                 .iter()
                 .zip(&other.bodies)
-                .all(|(a, b)| a.0.ptr_eq(&b.0) && (a.1, a.2, &a.3) == (b.1, b.2, &b.3))
+                .all(|(a, b)| a.0.ptr_eq(&b.0) && a.1 == b.1 && same(a.2.as_ref(), b.2.as_ref()))
     }
 }
 
@@ -85,12 +88,7 @@ impl ShadowMap {
     }
 
     /// Draws the map, unless it shows these bodies already.
-    pub(crate) fn draw(
-        &mut self,
-        bodies: &[DrawnBody<'_>],
-        tiles: &NoiseTiles,
-        shadow_from_world: Mat4,
-    ) -> Result<(), GlError> {
+    pub(crate) fn draw(&mut self, bodies: &[DrawnBody<'_>], shadow_from_world: Mat4) -> Result<(), GlError> {
         let casters = Casters::new(bodies, shadow_from_world);
         // `drawn` is empty meanwhile, so that a map whose drawing failed is not taken for a complete one.
         let before = self.drawn.take();
@@ -100,10 +98,10 @@ impl ShadowMap {
         }
         let state = DrawState { depth_test: true, casts_shadow: true, ..DrawState::default() };
         self.gpu.begin_pass(&self.pass, state);
-        for DrawnBody { body, mesh } in bodies.iter().filter(|drawn| casts_shadow(drawn.body)) {
+        for DrawnBody { body, mesh, array } in bodies.iter().filter(|drawn| casts_shadow(drawn.body)) {
             for part in mesh.parts.iter().filter(|part| part.casts_shadow) {
-                let bound = self.program.bind(body, part, tiles).set("shadow_from_world", shadow_from_world);
-                self.gpu.draw(bound, &mesh.array, part.vertices())?;
+                let bound = self.program.bind(body, part).set("shadow_from_world", shadow_from_world);
+                self.gpu.draw(bound, array, part.vertices())?;
             }
         }
         self.drawn = Some(casters);

@@ -5,7 +5,6 @@ use impasto_painting::Frame;
 use crate::gl::{Framebuffer, GlError, Halt};
 use crate::lighting::LightSetup;
 use crate::meshes::DrawnBody;
-use crate::noise_tiles::NoiseTiles;
 use crate::reference_targets::ReferenceTargets;
 use crate::watch::Watch;
 
@@ -16,8 +15,6 @@ pub(crate) struct StyleInput<'a> {
     pub(crate) lights: &'a LightSetup,
     /// The bodies of the frame, in its order.
     pub(crate) bodies: &'a [DrawnBody<'a>],
-    /// The textures of the bodies' noise.
-    pub(crate) tiles: &'a NoiseTiles,
 }
 
 /// Draws frames in one style.

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
 use impasto_core::angle::wrap_half_pi;
+use impasto_core::bending::Vertices;
 use impasto_core::direction::singularities::Singularity;
 use impasto_painting::Painting;
 use impasto_painting::frame::LayerKind;
@@ -47,6 +48,7 @@ pub fn revealed(painting: &Painting, strokes: &StrokesByKey, size_px: [u32; 2]) 
     let (camera, frame) = motion::referred_to(painting.scene(), &painting.scene().reference);
     let reference = TrueView::new(&camera, size_px);
     let poses = motion::poses_at(painting.scene(), frame);
+    let bent = painting.bent_at(frame);
     let poles: Vec<Vec<bool>> = (0..poses.len()).map(|object| painting.poles(object)).collect();
     let mut groups: BTreeMap<(u32, u32), Vec<Visible>> = BTreeMap::new();
     for (key, stroke) in of_layer(strokes, LayerKind::Body) {
@@ -54,6 +56,13 @@ pub fn revealed(painting: &Painting, strokes: &StrokesByKey, size_px: [u32; 2]) 
         let particle = painting.particles(object).get(key.particle as usize);
         let Some(particle) = particle.filter(|_| stroke.facing > FACED && stroke.alpha > DRAWN) else {
             continue;
+        };
+        let particle = match &bent[object] {
+            Some(bent) => {
+                let Vertices { positions, normals } = &bent.vertices;
+                particle.on(&painting.surface(object).mesh, positions, normals)
+            }
+            None => particle,
         };
         let point =
             SurfacePoint { position: particle.position.as_dvec3(), normal: particle.normal.as_dvec3() };

@@ -55,7 +55,7 @@ fn mesh() -> MeshFile {
         ..TriangleMesh::default()
     };
     let material = Material::plain("sheet".to_owned(), [0.5; 3]);
-    MeshFile { mesh, groups: vec!["sheet".to_owned()], materials: vec![material] }
+    MeshFile::still(mesh, vec!["sheet".to_owned()], vec![material])
 }
 
 /// A camera that sees the sheet tilted by this angle.

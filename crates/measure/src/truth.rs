@@ -2,9 +2,10 @@
 //! by finite differences. Its camera matrix is written out here, so that it shares no function with the code that
 //! paints.
 
-use glam::{DAffine3, DMat3, DVec2, DVec3, DVec4, Vec3};
+use glam::{DAffine3, DMat3, DVec2, DVec3, DVec4};
+use impasto_core::TriangleMesh;
+use impasto_core::bending::Vertices;
 use impasto_core::sampling::Particle;
-use impasto_painting::frame::BodySurface;
 use impasto_scene::document::Lens;
 use impasto_scene::motion::CameraPose;
 
@@ -97,26 +98,17 @@ impl PointMotion {
         Self { before: point, after: point, carry: DMat3::IDENTITY }
     }
 
-    /// The motion of a particle on a morphing surface. `shares` say how far the surface is morphed in the reference
-    /// pose and in the current one. F follows from the edges of the particle's triangle and its normal.
-    pub fn of(surface: &BodySurface, particle: &Particle, shares: [f64; 2]) -> Self {
-        let mesh = &surface.mesh;
+    /// The motion of a particle on a surface that bends, between two shapes of it. F follows from the edges of the particle's triangle
+    /// and its normal.
+    pub fn of(mesh: &TriangleMesh, particle: &Particle, shapes: [&Vertices; 2]) -> Self {
         let corners = mesh.triangles[particle.triangle as usize].map(|vertex| vertex as usize);
         let weights = {
             let [v, w] = particle.barycentric.map(f64::from);
             [1.0 - v - w, v, w]
         };
-        let at = |share: f64| {
-            let mix = |base: Vec3, target: Option<Vec3>| {
-                let base = base.as_dvec3();
-                target.map_or(base, |target| base + (target.as_dvec3() - base) * share)
-            };
-            let target = surface.morph.as_ref();
-            let places = corners
-                .map(|vertex| mix(mesh.positions[vertex], target.map(|target| target.positions[vertex])));
-            let normals = corners.map(|vertex| {
-                mix(mesh.normals[vertex], target.map(|target| target.normals[vertex])).normalize_or_zero()
-            });
+        let at = |shape: &Vertices| {
+            let places = corners.map(|vertex| shape.positions[vertex].as_dvec3());
+            let normals = corners.map(|vertex| shape.normals[vertex].as_dvec3());
             let blend = |values: [DVec3; 3]| (0..3).map(|i| values[i] * weights[i]).sum::<DVec3>();
             let side = if particle.flipped { -1.0 } else { 1.0 };
             let across = (places[1] - places[0]).cross(places[2] - places[0]) * side;
@@ -125,8 +117,8 @@ impl PointMotion {
             let frame = DMat3::from_cols(places[1] - places[0], places[2] - places[0], normal);
             (SurfacePoint { position: blend(places), normal }, frame)
         };
-        let ((before, from), (after, to)) = (at(shares[0]), at(shares[1]));
-        let carry = if shares[0] == shares[1] { DMat3::IDENTITY } else { to * from.inverse() };
+        let ((before, from), (after, to)) = (at(shapes[0]), at(shapes[1]));
+        let carry = if from == to { DMat3::IDENTITY } else { to * from.inverse() };
         Self { before, after, carry }
     }
 }
@@ -144,7 +136,7 @@ impl BodyView<'_> {
     /// Position and unit normal in world space.
     fn in_world(&self, point: SurfacePoint) -> (DVec3, DVec3) {
         let at = self.world_from_model.transform_point3(point.position);
-        (at, self.world_from_model.transform_vector3(point.normal).normalize_or_zero())
+        (at, (self.world_from_model.matrix3.inverse().transpose() * point.normal).normalize_or_zero())
     }
 
     /// Cosine between the point's normal and the direction to the eye; 0 behind the eye.

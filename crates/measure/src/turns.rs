@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use impasto_core::bending::Vertices;
 use impasto_painting::frame::LayerKind;
 use impasto_painting::{FrameOptions, Painting};
 use impasto_scene::motion::{self, CameraPose};
@@ -71,7 +72,12 @@ impl Reference {
         let views = [TrueView::new(&self.camera, size_px), TrueView::new(camera, size_px)];
         let scene = painting.scene();
         let poses = [self.frame, frame].map(|frame| motion::poses_at(scene, frame));
-        let morphs = [self.frame, frame].map(|frame| motion::morphs_at(scene, frame));
+        let shapes = [self.frame, frame].map(|frame| painting.shapes_at(frame));
+        let bodies: Vec<[Vertices; 2]> = (0..scene.objects.len())
+            .map(|object| {
+                [0, 1].map(|side: usize| painting.surface(object).vertices_at(&shapes[side][object]))
+            })
+            .collect();
         // A region with its own reference states its directions in another picture.
         let is_of_scene =
             |region: u32| scene.regions.get(region as usize).is_none_or(|region| region.reference.is_none());
@@ -79,8 +85,8 @@ impl Reference {
             let base = self.strokes.get(key)?;
             let object = key.body_id as usize - 1;
             let particle = painting.particles(object).get(key.particle as usize)?;
-            let shares = [0, 1].map(|side: usize| morphs[side][object]);
-            let point_motion = PointMotion::of(painting.surface(object), &particle, shares);
+            let point_motion =
+                PointMotion::of(&painting.surface(object).mesh, &particle, bodies[object].each_ref());
             let [then, now] = [0, 1]
                 .map(|side: usize| BodyView { view: &views[side], world_from_model: poses[side][object] });
             if then.facing(point_motion.before) < FACED || !is_of_scene(base.region) {

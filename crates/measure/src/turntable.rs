@@ -1,6 +1,7 @@
 //! Replaces a scene's shot by a whole turn of the camera.
 
-use impasto_scene::document::{CameraKey, Ease, ObjectKey, Reference};
+use impasto_scene::document::{CameraKey, Ease, ObjectKey, Reference, Scale};
+use impasto_scene::limits;
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion;
 
@@ -28,14 +29,17 @@ pub fn turntable(loaded: &LoadedScene) -> LoadedScene {
             ease: Ease::default(),
         })
         .collect();
-    for (object, (pose, morph)) in scene.objects.iter_mut().zip(poses.iter().zip(morphs)) {
+    let bends: Vec<bool> = scene.objects.iter().map(|object| motion::bends(scene, object)).collect();
+    for ((object, bends), (pose, morph)) in scene.objects.iter_mut().zip(bends).zip(poses.iter().zip(morphs))
+    {
         let scale = pose.matrix3.x_axis.length();
         object.parent = None;
-        object.hold = 1;
+        // A body that bends stays in one shape.
+        object.hold = if bends { limits::MAX_HOLD } else { 1 };
         object.keys = vec![ObjectKey {
             translation: pose.translation.to_array(),
             rotation_deg: motion::euler_deg_from_rotation(pose.matrix3 / scale).to_array(),
-            scale,
+            scale: Scale::even(scale),
             morph,
             ..ObjectKey::at(0.0)
         }];

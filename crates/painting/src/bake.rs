@@ -6,6 +6,7 @@ use glam::{DVec2, DVec3};
 use impasto_core::direction::carry::Stencils;
 use impasto_core::lift::Lift;
 use impasto_core::neighbours::Neighbours;
+use impasto_core::sampling::PackedParticle;
 use impasto_core::solve::BakedParticles;
 use impasto_scene::document::Solver;
 use rayon::prelude::*;
@@ -92,12 +93,20 @@ pub(crate) struct BakedBody {
 
 impl BakedBody {
     /// The angle of a particle's stroke in the reference picture of its rule, radians.
-    pub(crate) fn base_angle_rad(&self, particle: usize, reference: &BodyReference) -> f64 {
+    pub(crate) fn base_angle_rad(
+        &self,
+        particle: usize,
+        place: PackedParticle,
+        reference: &BodyReference,
+    ) -> f64 {
         match self.base_angle_rad.get(particle) {
             Some(&angle_rad) => f64::from(angle_rad),
             // The angle at which N' shows in that picture.
             None => {
-                let jacobian = reference.map.jacobian(self.baked.position_of(particle));
+                let jacobian = match reference.carried(place) {
+                    Some(carried) => carried.pulled_back(reference.map.jacobian(carried.position)),
+                    None => reference.map.jacobian(self.baked.position_of(particle)),
+                };
                 self.baked.lift_of(particle).map(jacobian).angle_rad()
             }
         }
@@ -188,6 +197,8 @@ impl LiftSources {
     fn point(&self, index: usize, region: u16) -> SurfacePoint {
         let particle = self.traits.particles.at(index);
         SurfacePoint {
+            place: self.traits.particles.places()[index],
+            height: 0.0,
             position: particle.position.as_dvec3(),
             normal: particle.normal.as_dvec3(),
             rule: usize::from(region),
@@ -198,7 +209,7 @@ impl LiftSources {
     /// The point where the stroke lies: lifted off the surface by its region's offset.
     fn off_surface(&self, point: SurfacePoint) -> SurfacePoint {
         let offset = f64::from(self.rules[point.rule].strokes.offset);
-        SurfacePoint { position: point.position + point.normal * offset, ..point }
+        SurfacePoint { position: point.position + point.normal * offset, height: offset, ..point }
     }
 
     /// Which particles lie near a singular point of their stated direction.
@@ -217,12 +228,19 @@ impl LiftSources {
         let position = point.position;
         self.references.views(point, |reference| {
             let neighbours = lists?.of(index);
-            let center_px = reference.map.project(position);
-            let at = |other: &u32| self.traits.particles.at(*other as usize).position.as_dvec3();
-            let in_front = neighbours.iter().map(at).filter(|&at| reference.map.depth(at) > reference.near);
-            Some(Lift::horn(in_front.map(|at| {
+            let seen_at = reference.carried(point.place).map_or(position, |carried| carried.position);
+            let center_px = reference.map.project(seen_at);
+            // At rest, and where the reference has it.
+            let at = |other: &u32| {
+                let at_rest = self.traits.particles.at(*other as usize).position.as_dvec3();
+                let carried = reference.carried(self.traits.particles.places()[*other as usize]);
+                [at_rest, carried.map_or(at_rest, |carried| carried.position)]
+            };
+            let in_front =
+                neighbours.iter().map(at).filter(|[_, at]| reference.map.depth(*at) > reference.near);
+            Some(Lift::horn(in_front.map(|[at_rest, at]| {
                 let offset_px: DVec2 = reference.map.project(at) - center_px;
-                (at - position, offset_px)
+                (at_rest - position, offset_px)
             })))
         })
     }

@@ -2,13 +2,15 @@
 
 use std::sync::Arc;
 
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 use impasto_core::TriangleMesh;
+use impasto_core::bending::BendPose;
 use impasto_core::noise_displace::{Lookup, Tile, VertexNoise};
 use impasto_core::shells::Side;
 use impasto_scene::document::NoiseDisplace;
 use impasto_scene::mesh_file::{Sampler, Texture};
-use impasto_scene::morph::MorphTarget;
+
+use crate::bent::BodyBend;
 
 /// A surface with its materials, in model space (static scale applied).
 #[derive(Debug)]
@@ -17,8 +19,8 @@ pub struct BodySurface {
     pub mesh: TriangleMesh,
     /// For each triangle, the side that can be seen.
     pub sides: Vec<Side>,
-    /// Where its vertices go, for a surface that changes its shape.
-    pub morph: Option<MorphTarget>,
+    /// What bends it.
+    pub(crate) bending: BodyBend,
     /// Indexed by `mesh.material_of_triangle`.
     pub materials: Vec<BodyMaterial>,
 }
@@ -38,14 +40,6 @@ pub struct BodyMaterial {
     pub unlit: bool,
     /// Strength of highlights, 0 matt .. 1 glazed.
     pub gloss: f32,
-}
-
-/// The vertices of a surface that has changed its shape, in model space.
-#[derive(Clone, Debug)]
-pub(crate) struct Vertices {
-    pub(crate) positions: Vec<Vec3>,
-    /// Unit, one for every position.
-    pub(crate) normals: Vec<Vec3>,
 }
 
 /// The noise of one body.
@@ -109,20 +103,15 @@ impl PartialEq for FrameNoise {
     }
 }
 
-/// The shape of a surface at one time: how far it is morphed, and its noise.
+/// The shape of a surface at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BodyShape {
-    /// How far it has turned into its morph, 0..=1.
-    pub morph: f64,
+    /// How far targets and joints have moved, model space; `None`: as the mesh file rests.
+    pub pose: Option<Arc<BendPose>>,
+    /// The frame at which its point cache is read.
+    pub cache_frame: Option<f64>,
     /// The noise that displaces it.
     pub noise: Option<FrameNoise>,
-}
-
-impl From<f64> for BodyShape {
-    /// A share of a morph, and no noise.
-    fn from(morph: f64) -> Self {
-        Self { morph, noise: None }
-    }
 }
 
 impl BodyShape {

@@ -4,10 +4,12 @@
 use std::sync::Arc;
 
 use impasto_core::sampling::{self, PackedParticle, ProgressiveState, Surface};
+use impasto_core::solve::BakedParticles;
 use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
 
 use crate::bake::{BakedBody, LiftSources};
+use crate::bent::Bent;
 use crate::body::BodySurface;
 use crate::paper::PolygonCounts;
 use crate::particles::Particles;
@@ -32,6 +34,15 @@ pub(crate) struct Coat {
 }
 
 impl Coat {
+    /// The baked particles, carried by a body that is not at rest.
+    pub(crate) fn carried(&self, bent: &Bent) -> BakedParticles {
+        let offset = |rule: u16| self.lift_sources.rules[usize::from(rule)].strokes.offset;
+        let is_lifted = self.used.iter().any(|&rule| offset(rule) != 0.0);
+        let height = |index: usize| if is_lifted { offset(self.traits.region(index)) } else { 0.0 };
+        let places = self.sampled.particles.places();
+        bent.carrier().carry(&self.surface.mesh, places, &self.baked.baked, height)
+    }
+
     /// sRGB albedo at a particle, 8 bits a channel, as 0xAABBGGRR; A is 0 for an unlit material, else 255.
     pub(crate) fn albedo_srgb8(&self, particle: usize) -> u32 {
         let triangle = self.sampled.particles.triangle(particle);

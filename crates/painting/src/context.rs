@@ -21,6 +21,8 @@ pub(crate) struct Context<'a> {
     pub(crate) rules: &'a Arc<Vec<RegionRule>>,
     /// Views over the whole timeline, each with the objects' poses. The number of particles needed follows from them.
     pub(crate) views: &'a [(PictureView, Vec<DAffine3>)],
+    /// For each of these views, the objects' shapes.
+    pub(crate) shapes: &'a [Vec<BodyShape>],
     pub(crate) brushes: &'a Brushes,
     pub(crate) solver: Solver,
     /// Whether strokes are painted by the source paper's own rule.
@@ -49,6 +51,4 @@ pub(crate) struct ObjectInputs<'a> {
     pub(crate) references: &'a Arc<BodyReferences>,
     /// For each part, the largest strokes that it carries.
     pub(crate) caps: &'a [Cap],
-    /// The body's shape in the reference pose.
-    pub(crate) shape: &'a BodyShape,
 }

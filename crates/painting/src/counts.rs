@@ -7,7 +7,7 @@ use glam::DVec2;
 use impasto_core::sampling::Surface;
 use impasto_scene::presets::LayerKind;
 
-use crate::body::BodySurface;
+use crate::body::{BodyShape, BodySurface};
 use crate::context::{Context, ObjectInputs};
 use crate::particle_count::{self, Sighting};
 use crate::parts::{BodyParts, Cap, fit_of, wanted_where_small};
@@ -81,8 +81,10 @@ impl CountInputs {
 
     /// The counts, in the order of [`LayerKind::ALL`].
     pub(crate) fn counts(&self, surface: &Surface<'_>, parts: &BodyParts) -> [usize; LAYERS] {
+        let body = &self.surface;
+        let positions_at = |shape: &BodyShape| (!body.is_at_rest(shape)).then(|| body.positions_at(shape));
         let found: [usize; LAYERS] =
-            particle_count::find(surface, &self.sightings, |triangle, center, normal| {
+            particle_count::find(surface, &self.sightings, positions_at, |triangle, center, normal| {
                 let cap = self.caps[parts.of_triangle[triangle] as usize];
                 let form = parts.form.at(center.as_vec3(), normal.as_vec3());
                 let mut densest = [0.0f32; LAYERS];
@@ -123,10 +125,13 @@ fn sightings(context: &Context<'_>, object: usize) -> Vec<Sighting> {
     context
         .views
         .iter()
-        .map(|(view, poses)| Sighting {
+        .zip(context.shapes)
+        .map(|((view, poses), shapes)| Sighting {
             map: view.screen_map(poses[object]),
             half_size_px,
             near: view.near(),
+            // Noise changes the area little.
+            shape: BodyShape { noise: None, ..shapes[object].clone() },
         })
         .collect()
 }

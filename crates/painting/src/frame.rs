@@ -8,7 +8,9 @@ use impasto_scene::limits::MAX_PIXELS;
 
 mod stroke;
 
+pub use crate::bent::Bent;
 pub use crate::body::{BodyMaterial, BodySurface, FrameNoise};
+pub use impasto_core::bending::Vertices;
 pub use impasto_scene::document::{InkDrawing, InkLight, InkRule, Style, SumiE};
 pub use impasto_scene::mesh_file::{Sampler, Wrap};
 pub use impasto_scene::presets::LayerKind;
@@ -162,11 +164,11 @@ pub struct FrameBody {
     /// The surface. It is shared between frames, so that a renderer may cache what it uploads by the address of the
     /// `Arc`.
     pub surface: Arc<BodySurface>,
-    /// Pose: a rotation, a translation and one scale for all axes.
+    /// Pose.
     pub world_from_model: Mat4,
-    /// How far the surface has turned into its morph, 0..=1.
-    pub morph: f32,
-    /// The noise that displaces and colours it.
+    /// Where its vertices are; `None` at rest.
+    pub bent: Option<Arc<Bent>>,
+    /// The noise that colours it; its vertices are moved already.
     pub noise: Option<FrameNoise>,
 }
 

@@ -9,6 +9,7 @@
 
 mod at;
 mod bake;
+mod bent;
 mod body;
 mod boil;
 mod brushes;
@@ -17,7 +18,6 @@ mod candidates;
 mod coat;
 mod context;
 mod counts;
-mod deform;
 mod field;
 mod finish;
 pub mod frame;
@@ -38,6 +38,7 @@ mod recall;
 mod references;
 mod regions;
 mod shadow_bounds;
+mod shapes;
 mod stated;
 mod stroke;
 mod stroke_directions;

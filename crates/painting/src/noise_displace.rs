@@ -1,10 +1,9 @@
 //! Noise-displaced materials: makes the noise of a body from what the document states, and moves vertices by it.
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
-use glam::{DAffine3, DQuat, DVec2, DVec3, Vec3};
-use impasto_core::TriangleMesh;
+use glam::{DAffine3, DVec2, Vec3};
+use impasto_core::bending::Vertices;
 use impasto_core::noise_displace::{
     Along, Lookup, Tile, VertexNoise, gaussian, perlin, travelled, vertex_shift,
 };
@@ -16,7 +15,7 @@ use impasto_scene::loaded::LoadedScene;
 use impasto_scene::mesh_file::Texture;
 use rayon::prelude::*;
 
-use crate::body::{BodyNoise, FrameNoise, NoiseLayers, Vertices};
+use crate::body::{BodyNoise, FrameNoise, NoiseLayers};
 use crate::lights::linear;
 
 impl BodyNoise {
@@ -128,47 +127,17 @@ fn layers(surface: &SurfaceNoise, tile: Arc<Tile>) -> NoiseLayers {
     }
 }
 
-/// The vertices of a mesh after noise has moved them. Each normal turns as the mean normal of the faces round its
-/// vertex does.
-pub(crate) fn displaced(
-    mesh: &TriangleMesh,
-    vertices: &Vertices,
-    noise: &VertexNoise,
-    lookup: &Lookup,
-) -> Vertices {
-    let Vertices { positions, normals } = vertices;
-    let moved =
-        positions.par_iter().zip(normals).with_min_len(1024).map(|(position, normal)| {
-            noise.displaced(position.as_dvec3(), normal.as_dvec3(), lookup).as_vec3()
-        });
-    let moved: Vec<Vec3> = moved.collect();
-    // Along a seam of texture coordinates a vertex exists twice: vertices with equal positions and normals count as
-    // one. Along a hard edge the normals differ, and the vertices stay apart.
-    let bits = |index: usize| [positions[index], normals[index]].map(|v| v.to_array().map(f32::to_bits));
-    let mut groups = HashMap::with_capacity(positions.len());
-    let group_of: Vec<usize> = (0..positions.len())
-        .map(|index| {
-            let next = groups.len();
-            *groups.entry(bits(index)).or_insert(next)
-        })
-        .collect();
-    let mut faces = vec![[DVec3::ZERO; 2]; groups.len()];
-    for corners in &mesh.triangles {
-        let face_normal = |positions: &[Vec3]| {
-            let [a, b, c] = corners.map(|vertex| positions[vertex as usize].as_dvec3());
-            (b - a).cross(c - a)
+/// Vertices after noise has moved them, with the normals with which they are drawn.
+pub(crate) fn displaced(vertices: &Vertices, noise: &VertexNoise, lookup: &Lookup) -> Vertices {
+    let moved = |(position, normal): (&Vec3, &Vec3)| {
+        let (position, normal) = (position.as_dvec3(), normal.as_dvec3());
+        let turned = match noise.moves_normals {
+            true => noise.displaced_normal(position, normal, lookup),
+            false => normal,
         };
-        let (before, now) = (face_normal(positions), face_normal(&moved));
-        for vertex in corners {
-            let sum = &mut faces[group_of[*vertex as usize]];
-            *sum = [sum[0] + before, sum[1] + now];
-        }
-    }
-    let turned = |(index, normal): (usize, &Vec3)| {
-        let [before, now] = faces[group_of[index]].map(|sum| sum.try_normalize());
-        let turn = before.zip(now).map(|(before, now)| DQuat::from_rotation_arc(before, now));
-        turn.map_or(*normal, |turn| (turn * normal.as_dvec3()).as_vec3())
+        (noise.displaced(position, normal, lookup).as_vec3(), turned.as_vec3())
     };
-    let normals = normals.iter().enumerate().map(turned).collect();
-    Vertices { positions: moved, normals }
+    let all = vertices.positions.par_iter().zip(&vertices.normals).with_min_len(1024);
+    let (positions, normals) = all.map(moved).unzip();
+    Vertices { positions, normals }
 }

@@ -20,6 +20,7 @@ use crate::field::{BodyField, FieldInputs, FieldSamples};
 use crate::noise_displace::NoiseInputs;
 use crate::particles::Particles;
 use crate::parts::BodyParts;
+use crate::references::Standing;
 use crate::surface::SurfaceInputs;
 use crate::traits::{CoatTraits, TraitInputs};
 
@@ -30,6 +31,8 @@ const LAYERS: usize = LayerKind::ALL.len();
 pub(crate) struct ObjectCache {
     surface: Cached<SurfaceInputs, ObjectSurface>,
     noise: Cached<NoiseInputs, Option<Arc<BodyNoise>>>,
+    bounds: Cached<Shaped, Option<(Vec3, Vec3)>>,
+    stands: Cached<Shaped, Vec<Standing>>,
     /// In the order of [`LayerKind::ALL`].
     counts: Cached<CountInputs, [usize; LAYERS]>,
     samples: Cached<FieldSampleInputs, Arc<FieldSamples>>,
@@ -42,8 +45,6 @@ pub(crate) struct ObjectCache {
 #[derive(Default)]
 struct CoatCache {
     sampled: Cached<SampleInputs, Arc<Sampled>>,
-    /// The particles in the reference pose.
-    posed: Cached<PoseInputs, Particles>,
     neighbours: Cached<Particles, Arc<Neighbours>>,
     stencils: Cached<StencilInputs, CoatStencils>,
     traits: Cached<Arc<TraitInputs>, CoatTraits>,
@@ -54,7 +55,6 @@ struct CoatCache {
 struct ObjectSurface {
     body: Arc<BodySurface>,
     parts: Arc<BodyParts>,
-    bounds: Option<(Vec3, Vec3)>,
     extent: (DVec3, f64),
 }
 
@@ -63,23 +63,30 @@ struct ObjectSurface {
 struct FieldSampleInputs {
     surface: SurfaceInputs,
     name_hash: u32,
-    shape: BodyShape,
 }
 
-/// Particles and the shape of their surface.
-struct PoseInputs {
-    particles: Particles,
+/// A surface, and shapes that it takes on.
+#[derive(Clone)]
+struct Shaped {
     surface: Arc<BodySurface>,
-    shape: BodyShape,
+    shapes: Vec<BodyShape>,
 }
 
-/// Equal for the same order of particles, however many there are.
-impl PartialEq for PoseInputs {
+impl PartialEq for Shaped {
     fn eq(&self, other: &Self) -> bool {
-        self.particles.same_order(&other.particles)
-            && Arc::ptr_eq(&self.surface, &other.surface)
-            && self.shape == other.shape
+        Arc::ptr_eq(&self.surface, &other.surface) && self.shapes == other.shapes
     }
+}
+
+/// Shapes without noise, each once.
+fn distinct(shapes: Vec<BodyShape>) -> Vec<BodyShape> {
+    let mut all: Vec<BodyShape> = Vec::new();
+    for shape in shapes.into_iter().map(|shape| BodyShape { noise: None, ..shape }) {
+        if !all.contains(&shape) {
+            all.push(shape);
+        }
+    }
+    all
 }
 
 /// Particles and the samples of the field round them.
@@ -109,7 +116,6 @@ impl ObjectCache {
             let surface = Surface::with_sides(&body.mesh, &body.sides, |_| true);
             ObjectSurface {
                 parts: Arc::new(BodyParts::of(&surface)),
-                bounds: body.bounds(),
                 extent: body.extent(),
                 body: Arc::new(body),
             }
@@ -142,10 +148,39 @@ impl ObjectCache {
         Arc::clone(&self.object_surface().parts)
     }
 
-    /// Least and greatest corner of the box round the surface, whatever its morph and its noise.
-    pub(crate) fn bounds(&self) -> Option<(Vec3, Vec3)> {
-        let reach = self.noise().map_or(0.0, |noise| noise.reach());
-        self.object_surface().bounds.map(|(low, high)| (low - reach, high + reach))
+    /// Least and greatest corner of the box round the surface in all these shapes.
+    pub(crate) fn bounds(&mut self, shapes: Vec<BodyShape>) -> Option<(Vec3, Vec3)> {
+        let surface = self.surface();
+        let noise = self.noise().map_or(0.0, |noise| noise.reach());
+        let inputs = Shaped { surface: Arc::clone(&surface), shapes: distinct(shapes) };
+        let bounds = self.bounds.update(inputs, |Shaped { shapes, .. }, _| {
+            let bent = shapes.iter().map(|shape| surface.positions_at(shape));
+            let boxes = bent.filter_map(|positions| surface.mesh.bounds_at(&positions));
+            boxes.reduce(|(low, high), (least, greatest)| (low.min(least), high.max(greatest)))
+        });
+        bounds.map(|(low, high)| (low - noise, high + noise))
+    }
+
+    /// How the body stands in these shapes.
+    pub(crate) fn stands(&mut self, shapes: Vec<BodyShape>) -> Vec<Standing> {
+        let (surface, parts) = (self.surface(), self.parts());
+        let known = self.stands.update(Shaped { surface: Arc::clone(&surface), shapes }, |inputs, before| {
+            let known = before.map_or(Vec::new(), |(inputs, known)| {
+                if Arc::ptr_eq(&inputs.surface, &surface) { known } else { Vec::new() }
+            });
+            let stand = |shape: &BodyShape| {
+                let same = known.iter().find(|standing: &&Standing| standing.shape == *shape);
+                same.cloned().unwrap_or_else(|| {
+                    let bent = surface.bent(shape);
+                    let centers = bent
+                        .as_ref()
+                        .map_or(Vec::new(), |bent| parts.centers(&surface.mesh, &bent.vertices.positions));
+                    Standing { shape: shape.clone(), bent, centers }
+                })
+            };
+            inputs.shapes.iter().map(stand).collect::<Vec<_>>()
+        });
+        known.clone()
     }
 
     /// Finds how many particles each coat has.
@@ -179,28 +214,11 @@ impl ObjectCache {
         });
     }
 
-    /// Puts the particles where they are in the reference pose.
-    pub(crate) fn pose(&mut self, object: ObjectInputs<'_>) {
-        let surface = self.surface();
-        for coat in &mut self.coats {
-            let particles = coat.sampled().particles.clone();
-            let inputs = PoseInputs { particles, surface: Arc::clone(&surface), shape: object.shape.clone() };
-            coat.posed.resize(inputs, |PoseInputs { particles, .. }, before| {
-                before.and_then(|posed| posed.first(particles.len())).unwrap_or_else(|| {
-                    if surface.is_at_rest(object.shape) {
-                        return particles.clone();
-                    }
-                    particles.posed(surface.vertices_at(object.shape))
-                })
-            });
-        }
-    }
-
     /// Finds the neighbours of every particle.
     pub(crate) fn find_neighbours(&mut self) {
         for coat in &mut self.coats {
-            let area = coat.sampled().area;
-            coat.neighbours.update(coat.posed().clone(), |particles, _| {
+            let (area, particles) = (coat.sampled().area, coat.sampled().particles.clone());
+            coat.neighbours.update(particles, |particles, _| {
                 let (positions, normals) = particles.points();
                 let radius = full_list_radius(area, positions.len()) as f32;
                 Arc::new(Neighbours::find(&positions, &normals, radius))
@@ -218,11 +236,10 @@ impl ObjectCache {
         }
         let ObjectSurface { body, parts, extent, .. } = self.object_surface().clone();
         let name_hash = context.name_hash(object.index, LayerKind::Body);
-        let sample_inputs =
-            FieldSampleInputs { surface: object.surface.clone(), name_hash, shape: object.shape.clone() };
+        let sample_inputs = FieldSampleInputs { surface: object.surface.clone(), name_hash };
         let samples = self.samples.update(sample_inputs, |_, _| {
             let sampled = Surface::with_sides(&body.mesh, &body.sides, |_| true);
-            Arc::new(FieldSamples::new(&sampled, name_hash).posed(&body, object.shape))
+            Arc::new(FieldSamples::new(&sampled, name_hash))
         });
         let inputs = FieldInputs {
             samples: Arc::clone(samples),
@@ -240,7 +257,8 @@ impl ObjectCache {
             BodyField::solve(inputs, before.as_deref()).map(Arc::new)
         });
         for coat in &mut self.coats {
-            let inputs = StencilInputs { particles: coat.posed().clone(), samples: Arc::clone(samples) };
+            let inputs =
+                StencilInputs { particles: coat.sampled().particles.clone(), samples: Arc::clone(samples) };
             coat.stencils.resize(inputs, |StencilInputs { particles, samples }, before| {
                 // Stencils of more particles of the same order serve as well.
                 before.filter(|before| before.count >= particles.len()).unwrap_or_else(|| CoatStencils {
@@ -282,11 +300,6 @@ impl CoatCache {
         self.sampled.output().expect("the sampling step ran before")
     }
 
-    /// The particles where they are in the reference pose.
-    fn posed(&self) -> &Particles {
-        self.posed.output().expect("the pose step ran before")
-    }
-
     fn bake(
         &mut self,
         context: &Context<'_>,
@@ -295,7 +308,8 @@ impl CoatCache {
         surface: &ObjectSurface,
         combed: Option<Combed>,
     ) -> Coat {
-        let trait_inputs = TraitInputs::new(context, object, kind, self.posed().clone(), &surface.parts);
+        let particles = self.sampled().particles.clone();
+        let trait_inputs = TraitInputs::new(context, object, kind, particles, &surface.parts);
         let trait_inputs = Arc::new(trait_inputs);
         let CoatTraits { traits, stray_rad } =
             self.traits.resize(Arc::clone(&trait_inputs), |inputs, before| inputs.traits(before)).clone();

@@ -3,13 +3,14 @@
 use std::sync::Arc;
 
 use glam::Vec3;
+use impasto_core::bending::CarriedPlace;
 use impasto_core::direction::singularities::Singularity;
-use impasto_core::sampling::Particle;
+use impasto_core::sampling::{PackedParticle, Particle};
 use impasto_scene::document::{Scene, Solver, Style};
 use impasto_scene::loaded::LoadedScene;
-use impasto_scene::motion;
 use impasto_scene::presets::LayerKind;
 
+use crate::bent::{Bent, BentMemo};
 use crate::body::{BodyNoise, BodyShape, BodySurface};
 use crate::coat::Coat;
 use crate::field::BodyField;
@@ -21,6 +22,7 @@ use crate::parts::Cap;
 use crate::prepare::Step;
 use crate::references::SceneReferences;
 use crate::regions::{BodyRegions, RegionRule};
+use crate::shapes::shapes;
 
 /// A prepared scene, from which frames are made at any time and through any camera. Immutable; cheap to clone.
 #[derive(Clone)]
@@ -40,8 +42,8 @@ pub struct Painting {
     /// All particles in painting order.
     pub(crate) order: Arc<PaintingOrder>,
     pub(crate) references: Arc<SceneReferences>,
-    /// The shape of each object in the reference pose.
-    pub(crate) reference_shapes: Arc<Vec<BodyShape>>,
+    /// The bodies at the last frames that were asked for.
+    pub(crate) bent: Arc<BentMemo>,
     /// The noise of each object.
     pub(crate) noises: Vec<Option<Arc<BodyNoise>>>,
     pub(crate) solver: Solver,
@@ -132,12 +134,30 @@ impl Painting {
 
     /// The shape of every object at a frame, in the order of the scene.
     pub fn shapes_at(&self, frame: f64) -> Vec<BodyShape> {
-        shapes(self.scene(), &self.noises, frame)
+        shapes(&self.loaded, &self.noises, frame)
+    }
+
+    /// Every object as it stands at a frame, in the order of the scene; `None` for those at rest. The last few frames are remembered.
+    pub fn bent_at(&self, frame: f64) -> Arc<Vec<Option<Arc<Bent>>>> {
+        self.bent.at(frame, self.bodies.iter().map(|body| &body.surface), || self.shapes_at(frame))
+    }
+
+    /// What went wrong since it was prepared: point caches that could not be read any more. Such bodies stay at rest.
+    pub fn faults(&self) -> Vec<String> {
+        let mut faults: Vec<String> =
+            self.bodies.iter().filter_map(|body| body.surface.fault().cloned()).collect();
+        faults.dedup();
+        faults
     }
 
     /// Index of the region that a place of an object's surface belongs to; `regions.len()` of the scene for none of them.
     pub fn region_at(&self, object: usize, place: &Particle) -> usize {
         usize::from(self.bodies[object].regions.of(place))
+    }
+
+    /// Where a place of an object is at a frame; `None` where the object is at rest.
+    pub fn carried(&self, object: usize, place: &Particle, frame: f64) -> Option<CarriedPlace> {
+        self.bent_at(frame)[object].as_ref().map(|bent| bent.place(PackedParticle::of(place)))
     }
 
     /// Area of the visible sides of one object, model units squared.
@@ -159,18 +179,4 @@ impl Painting {
     fn coat(&self, object: usize, kind: LayerKind) -> Option<&Coat> {
         self.coats.iter().map(Arc::as_ref).find(|coat| coat.object == object && coat.kind == kind)
     }
-}
-
-/// The shape of every object at a frame.
-pub(crate) fn shapes(scene: &Scene, noises: &[Option<Arc<BodyNoise>>], frame: f64) -> Vec<BodyShape> {
-    let morphs = motion::morphs_at(scene, frame);
-    if noises.iter().all(Option::is_none) {
-        return morphs.into_iter().map(BodyShape::from).collect();
-    }
-    let (poses, seconds) = (motion::poses_at(scene, frame), motion::seconds_at(scene, frame));
-    let shape = |(index, morph): (usize, f64)| BodyShape {
-        morph,
-        noise: noises[index].as_ref().map(|noise| noise.at(seconds[index], poses[index])),
-    };
-    morphs.into_iter().enumerate().map(shape).collect()
 }

@@ -1,17 +1,18 @@
 //! A painting as one camera sees it at one frame: what all strokes of the frame share, and each coat in this view.
 
 use std::borrow::Cow;
-use std::cell::OnceCell;
+use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 use impasto_core::horn_exact::{self, ClipView};
+use impasto_core::lift::Lift;
 use impasto_core::solve::{BakedParticles, Bounds, ParticleView, SolvedParticle, SolvedParticles, solve};
 use impasto_core::{ScreenMap, hash};
 use impasto_scene::document::Solver;
 use impasto_scene::motion::{self, CameraPose};
 use impasto_scene::presets::ResolvedStrokes;
 
-use crate::body::{BodyShape, BodySurface, Vertices};
+use crate::bent::Bent;
 use crate::boil::Boil;
 use crate::coat::Coat;
 use crate::frame::Quality;
@@ -49,6 +50,8 @@ pub(crate) struct CoatView<'a> {
     pub(crate) hidden: bool,
     /// The baked particles, moved with the surface where it has changed its shape.
     pub(crate) baked: Cow<'a, BakedParticles>,
+    /// How its body stands; `None` at rest.
+    bent: Option<Arc<Bent>>,
     pub(crate) map: ScreenMap,
     particle_view: ParticleView,
     pub(crate) world_from_model: DAffine3,
@@ -64,21 +67,8 @@ pub(crate) struct CoatView<'a> {
 struct PosedBody {
     hidden: bool,
     world_from_model: DAffine3,
-    shape: BodyShape,
-    /// Where the vertices were when the coats were baked, and where they are now; computed when first asked for.
-    vertices: OnceCell<[Vertices; 2]>,
-}
-
-impl PosedBody {
-    /// The vertices when the coats were baked and now; `None` where they have not moved.
-    fn moved_vertices(&self, surface: &BodySurface, baked_shape: &BodyShape) -> Option<&[Vertices; 2]> {
-        let rests = |shape: &BodyShape| surface.is_at_rest(shape);
-        if self.shape == *baked_shape || (rests(&self.shape) && rests(baked_shape)) {
-            return None;
-        }
-        let vertices = || [baked_shape, &self.shape].map(|shape| surface.vertices_at(shape));
-        Some(self.vertices.get_or_init(vertices))
-    }
+    /// `None` at rest.
+    bent: Option<Arc<Bent>>,
 }
 
 /// A stroke that follows the size of its surface becomes at most this many times as large as stated.
@@ -97,13 +87,12 @@ impl Painting {
         let poses = motion::poses_at(self.scene(), frame);
         let bodies: Vec<PosedBody> = poses
             .into_iter()
-            .zip(self.shapes_at(frame))
+            .zip(&*self.bent_at(frame))
             .zip(motion::hidden_at(self.scene(), frame))
-            .map(|((world_from_model, shape), hidden)| PosedBody {
+            .map(|((world_from_model, bent), hidden)| PosedBody {
                 hidden,
                 world_from_model,
-                shape,
-                vertices: OnceCell::new(),
+                bent: bent.clone(),
             })
             .collect();
         let px_scale = self.px_scale(options);
@@ -137,16 +126,16 @@ impl<'a> PaintingView<'a> {
     fn coat_view(&self, coat: &'a Coat, view: &PictureView, body: &PosedBody) -> CoatView<'a> {
         let world_from_model = body.world_from_model;
         let map = view.screen_map(world_from_model);
-        let baked = match body.moved_vertices(&coat.surface, &self.painting.reference_shapes[coat.object]) {
-            Some([before, now]) => Cow::Owned(coat.deformed(before, now)),
+        let baked = match &body.bent {
+            Some(bent) => Cow::Owned(coat.carried(bent)),
             None => Cow::Borrowed(&coat.baked.baked),
         };
         let wanted_per_px =
             self.strokes_of_rule.last().map_or(0.0, |strokes| f64::from(strokes.body().wanted_per_px()));
-        let shown =
-            coat.sampled.polygons.as_ref().map(|polygons| {
-                polygons.shown(&map, wanted_per_px / f64::from(self.px_scale * self.px_scale))
-            });
+        let shown = coat.sampled.polygons.as_ref().map(|polygons| {
+            let moved = body.bent.as_ref().map(|bent| (&coat.surface.mesh, &bent.vertices.positions[..]));
+            polygons.shown(&map, wanted_per_px / f64::from(self.px_scale * self.px_scale), moved)
+        });
         let clip_views = (self.painting.solver == Solver::HornExact).then(|| {
             let reference = self.painting.references.own();
             (reference.view.clip_view(reference.poses[coat.object]), view.clip_view(world_from_model))
@@ -159,6 +148,7 @@ impl<'a> PaintingView<'a> {
             coat,
             hidden,
             baked,
+            bent: body.bent.clone(),
             map,
             particle_view,
             world_from_model,
@@ -218,7 +208,13 @@ impl CoatView<'_> {
     fn angle_rad(&self, index: usize, solved: &SolvedParticle) -> f32 {
         let Some((reference, now)) = &self.clip_views else { return solved.angle_rad };
         let particles = &self.coat.sampled.particles;
-        let position = |particle: usize| -> DVec3 { particles.at(particle).position.as_dvec3() };
+        let own = self.coat.lift_sources.references.own();
+        // In the reference and now.
+        let position = |particle: usize| -> [DVec3; 2] {
+            let (place, at_rest) = (particles.places()[particle], particles.at(particle).position.as_dvec3());
+            [&own.stands.bent, &self.bent]
+                .map(|bent| bent.as_ref().map_or(at_rest, |bent| bent.place(place).position))
+        };
         let neighbours = self.coat.lift_sources.neighbours.as_ref().map_or(&[][..], |lists| lists.of(index));
         let turn_rad = horn_exact::turn_rad(
             position(index),
@@ -232,7 +228,39 @@ impl CoatView<'_> {
     /// The angle of a particle's stroke in the reference picture, radians.
     pub(crate) fn base_angle_rad(&self, index: usize) -> f64 {
         let region = usize::from(self.coat.traits.region(index));
-        self.coat.baked.base_angle_rad(index, self.coat.lift_sources.references.of_rule(region))
+        let place = self.coat.sampled.particles.places()[index];
+        self.coat.baked.base_angle_rad(index, place, self.coat.lift_sources.references.of_rule(region))
+    }
+
+    /// Where a particle is at rest, model space.
+    pub(crate) fn at_rest(&self, index: usize) -> DVec3 {
+        self.coat.baked.baked.position_of(index)
+    }
+
+    /// The unit normal of a particle, model space; zero where its surface has collapsed.
+    pub(crate) fn normal(&self, index: usize) -> DVec3 {
+        let normal = self.baked.normal_of(index);
+        if self.bent.is_some() { normal.normalize_or_zero() } else { normal }
+    }
+
+    /// N without a stroke's direction, of the tangent plane, as the surface carries it now: κ is measured with it where the solver has no
+    /// lift of its own.
+    pub(crate) fn surface_lift(&self, index: usize) -> Lift {
+        let Lift { along, across } =
+            self.coat.lift_sources.surface_lift(index, self.coat.traits.region(index));
+        let gradient = match &self.bent {
+            Some(bent) => bent.place(self.coat.sampled.particles.places()[index]).gradient,
+            None => return Lift { along, across },
+        };
+        Lift { along: gradient * along, across: gradient * across }
+    }
+
+    /// How much larger the surface is at a particle than at rest, along a line.
+    fn stretch(&self, bent: Option<&Arc<Bent>>, index: usize) -> f64 {
+        let Some(bent) = bent else { return 1.0 };
+        let gradient = bent.place(self.coat.sampled.particles.places()[index]).gradient;
+        let normal = self.coat.baked.baked.normal_of(index);
+        (gradient.inverse().transpose() * normal * gradient.determinant()).length().sqrt()
     }
 
     /// The factor on a stroke's stated size where it follows the size of its surface: m^γ. m is the pixels per unit of
@@ -247,8 +275,15 @@ impl CoatView<'_> {
             map.row_x.truncate().length() / map.row_w.dot(at.extend(1.0)).max(near)
         };
         let reference = self.coat.lift_sources.references.of_rule(usize::from(region));
-        let before = scale(&reference.map, self.coat.baked.baked.position_of(index), reference.near);
-        let now = scale(&self.map, self.baked.position_of(index), 1e-9);
+        let bent = reference.stands.bent.as_ref();
+        let place = self.coat.sampled.particles.places()[index];
+        let was_at = match bent {
+            Some(bent) => bent.place(place).position,
+            None => self.coat.baked.baked.position_of(index),
+        };
+        let before = scale(&reference.map, was_at, reference.near) * self.stretch(bent, index);
+        let now =
+            scale(&self.map, self.baked.position_of(index), 1e-9) * self.stretch(self.bent.as_ref(), index);
         let grown = (now / before / f64::from(view.px_scale)).powf(f64::from(follow));
         if grown.is_finite() {
             grown.clamp(1.0 / f64::from(MOST_GROWTH), f64::from(MOST_GROWTH)) as f32

@@ -1,7 +1,7 @@
 //! Counts strokes by the source paper's own rule: each polygon shows as many of its particles as its projected area
 //! asks for.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use impasto_core::ScreenMap;
 use impasto_core::TriangleMesh;
 use impasto_core::hash;
@@ -14,10 +14,12 @@ pub(crate) struct PolygonCounts {
     /// For each particle, the index of its polygon side in `sides`, and its number on that side.
     of_particle: Vec<(u32, u32)>,
     sides: Vec<PolygonSide>,
+    /// The triangles, each with its side of a polygon, and whether that is its back.
+    faces: Vec<(u32, u32, bool)>,
 }
 
 /// One side of one polygon.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct PolygonSide {
     center: DVec3,
     normal: DVec3,
@@ -29,15 +31,16 @@ struct PolygonSide {
 impl PolygonCounts {
     pub(crate) fn new(surface: &Surface<'_>, mesh: &TriangleMesh, particles: &[PolygonParticle]) -> Self {
         let mut index_of: std::collections::HashMap<(u32, bool), u32> = std::collections::HashMap::new();
-        let mut sides: Vec<PolygonSide> = Vec::new();
+        let (mut sides, mut faces): (Vec<PolygonSide>, _) = (Vec::new(), Vec::new());
         let polygon_of =
             |triangle: u32| mesh.polygon_of_triangle.get(triangle as usize).copied().unwrap_or(triangle);
         for (triangle, flipped, area) in surface.faces() {
-            let [a, b, c] = mesh.corners(triangle as usize).map(glam::Vec3::as_dvec3);
+            let [a, b, c] = mesh.corners(triangle as usize).map(Vec3::as_dvec3);
             let index = *index_of.entry((polygon_of(triangle), flipped)).or_insert(sides.len() as u32);
             if index as usize == sides.len() {
                 sides.push(PolygonSide { center: DVec3::ZERO, normal: DVec3::ZERO, area: 0.0, count: 0 });
             }
+            faces.push((triangle, index, flipped));
             let side = &mut sides[index as usize];
             side.center += (a + b + c) / 3.0 * area;
             side.normal += (b - a).cross(c - a) * if flipped { -1.0 } else { 1.0 };
@@ -55,13 +58,22 @@ impl PolygonCounts {
                 (index, entry.number_in_polygon)
             })
             .collect();
-        Self { of_particle, sides }
+        Self { of_particle, sides, faces }
     }
 
     /// How many particles of each polygon side show in a view. Fractions are rounded at a threshold that is random but
-    /// fixed for each side, so that of the polygons smaller than a stroke the right share is painted.
-    pub(crate) fn shown(&self, map: &ScreenMap, wanted_per_px: f64) -> Vec<u32> {
-        self.sides
+    /// fixed for each side, so that of the polygons smaller than a stroke the right share is painted. `moved` are the mesh and the
+    /// positions of its vertices now, where it is not at rest.
+    pub(crate) fn shown(
+        &self,
+        map: &ScreenMap,
+        wanted_per_px: f64,
+        moved: Option<(&TriangleMesh, &[Vec3])>,
+    ) -> Vec<u32> {
+        let moved = moved.map(|(mesh, positions)| self.moved(mesh, positions));
+        moved
+            .as_ref()
+            .unwrap_or(&self.sides)
             .iter()
             .zip(0..)
             .map(|(side, index)| {
@@ -71,6 +83,27 @@ impl PolygonCounts {
                 if wanted > 0.0 { ((wanted + threshold) as u32).min(side.count) } else { 0 }
             })
             .collect()
+    }
+
+    /// The sides with the vertices at these positions.
+    fn moved(&self, mesh: &TriangleMesh, positions: &[Vec3]) -> Vec<PolygonSide> {
+        let still =
+            |side: &PolygonSide| PolygonSide { center: DVec3::ZERO, normal: DVec3::ZERO, area: 0.0, ..*side };
+        let mut sides: Vec<PolygonSide> = self.sides.iter().map(still).collect();
+        for &(triangle, index, flipped) in &self.faces {
+            let [a, b, c] =
+                mesh.triangles[triangle as usize].map(|vertex| positions[vertex as usize].as_dvec3());
+            let across = (b - a).cross(c - a) * if flipped { -1.0 } else { 1.0 };
+            let (side, area) = (&mut sides[index as usize], 0.5 * across.length());
+            side.center += (a + b + c) / 3.0 * area;
+            side.normal += across;
+            side.area += area;
+        }
+        for side in &mut sides {
+            side.center /= side.area.max(f64::MIN_POSITIVE);
+            side.normal = side.normal.normalize_or_zero();
+        }
+        sides
     }
 
     /// Whether a particle is among the `shown` ones of its polygon side.

@@ -1,10 +1,12 @@
 //! How many particles an object needs where the scene does not state it.
 
 use glam::{DVec2, DVec3, Vec3};
-use impasto_core::ScreenMap;
 use impasto_core::sampling::Surface;
 use impasto_core::screen_map::{area_px, facing};
+use impasto_core::{ScreenMap, TriangleMesh};
 use rayon::prelude::*;
+
+use crate::body::BodyShape;
 
 /// The least and the greatest number that is found.
 const LEAST: f64 = 64.0;
@@ -22,6 +24,8 @@ pub(crate) struct Sighting {
     pub(crate) map: ScreenMap,
     pub(crate) half_size_px: DVec2,
     pub(crate) near: f64,
+    /// The shape of the body.
+    pub(crate) shape: BodyShape,
 }
 
 /// A face that a view does not see whole, or sees at very different depths, is cut into pieces that are at most this share of the surface.
@@ -35,18 +39,23 @@ const EVEN_DEPTH: f64 = 0.25;
 
 /// A face or a piece of one, with what its strokes need.
 struct CountedFace<const LAYERS: usize> {
+    triangle: u32,
+    flipped: bool,
     center: DVec3,
     normal: DVec3,
+    /// At rest.
     area: f64,
     /// Strokes wanted per pixel, of each layer.
     wanted_per_px: [f64; LAYERS],
 }
 
 /// For each layer, how many particles give nine tenths of the object's area in the picture all the strokes wanted
-/// there, in the view that needs most. `wanted_per_px` gives the strokes per pixel wanted on a triangle.
+/// there, in the view that needs most. `wanted_per_px` gives the strokes per pixel wanted on a triangle, `positions_at` where the
+/// vertices are in a shape; `None` at rest.
 pub(crate) fn find<const LAYERS: usize>(
     surface: &Surface<'_>,
     sightings: &[Sighting],
+    positions_at: impl Fn(&BodyShape) -> Option<Vec<Vec3>> + Sync,
     wanted_per_px: impl Fn(usize, DVec3, DVec3) -> [f32; LAYERS],
 ) -> [usize; LAYERS] {
     let stride = surface.faces().count().div_ceil(FACES).max(1);
@@ -63,6 +72,8 @@ pub(crate) fn find<const LAYERS: usize>(
             let cuts = if is_uneven { share.sqrt().ceil().min(MOST_CUTS) as usize } else { 1 };
             let wanted = &wanted_per_px;
             middles(corners, cuts).map(move |center| CountedFace {
+                triangle,
+                flipped,
                 center,
                 normal,
                 area: area / (cuts * cuts) as f64,
@@ -71,10 +82,34 @@ pub(crate) fn find<const LAYERS: usize>(
         })
         .collect();
     let most = |a: [f64; LAYERS], b: [f64; LAYERS]| std::array::from_fn(|layer| a[layer].max(b[layer]));
-    let needed_per_area =
-        sightings.par_iter().map(|sighting| needed_per_area(&faces, sighting)).reduce(|| [0.0; LAYERS], most);
+    let mesh = surface.mesh();
+    let needed_in = |sighting: &Sighting| {
+        let moved = positions_at(&sighting.shape);
+        needed_per_area(&faces, sighting, |face| match &moved {
+            Some(positions) => face.moved(mesh, positions),
+            None => (face.center, face.normal),
+        })
+    };
+    let needed_per_area = sightings.par_iter().map(needed_in).reduce(|| [0.0; LAYERS], most);
     // A quarter more, since the highest ranks are only half present at just the number wanted.
     needed_per_area.map(|needed| (needed * surface.area() * 1.25).clamp(LEAST, MOST).ceil() as usize)
+}
+
+impl<const LAYERS: usize> CountedFace<LAYERS> {
+    /// Its middle when the vertices are at these positions, and its normal, as long as its area now over that at rest.
+    fn moved(&self, mesh: &TriangleMesh, positions: &[Vec3]) -> (DVec3, DVec3) {
+        let at = |positions: &[Vec3]| {
+            mesh.triangles[self.triangle as usize].map(|vertex| positions[vertex as usize].as_dvec3())
+        };
+        let ([a, b, c], [p, q, r]) = (at(&mesh.positions), at(positions));
+        let across = (b - a).cross(c - a);
+        let share = |from: DVec3, to: DVec3| {
+            (to - from).cross(self.center - from).dot(across) / across.length_squared()
+        };
+        let (v, w) = (share(c, a), share(a, b));
+        let grown = (q - p).cross(r - p) / across.length();
+        (p + (q - p) * v + (r - p) * w, if self.flipped { -grown } else { grown })
+    }
 }
 
 impl Sighting {
@@ -105,17 +140,22 @@ fn middles([a, b, c]: [DVec3; 3], cuts: usize) -> impl Iterator<Item = DVec3> {
 }
 
 /// Particles needed per unit of surface in one view, by layer.
-fn needed_per_area<const LAYERS: usize>(faces: &[CountedFace<LAYERS>], sighting: &Sighting) -> [f64; LAYERS] {
+fn needed_per_area<const LAYERS: usize>(
+    faces: &[CountedFace<LAYERS>],
+    sighting: &Sighting,
+    placed: impl Fn(&CountedFace<LAYERS>) -> (DVec3, DVec3),
+) -> [f64; LAYERS] {
     let seen: Vec<(&CountedFace<LAYERS>, f64)> = faces
         .iter()
         .filter_map(|face| {
-            let inside = sighting.map.project(face.center).abs().cmplt(sighting.half_size_px * MARGIN).all();
-            if sighting.map.depth(face.center) <= sighting.near || !inside {
+            let (center, normal) = placed(face);
+            let inside = sighting.map.project(center).abs().cmplt(sighting.half_size_px * MARGIN).all();
+            if sighting.map.depth(center) <= sighting.near || !inside {
                 return None;
             }
-            let jacobian = sighting.map.jacobian(face.center);
-            let px_per_area = area_px(jacobian, face.normal);
-            let faces_the_eye = px_per_area.is_finite() && facing(jacobian, face.normal) > 0.0;
+            let jacobian = sighting.map.jacobian(center);
+            let px_per_area = area_px(jacobian, normal);
+            let faces_the_eye = px_per_area.is_finite() && facing(jacobian, normal) > 0.0;
             faces_the_eye.then_some((face, px_per_area))
         })
         .collect();
@@ -189,10 +229,12 @@ mod tests {
         let view = glam::dcamera::rh::view::look_at_mat4(eye, eye + DVec3::new(0.3, -0.25, -1.0), DVec3::Y);
         let lens = PixelLens::Perspective { focal_px: 1000.0 };
         let map = ScreenMap::new(view, DAffine3::IDENTITY, lens);
-        let sighting = Sighting { map, half_size_px: DVec2::new(640.0, 360.0), near: 0.1 };
+        let shape = BodyShape::default();
+        let sighting = Sighting { map, half_size_px: DVec2::new(640.0, 360.0), near: 0.1, shape };
         let counted = |cells: u32| {
             let mesh = floor(10.0, cells);
-            find(&Surface::new(&mesh, |_| true), std::slice::from_ref(&sighting), |_, _, _| [0.001])[0] as f64
+            find(&Surface::new(&mesh, |_| true), std::slice::from_ref(&sighting), |_| None, |_, _, _| [0.001])
+                [0] as f64
         };
         let (rough, fine) = (counted(1), counted(100));
         assert!((rough / fine - 1.0).abs() < 0.2, "{rough} {fine}");

@@ -7,17 +7,15 @@ use glam::Vec3;
 use impasto_core::sampling::{PackedParticle, Particle};
 use rayon::prelude::*;
 
-use crate::body::{BodySurface, Vertices};
+use crate::body::BodySurface;
 
-/// The first particles of an order, on a surface. Only their places are stored; all else is computed when it is asked for.
+/// The first particles of an order, on a surface at rest. Only their places are stored; all else is computed when it is asked for.
 #[derive(Clone)]
 pub struct Particles {
     /// The identity of the order on a surface of this shape, however many of its particles have been sampled.
     order: Arc<()>,
     all: Arc<Vec<PackedParticle>>,
     surface: Arc<BodySurface>,
-    /// The vertices of a surface that has changed its shape; none at rest.
-    moved: Option<Arc<Vertices>>,
     count: usize,
 }
 
@@ -32,7 +30,7 @@ impl Particles {
     /// The first `count` of a new order on a surface at rest.
     pub(crate) fn new(surface: &Arc<BodySurface>, all: Arc<Vec<PackedParticle>>, count: usize) -> Self {
         let count = count.min(all.len());
-        Self { order: Arc::new(()), all, surface: Arc::clone(surface), moved: None, count }
+        Self { order: Arc::new(()), all, surface: Arc::clone(surface), count }
     }
 
     /// The first `count` of the same order, if so many have been sampled.
@@ -43,11 +41,6 @@ impl Particles {
     /// The same order with more particles.
     pub(crate) fn continued(&self, all: Arc<Vec<PackedParticle>>, count: usize) -> Self {
         Self { count: count.min(all.len()), all, ..self.clone() }
-    }
-
-    /// The same places on the surface after its vertices have moved; an order of its own.
-    pub(crate) fn posed(&self, vertices: Vertices) -> Self {
-        Self { order: Arc::new(()), moved: Some(Arc::new(vertices)), ..self.clone() }
     }
 
     /// Whether one is the beginning of the other.
@@ -74,11 +67,6 @@ impl Particles {
     #[inline]
     pub fn at(&self, index: usize) -> Particle {
         self.place_on_surface(self.all[..self.count][index])
-    }
-
-    /// One of them where it lies on the surface at rest.
-    pub(crate) fn at_rest(&self, index: usize) -> Particle {
-        self.all[..self.count][index].on(&self.surface.mesh)
     }
 
     /// One of them, if there are so many.
@@ -113,10 +101,6 @@ impl Particles {
 
     #[inline]
     fn place_on_surface(&self, place: PackedParticle) -> Particle {
-        let mesh = &self.surface.mesh;
-        match &self.moved {
-            Some(vertices) => place.on_moved(mesh, &vertices.positions, &vertices.normals),
-            None => place.on(mesh),
-        }
+        place.on(&self.surface.mesh)
     }
 }

@@ -1,7 +1,7 @@
 //! The parts of a body: the largest stroke that each can carry, and its automatic direction.
 
-use glam::DVec3;
-use impasto_core::ScreenMap;
+use glam::{DVec3, Vec3};
+use impasto_core::TriangleMesh;
 use impasto_core::form_size::FormSize;
 use impasto_core::parts::{Part, parts};
 use impasto_core::presence::smoothstep;
@@ -67,9 +67,9 @@ impl BodyParts {
     }
 
     /// The caps, from the reference view at the scene's own size.
-    pub(crate) fn caps(&self, map: &ScreenMap) -> Vec<Cap> {
-        let of_part = |part: &Part| {
-            let scale = px_per_unit(map, part);
+    pub(crate) fn caps(&self, reference: &BodyReference) -> Vec<Cap> {
+        let of_part = |(index, part): (usize, &Part)| {
+            let scale = px_per_unit(reference, index, part);
             let cap = |share: f64, extent: f64| (share * extent * scale).max(LEAST_CAP_PX) as f32;
             Cap {
                 length_px: cap(LENGTH_SHARE, part.extents[0]),
@@ -77,12 +77,32 @@ impl BodyParts {
                 px_per_unit: scale as f32,
             }
         };
-        self.parts.iter().map(of_part).collect()
+        self.parts.iter().enumerate().map(of_part).collect()
+    }
+
+    /// Where the middles of the parts are when the vertices of this mesh are at these positions.
+    pub(crate) fn centers(&self, mesh: &TriangleMesh, positions: &[Vec3]) -> Vec<DVec3> {
+        let mut sums = vec![(DVec3::ZERO, 0.0); self.parts.len()];
+        let middle = |positions: &[Vec3], corners: &[u32; 3]| {
+            corners.iter().map(|&vertex| positions[vertex as usize].as_dvec3()).sum::<DVec3>() / 3.0
+        };
+        for (corners, &part) in mesh.triangles.iter().zip(&self.of_triangle) {
+            // A part is moved as far as its triangles are in the mean, by their areas at rest.
+            let [a, b, c] = corners.map(|vertex| mesh.positions[vertex as usize].as_dvec3());
+            let area = (b - a).cross(c - a).length();
+            let sum = &mut sums[part as usize];
+            sum.0 += (middle(positions, corners) - middle(&mesh.positions, corners)) * area;
+            sum.1 += area;
+        }
+        let moved =
+            |(part, (sum, area)): (&Part, &(DVec3, f64))| part.center + *sum / area.max(f64::MIN_POSITIVE);
+        self.parts.iter().zip(&sums).map(moved).collect()
     }
 
     /// The automatic direction of each part.
     pub(crate) fn directions(&self, reference: &BodyReference) -> Vec<Direction> {
-        self.parts.iter().map(|part| direction_of(part, reference)).collect()
+        let of_part = |(index, part)| direction_of(index, part, reference);
+        self.parts.iter().enumerate().map(of_part).collect()
     }
 }
 
@@ -125,17 +145,19 @@ pub(crate) fn wanted_where_small(kind: LayerKind, share: f32) -> f32 {
 }
 
 /// Pixels per model unit at a part's middle, which counts as at least a quarter of the part's length away from the eye.
-pub(crate) fn px_per_unit(map: &ScreenMap, part: &Part) -> f64 {
+pub(crate) fn px_per_unit(reference: &BodyReference, index: usize, part: &Part) -> f64 {
+    let map = &reference.map;
     let focal = (map.row_x.truncate().length() * map.row_y.truncate().length()).sqrt();
     let parallel = map.row_w.truncate() == DVec3::ZERO;
-    let depth = if parallel { 1.0 } else { map.depth(part.center).max(0.25 * part.extents[0]) };
+    let depth =
+        if parallel { 1.0 } else { map.depth(reference.center(index, part)).max(0.25 * part.extents[0]) };
     let scale = focal / depth;
     if scale.is_finite() && scale > 0.0 { scale } else { 1.0 }
 }
 
-fn direction_of(part: &Part, reference: &BodyReference) -> Direction {
+fn direction_of(index: usize, part: &Part, reference: &BodyReference) -> Direction {
     let size_px = reference.size_px;
-    let scale = px_per_unit(&reference.map, part);
+    let scale = px_per_unit(reference, index, part);
     let gaze = reference.map.row_depth.truncate();
     let [longest, second, least] = part.extents;
     let fills = longest * scale >= BACKDROP_SHARE * f64::from(size_px[0].max(size_px[1]))

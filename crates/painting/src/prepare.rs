@@ -11,7 +11,7 @@ use impasto_scene::loaded::LoadedScene;
 use impasto_scene::{motion, presets};
 use rayon::prelude::*;
 
-use crate::body::BodyNoise;
+use crate::body::{BodyNoise, BodyShape};
 use crate::brushes;
 use crate::cached::Cached;
 use crate::coat::Coat;
@@ -21,10 +21,11 @@ use crate::frame::Brushes;
 use crate::noise_displace::NoiseInputs;
 use crate::object_cache::ObjectCache;
 use crate::order::{OrderInputs, PaintingOrder};
-use crate::painting::{Painting, PreparedBody, shapes};
+use crate::painting::{Painting, PreparedBody};
 use crate::references::{BodyReferences, SceneReferences};
 use crate::regions::{self, BodyGuide, BodyRegions, RegionRule};
 use crate::shadow_bounds;
+use crate::shapes::shapes;
 use crate::surface::SurfaceInputs;
 use crate::view::PictureView;
 use options::{StepClock, fits};
@@ -73,28 +74,28 @@ impl Preparer {
         let inputs = surface_inputs(&loaded)?;
         let mut caches = self.take_caches(scene);
         build(&loaded, &mut caches, &inputs);
-        let views = sample_views(scene);
-        let plain = plain(&loaded, &caches, &views);
+        let (views, frames) = sample_views(scene);
+        let Plain { painting: plain, references: of_body, guides, shapes } =
+            plain(&loaded, &mut caches, &views, &frames);
         clock.lap("surfaces");
         let brushes = self.brushes(&loaded, &plain.rules);
         clock.lap("brushes");
         if give_up() {
             return self.given_up(scene, caches);
         }
-        let Painting { rules, references, reference_shapes, solver, .. } = &plain;
+        let Painting { rules, solver, .. } = &plain;
         let paper = presets::is_paper(scene);
         let context = Context {
             scene,
             rules,
             views: &views,
+            shapes: &shapes,
             brushes: &brushes,
             solver: *solver,
             paper,
             underpainting: scene.style.settings().preparation().underpainting && !paper,
             orthographic: matches!(scene.camera.lens, Lens::Orthographic { .. }),
         };
-        let of_body: Vec<Arc<BodyReferences>> =
-            (0..caches.len()).map(|object| Arc::new(references.of_body(object))).collect();
         let mut bodies = plain.bodies.clone();
         let regions: Vec<Arc<BodyRegions>> = inputs
             .iter()
@@ -107,8 +108,6 @@ impl Preparer {
         for (body, regions) in bodies.iter_mut().zip(&regions) {
             body.regions = Arc::clone(regions);
         }
-        let guides: Vec<Arc<Vec<BodyGuide>>> =
-            scene.objects.iter().map(|object| Arc::new(regions::guides(scene, &object.name))).collect();
         let used: Vec<Arc<Vec<u16>>> = regions.iter().map(|regions| Arc::new(regions.all())).collect();
         let objects: Vec<ObjectInputs<'_>> = (0..caches.len())
             .map(|index| ObjectInputs {
@@ -119,7 +118,6 @@ impl Preparer {
                 guides: &guides[index],
                 references: &of_body[index],
                 caps: &bodies[index].caps,
-                shape: &reference_shapes[index],
             })
             .collect();
         caches.par_iter_mut().zip(&objects).for_each(|(cache, &object)| cache.count(&context, object));
@@ -132,7 +130,6 @@ impl Preparer {
         if give_up() {
             return self.given_up(scene, caches);
         }
-        caches.par_iter_mut().zip(&objects).for_each(|(cache, &object)| cache.pose(object));
         clock.lap("sampling");
         if matches!(solver, Solver::Horn | Solver::HornExact) {
             caches.par_iter_mut().for_each(ObjectCache::find_neighbours);
@@ -177,7 +174,8 @@ impl Preparer {
         let inputs = surface_inputs(loaded)?;
         let mut caches = self.take_caches(&loaded.scene);
         build(loaded, &mut caches, &inputs);
-        let plain = plain(loaded, &caches, &sample_views(&loaded.scene)).in_style(Style::Reference);
+        let (views, frames) = sample_views(&loaded.scene);
+        let plain = plain(loaded, &mut caches, &views, &frames).painting.in_style(Style::Reference);
         self.put_back(&loaded.scene, caches);
         Ok(plain)
     }
@@ -225,37 +223,76 @@ fn build(loaded: &LoadedScene, caches: &mut [ObjectCache], inputs: &[SurfaceInpu
     }
 }
 
-/// A painting without particles, of objects whose surfaces are built.
+/// A painting without particles, and what its particles will be made from.
+struct Plain {
+    painting: Painting,
+    /// For each object, how the references see it.
+    references: Vec<Arc<BodyReferences>>,
+    /// For each object, its guides.
+    guides: Vec<Arc<Vec<BodyGuide>>>,
+    /// For each view, the shapes of all objects.
+    shapes: Vec<Vec<BodyShape>>,
+}
+
+/// Of objects whose surfaces are built.
 fn plain(
     loaded: &Arc<LoadedScene>,
-    caches: &[ObjectCache],
+    caches: &mut [ObjectCache],
     views: &[(PictureView, Vec<DAffine3>)],
-) -> Painting {
+    frames: &[f64],
+) -> Plain {
     let scene = &loaded.scene;
     let style = scene.style.settings().preparation();
     let rules = regions::rules(scene);
     let (palettes, palette_of_rule) = regions::palettes(&rules);
     let references = SceneReferences::of(scene);
+    let noises: Vec<Option<Arc<BodyNoise>>> = caches.iter().map(ObjectCache::noise).collect();
+    let shapes_at = |frame: f64| shapes(loaded, &noises, frame);
+    let of_references: Vec<Vec<BodyShape>> =
+        references.poses.iter().map(|reference| shapes_at(reference.frame)).collect();
+    let mut guides: Vec<Vec<BodyGuide>> =
+        scene.objects.iter().map(|object| regions::guides(scene, &object.name)).collect();
+    let guide_frames = |guides: &[BodyGuide]| -> Vec<f64> {
+        guides.iter().filter_map(|guide| guide.view.as_ref()?.frame).collect()
+    };
+    let mut frames_of_guides: Vec<f64> = guides.iter().flat_map(|guides| guide_frames(guides)).collect();
+    frames_of_guides.sort_by(f64::total_cmp);
+    frames_of_guides.dedup();
+    let of_guides: Vec<Vec<BodyShape>> = frames_of_guides.iter().map(|frame| shapes_at(*frame)).collect();
+    let of_body = caches.iter_mut().zip(&mut guides).enumerate().map(|(object, (cache, guides))| {
+        let all = of_references.iter().chain(&of_guides).map(|shapes| shapes[object].clone());
+        let mut stands = cache.stands(all.collect());
+        let at_guides = stands.split_off(of_references.len());
+        for view in guides.iter_mut().filter_map(|guide| guide.view.as_mut()) {
+            let at = |frame| frames_of_guides.iter().position(|known| *known == frame);
+            view.stands = view.frame.and_then(at).map(|index| at_guides[index].clone()).unwrap_or_default();
+        }
+        Arc::new(references.of_body(object, stands))
+    });
+    let of_body: Vec<Arc<BodyReferences>> = of_body.collect();
+    let shapes: Vec<Vec<BodyShape>> = frames.iter().map(|frame| shapes_at(*frame)).collect();
     let bodies = caches.iter().zip(&scene.objects).enumerate();
     let bodies = bodies.map(|(index, (cache, object))| PreparedBody {
         hidden: object.hidden,
         surface: cache.surface(),
-        caps: cache.parts().caps(&references.of_body(index).own().map),
+        caps: cache.parts().caps(of_body[index].own()),
         least_form: cache.parts().form.least(),
         field: None,
         regions: Arc::default(),
     });
-    let bounds: Vec<_> = caches.iter().map(ObjectCache::bounds).collect();
+    let bodies = bodies.collect();
+    let of_object = |object: usize| shapes.iter().map(|shapes| shapes[object].clone()).collect();
+    let bounds: Vec<_> =
+        caches.iter_mut().enumerate().map(|(object, cache)| cache.bounds(of_object(object))).collect();
     let lit: Vec<_> = caches
         .iter()
         .zip(&scene.objects)
-        .map(|(cache, object)| cache.bounds().filter(|_| !object.hidden && cache.surface().is_lit()))
+        .zip(&bounds)
+        .map(|((cache, object), bounds)| bounds.filter(|_| !object.hidden && cache.surface().is_lit()))
         .collect();
-    let noises: Vec<Option<Arc<BodyNoise>>> = caches.iter().map(ObjectCache::noise).collect();
-    let reference_shapes = shapes(scene, &noises, motion::referred_to(scene, &scene.reference).1);
-    Painting {
+    let painting = Painting {
         loaded: Arc::clone(loaded),
-        bodies: bodies.collect(),
+        bodies,
         coats: Vec::new(),
         palettes: Arc::new(palettes),
         palette_of_rule,
@@ -263,22 +300,25 @@ fn plain(
         finish: FinishRule::new(scene, &style, &references.own().view),
         rules: Arc::new(rules),
         order: Arc::default(),
-        reference_shapes: Arc::new(reference_shapes),
+        bent: Arc::default(),
         noises,
         references: Arc::new(references),
         solver: if presets::is_paper(scene) { Solver::HornExact } else { style.solver },
         style: scene.style.clone(),
         shadow_bounds: shadow_bounds::find(&bounds, &lit, views),
         steps: Vec::new(),
-    }
+    };
+    let guides = guides.into_iter().map(Arc::new).collect();
+    Plain { painting, references: of_body, guides, shapes }
 }
 
 fn surface_inputs(loaded: &LoadedScene) -> Result<Vec<SurfaceInputs>, PrepareError> {
     let objects = &loaded.scene.objects;
     objects
         .iter()
-        .map(|object| {
-            SurfaceInputs::new(loaded, object).ok_or_else(|| PrepareError::MeshMissing {
+        .enumerate()
+        .map(|(index, object)| {
+            SurfaceInputs::new(loaded, index).ok_or_else(|| PrepareError::MeshMissing {
                 object: object.name.clone(),
                 mesh: object.mesh.clone(),
             })
@@ -287,8 +327,8 @@ fn surface_inputs(loaded: &LoadedScene) -> Result<Vec<SurfaceInputs>, PrepareErr
 }
 
 /// Views that stand for the whole timeline: the reference, and up to 17 spread evenly over it, each with the poses of
-/// all objects.
-fn sample_views(scene: &Scene) -> Vec<(PictureView, Vec<DAffine3>)> {
+/// all objects; and the frame of each.
+fn sample_views(scene: &Scene) -> (Vec<(PictureView, Vec<DAffine3>)>, Vec<f64>) {
     let (first, last) = (scene.timeline.first as f64, scene.timeline.last as f64);
     let count = (last - first).clamp(0.0, 16.0) as u32;
     let frames: Vec<f64> =
@@ -298,7 +338,8 @@ fn sample_views(scene: &Scene) -> Vec<(PictureView, Vec<DAffine3>)> {
     let (camera, frame) = motion::referred_to(scene, &scene.reference);
     let reference = (PictureView { pose: camera, size_px }, motion::poses_at(scene, frame));
     let along = frames.iter().map(|frame| (view(frame), motion::poses_at(scene, *frame)));
-    std::iter::once(reference).chain(along).collect()
+    let views = std::iter::once(reference).chain(along).collect();
+    (views, std::iter::once(frame).chain(frames).collect())
 }
 
 #[cfg(test)]

@@ -1,14 +1,20 @@
 //! The references (poses and views in which directions are stated): how they see a point of a body, and the lift of a
 //! particle that follows from that.
 
+use std::sync::Arc;
+
 use glam::{DAffine3, DVec2, DVec3};
 use impasto_core::ScreenMap;
+use impasto_core::bending::CarriedPlace;
 use impasto_core::lift::{Lift, turntable_axes};
+use impasto_core::parts::Part;
 use impasto_core::presence::smoothstep;
-use impasto_core::screen_map::facing;
+use impasto_core::sampling::PackedParticle;
 use impasto_scene::document::{Reference, Scene};
 use impasto_scene::motion;
 
+use crate::bent::Bent;
+use crate::body::BodyShape;
 use crate::view::PictureView;
 
 /// Cosines of the angle between the normal and the direction to the eye. A reference states nothing about surfaces
@@ -21,6 +27,8 @@ const WHOLE: f64 = 0.5;
 pub(crate) struct ReferencePose {
     pub(crate) view: PictureView,
     pub(crate) poses: Vec<DAffine3>,
+    /// The frame of the poses; bodies bend as they do there.
+    pub(crate) frame: f64,
 }
 
 /// All references of a scene.
@@ -43,6 +51,7 @@ impl SceneReferences {
             ReferencePose {
                 view: PictureView { pose: camera, size_px },
                 poses: motion::poses_at(scene, frame),
+                frame,
             }
         };
         let own = std::iter::once(&scene.reference);
@@ -70,8 +79,9 @@ impl SceneReferences {
         &self.poses[0]
     }
 
-    pub(crate) fn of_body(&self, object: usize) -> BodyReferences {
-        let of_pose = |reference: &ReferencePose| {
+    /// As one body sees them; `stands` says how it stands at the frame of each.
+    pub(crate) fn of_body(&self, object: usize, stands: Vec<Standing>) -> BodyReferences {
+        let of_pose = |(reference, stands): (&ReferencePose, Standing)| {
             let pose = reference.poses[object];
             BodyReference {
                 map: reference.view.screen_map(pose),
@@ -79,13 +89,31 @@ impl SceneReferences {
                 roll_sin_cos: reference.view.pose.roll_rad.sin_cos().into(),
                 up_in_model: pose.matrix3.transpose() * DVec3::Y,
                 size_px: reference.view.size_px,
+                stands,
             }
         };
         BodyReferences {
-            all: self.poses.iter().map(of_pose).collect(),
+            all: self.poses.iter().zip(stands).map(of_pose).collect(),
             further: self.further,
             of_rule: self.of_rule.clone(),
         }
+    }
+}
+
+/// How a body stands at the frame of a reference.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Standing {
+    pub(crate) shape: BodyShape,
+    /// `None` at rest.
+    pub(crate) bent: Option<Arc<Bent>>,
+    /// Where the middles of its parts are, model space; empty at rest.
+    pub(crate) centers: Vec<DVec3>,
+}
+
+/// All follows from the shape.
+impl PartialEq for Standing {
+    fn eq(&self, other: &Self) -> bool {
+        self.shape == other.shape
     }
 }
 
@@ -100,6 +128,7 @@ pub(crate) struct BodyReference {
     pub(crate) up_in_model: DVec3,
     /// Width and height of the scene's picture.
     pub(crate) size_px: [u32; 2],
+    pub(crate) stands: Standing,
 }
 
 /// All references as one body sees them.
@@ -110,11 +139,15 @@ pub(crate) struct BodyReferences {
     of_rule: Vec<u16>,
 }
 
-/// A point of a body's surface, with its rule and its part.
+/// A point of a body's surface at rest, with its rule and its part.
 #[derive(Clone, Copy)]
 pub(crate) struct SurfacePoint {
+    /// Where on which triangle.
+    pub(crate) place: PackedParticle,
     /// Model space.
     pub(crate) position: DVec3,
+    /// How far it lies off the surface, model units.
+    pub(crate) height: f64,
     /// Unit, model space.
     pub(crate) normal: DVec3,
     pub(crate) rule: usize,
@@ -142,7 +175,18 @@ pub(crate) struct FacingReference {
     lift: Lift,
     /// How far it states the direction, 0..=1; 1 where it faces the point well.
     pub(crate) share: f64,
+    /// Pulled back to the surface at rest.
     pub(crate) jacobian: [DVec3; 2],
+}
+
+/// How a reference sees a point, whether or not it faces it.
+struct Seen {
+    /// Where the point is at the reference's frame, model space.
+    position: DVec3,
+    /// Pulled back to the surface at rest: pixels per step there.
+    jacobian: [DVec3; 2],
+    /// Cosine between the normal and the direction to the eye.
+    facing: f64,
 }
 
 impl BodyReferences {
@@ -163,13 +207,14 @@ impl BodyReferences {
         point: SurfacePoint,
         horn: impl FnOnce(&BodyReference) -> Option<Option<Lift>>,
     ) -> Views {
-        let SurfacePoint { position, normal, rule, .. } = point;
+        let SurfacePoint { normal, rule, .. } = point;
         let own = self.of_rule(rule);
-        let jacobian = own.map.jacobian(position);
+        let seen = own.seen(point);
+        let jacobian = seen.jacobian;
         let px_per_unit = jacobian[0].cross(jacobian[1]).length().sqrt();
         let axes = turntable_axes(normal, own.up_in_model);
         let [sin, cos] = own.roll_sin_cos;
-        let mut facing = [own.facing_with(jacobian, position, normal), None];
+        let mut facing = [own.facing_with(&seen, normal), None];
         if let Some(first) = &mut facing[0]
             && let Some(lift) = horn(own)
         {
@@ -181,7 +226,7 @@ impl BodyReferences {
         if facing[0].is_none_or(|first| first.share < 1.0) {
             let others = self.all[1..=self.further].iter().filter(|other| !std::ptr::eq(*other, own));
             facing[1] = others
-                .filter_map(|other| other.facing(position, normal))
+                .filter_map(|other| other.facing_with(&other.seen(point), normal))
                 .max_by(|a, b| a.share.total_cmp(&b.share));
         }
         Views {
@@ -196,13 +241,34 @@ impl BodyReferences {
 }
 
 impl BodyReference {
-    /// This reference, if it faces a point.
-    fn facing(&self, position: DVec3, normal: DVec3) -> Option<FacingReference> {
-        self.facing_with(self.map.jacobian(position), position, normal)
+    /// Where a place of the surface is at the reference's frame, model space, and F there.
+    pub(crate) fn carried(&self, place: PackedParticle) -> Option<CarriedPlace> {
+        self.stands.bent.as_ref().map(|bent| bent.place(place))
     }
 
-    fn facing_with(&self, jacobian: [DVec3; 2], position: DVec3, normal: DVec3) -> Option<FacingReference> {
-        let share = f64::from(smoothstep(((facing(jacobian, normal) - NONE) / (WHOLE - NONE)) as f32));
+    /// Where the middle of a part is at the reference's frame, model space.
+    pub(crate) fn center(&self, index: usize, part: &Part) -> DVec3 {
+        self.stands.centers.get(index).copied().unwrap_or(part.center)
+    }
+
+    fn seen(&self, point: SurfacePoint) -> Seen {
+        let Some(carried) = self.carried(point.place) else {
+            let jacobian = self.map.jacobian(point.position);
+            return Seen {
+                position: point.position,
+                jacobian,
+                facing: self.map.facing(jacobian, point.normal),
+            };
+        };
+        let normal = carried.normal(point.normal);
+        let position = carried.position + normal * point.height;
+        let jacobian = self.map.jacobian(position);
+        Seen { position, jacobian: carried.pulled_back(jacobian), facing: self.map.facing(jacobian, normal) }
+    }
+
+    fn facing_with(&self, seen: &Seen, normal: DVec3) -> Option<FacingReference> {
+        let &Seen { position, jacobian, facing } = seen;
+        let share = f64::from(smoothstep(((facing - NONE) / (WHOLE - NONE)) as f32));
         if self.map.depth(position) <= self.near || share.is_nan() || share <= 0.0 {
             return None;
         }

@@ -15,6 +15,7 @@ use impasto_scene::presets::{self, ResolvedStrokes};
 
 use crate::frame::{ANY_COLOR, Palette};
 use crate::lights::linear;
+use crate::references::Standing;
 
 /// A dab touches a surface only where the cosine between their normals is above this.
 const DAB_FACING: f32 = 0.0;
@@ -57,7 +58,17 @@ pub(crate) struct BodyGuide {
     pub(crate) rule: u16,
     pub(crate) mode: GuideMode,
     pub(crate) guide: SurfaceGuide,
-    pub(crate) view: Option<[DVec3; 2]>,
+    pub(crate) view: Option<BodyGuideView>,
+}
+
+/// Where a guide was looked at from, model space.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct BodyGuideView {
+    pub(crate) eye: DVec3,
+    pub(crate) target: DVec3,
+    pub(crate) frame: Option<f64>,
+    /// How the body stands at that frame; at rest without a frame.
+    pub(crate) stands: Standing,
 }
 
 /// The guides of an object, in the order of the file; those without a direction are left out (`check` refuses them).
@@ -72,7 +83,12 @@ pub(crate) fn guides(scene: &Scene, object: &str) -> Vec<BodyGuide> {
                     rule: rule as u16,
                     mode: guide.mode,
                     guide: surface,
-                    view: guide.view.as_ref().map(|view| [view.eye, view.target].map(DVec3::from)),
+                    view: guide.view.as_ref().map(|view| BodyGuideView {
+                        eye: view.eye.into(),
+                        target: view.target.into(),
+                        frame: view.frame,
+                        stands: Standing::default(),
+                    }),
                 }));
             }
         }

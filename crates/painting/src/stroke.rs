@@ -6,7 +6,6 @@ use impasto_core::angle::wrap_pi;
 use impasto_core::hash;
 use impasto_core::lift::PixelMap2;
 use impasto_core::presence::{self, smoothstep};
-use impasto_core::screen_map::facing;
 use impasto_core::solve::SolvedParticle;
 use impasto_scene::document::{Edges, Solver};
 use impasto_scene::presets::{LayerKind, ResolvedLayer, ResolvedStrokes};
@@ -92,9 +91,9 @@ impl PaintingView<'_> {
             return None;
         }
         let position = coat_view.baked.position_of(index);
-        let normal = coat_view.baked.normal_of(index);
+        let normal = coat_view.normal(index);
         let jacobian = coat_view.map.jacobian(position);
-        let facing = facing(jacobian, normal) as f32;
+        let facing = coat_view.map.facing(jacobian, normal) as f32;
         if facing <= 0.0 {
             return None;
         }
@@ -106,7 +105,7 @@ impl PaintingView<'_> {
         }
         let lift = match self.painting.solver {
             Solver::Tangent => coat_view.baked.lift_of(index),
-            Solver::Horn | Solver::HornExact => coat.lift_sources.surface_lift(index, region),
+            Solver::Horn | Solver::HornExact => coat_view.surface_lift(index),
         };
         let map: PixelMap2 = lift.map(jacobian);
         let angle_rad = along_contour(
@@ -172,7 +171,7 @@ impl PaintingView<'_> {
             mark: brushes::mark(&coat.first_marks[region as usize], entry.particle, bits),
             paint: chance.paint(layer, strokes.size_jitter > 0.0, boldness),
             mixing: mixing(strokes, boldness, self.painting.palette_of_rule[region as usize]),
-            normal_in_world: (coat_view.world_from_model.matrix3 * normal)
+            normal_in_world: (coat_view.world_from_model.matrix3.inverse().transpose() * normal)
                 .normalize_or_zero()
                 .as_vec3()
                 .to_array(),

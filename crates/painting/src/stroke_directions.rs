@@ -1,7 +1,6 @@
 //! The directions of strokes without their paint, for an editor: a few of the body layer, spread over the picture.
 
 use glam::DVec3;
-use impasto_core::screen_map::facing;
 use impasto_core::solve::SolvedParticles;
 use impasto_scene::document::Solver;
 use impasto_scene::motion::CameraPose;
@@ -41,9 +40,9 @@ pub struct StrokeDirection {
 pub struct SurfacePlace {
     /// Index of the object in the scene.
     pub object: usize,
-    /// Model space: the object's fixed `scale` is applied, its keys are not.
+    /// Model space, on the surface at rest: the object's fixed `scale` is applied, its keys are not.
     pub position: DVec3,
-    /// Unit normal, model space.
+    /// Unit normal there.
     pub normal: DVec3,
     /// Only strokes within this distance count, model units.
     pub radius: f64,
@@ -113,8 +112,10 @@ impl Painting {
         let coat = view.coats.first()?;
         let (mut nearest, mut least_sq) = (None, place.radius * place.radius);
         for index in 0..coat.baked.len() {
-            let distance_sq = coat.baked.position_of(index).distance_squared(place.position);
-            if distance_sq <= least_sq && coat.baked.normal_of(index).dot(place.normal) > LEAST_COSINE {
+            let distance_sq = coat.at_rest(index).distance_squared(place.position);
+            if distance_sq <= least_sq
+                && coat.coat.baked.baked.normal_of(index).dot(place.normal) > LEAST_COSINE
+            {
                 (nearest, least_sq) = (Some(index), distance_sq);
             }
         }
@@ -135,11 +136,11 @@ impl Painting {
     ) -> Vec<StrokeDirection> {
         let view = self.view(camera, frame, options, |coat| place.is_on(coat));
         let Some(coat) = view.coats.first() else { return Vec::new() };
-        let (solved, baked) = (coat.all_solved(), &coat.baked);
+        let solved = coat.all_solved();
         let is_near = |index: &usize| {
-            let distance_sq = baked.position_of(*index).distance_squared(place.position);
+            let distance_sq = coat.at_rest(*index).distance_squared(place.position);
             distance_sq < place.radius * place.radius
-                && baked.normal_of(*index).dot(place.normal) > LEAST_COSINE
+                && coat.coat.baked.baked.normal_of(*index).dot(place.normal) > LEAST_COSINE
                 && solved.area_px[*index] > 0.0
                 && view.is_between(solved.depth[*index])
         };
@@ -183,7 +184,7 @@ impl PaintingView<'_> {
             angle_rad: 0.0,
             kappa: 0.0,
             depth: solved.depth[index],
-            facing: facing(jacobian, coat.baked.normal_of(index)) as f32,
+            facing: coat.map.facing(jacobian, coat.normal(index)) as f32,
         }
     }
 
@@ -193,14 +194,14 @@ impl PaintingView<'_> {
     }
 
     fn shown_direction(&self, coat: &CoatView<'_>, index: usize) -> ShownDirection {
-        let (position, normal) = (coat.baked.position_of(index), coat.baked.normal_of(index));
+        let (position, normal) = (coat.baked.position_of(index), coat.normal(index));
         let jacobian = coat.map.jacobian(position);
         let region = coat.coat.traits.region(index);
         let contour = self.strokes_of(region).contour;
-        let facing = facing(jacobian, normal) as f32;
+        let facing = coat.map.facing(jacobian, normal) as f32;
         let lift = match self.painting.solver {
             Solver::Tangent => coat.baked.lift_of(index),
-            Solver::Horn | Solver::HornExact => coat.coat.lift_sources.surface_lift(index, region),
+            Solver::Horn | Solver::HornExact => coat.surface_lift(index),
         };
         let angle_rad = self.angle_rad(coat, index, &coat.solved(index));
         ShownDirection {

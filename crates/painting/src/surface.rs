@@ -4,20 +4,22 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use glam::{DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 use impasto_core::TriangleMesh;
+use impasto_core::bending::Vertices;
 use impasto_core::color::{linear_from_srgb, srgb_from_linear};
 use impasto_core::sampling::Particle;
 use impasto_core::shells::sides;
-use impasto_scene::document::{Color, MaterialOverride, Object, Scale, Up};
+use impasto_scene::document::{Color, MaterialOverride, Rest, Scale, Up};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::mesh_file::{MeshFile, Sampler, Texture};
-use impasto_scene::morph::{self, MorphTarget};
+use impasto_scene::point_cache::PointCache;
 use rayon::prelude::*;
 
-use crate::body::{BodyMaterial, BodyShape, BodySurface, Vertices};
+use crate::bent::{BodyBend, BodyCache};
+use crate::body::{BodyMaterial, BodyShape, BodySurface};
 use crate::lights::linear;
-use crate::noise_displace;
+use crate::shapes::{BodyShapes, file_bend};
 
 /// What a body's surface depends on.
 #[derive(Clone, Debug)]
@@ -29,6 +31,9 @@ pub(crate) struct SurfaceInputs {
     material: Option<MaterialOverride>,
     texture: Option<Arc<Texture>>,
     morph: Option<Arc<MeshFile>>,
+    cache: Option<Arc<PointCache>>,
+    /// The shape in which strokes are laid; without a pose and a frame, as the file has it.
+    rest: BodyShape,
 }
 
 impl PartialEq for SurfaceInputs {
@@ -42,6 +47,8 @@ impl PartialEq for SurfaceInputs {
         Arc::ptr_eq(&self.file, &other.file)
             && same(self.texture.as_ref(), other.texture.as_ref())
             && same(self.morph.as_ref(), other.morph.as_ref())
+            && same(self.cache.as_ref(), other.cache.as_ref())
+            && self.rest == other.rest
             && self.group == other.group
             && self.scale == other.scale
             && self.up == other.up
@@ -51,7 +58,8 @@ impl PartialEq for SurfaceInputs {
 
 impl SurfaceInputs {
     /// `None` when the mesh was not read.
-    pub(crate) fn new(loaded: &LoadedScene, object: &Object) -> Option<Self> {
+    pub(crate) fn new(loaded: &LoadedScene, index: usize) -> Option<Self> {
+        let object = &loaded.scene.objects[index];
         let texture_name = object.material.as_ref().and_then(|material| material.texture.as_ref());
         Some(Self {
             file: Arc::clone(loaded.meshes.get(&object.mesh)?),
@@ -62,6 +70,13 @@ impl SurfaceInputs {
             material: object.material.clone().map(|over| MaterialOverride { noise_displace: None, ..over }),
             texture: texture_name.and_then(|name| loaded.textures.get(name)).map(Arc::clone),
             morph: object.morph.as_ref().and_then(|name| loaded.meshes.get(name)).map(Arc::clone),
+            cache: object.cache.as_ref().and_then(|name| loaded.caches.get(name)).map(Arc::clone),
+            rest: match object.rest {
+                Rest::Bind => BodyShape::default(),
+                Rest::Frame(frame) => {
+                    BodyShapes::at(loaded, frame as f64).of(index, file_bend(loaded, object))
+                }
+            },
         })
     }
 
@@ -91,14 +106,25 @@ impl SurfaceInputs {
     pub(crate) fn build(&self) -> BodySurface {
         let mesh = placed(self.chosen(&self.file.mesh), self.scale, self.up);
         let materials = self.file.materials.iter().map(|material| self.material_of(material)).collect();
-        // The scene's check refuses morphs of another topology.
-        let target = self.morph.as_ref().and_then(|target| morph::target_of(&self.file, target).ok());
-        let morph = target.map(|MorphTarget { positions, normals }| {
-            let moved = TriangleMesh { positions, normals, ..self.file.mesh.clone() };
-            let TriangleMesh { positions, normals, .. } = placed(self.chosen(&moved), self.scale, self.up);
-            MorphTarget { positions, normals }
-        });
-        BodySurface { sides: sides(&mesh), mesh, morph, materials }
+        let model_from_file = DMat3::from_diagonal(self.scale.0.into()) * self.up.y_up_from_file();
+        let mut bending = BodyBend::default();
+        if !mesh.triangles.is_empty() {
+            let cache = self.cache.as_ref().zip(self.file.points.as_ref()).map(|(cache, points)| BodyCache {
+                cache: Arc::clone(cache),
+                points: Arc::clone(points),
+                model_from_file,
+            });
+            bending = BodyBend::new(&self.file, self.morph.as_deref(), cache, model_from_file);
+        }
+        let mut surface = BodySurface { sides: Vec::new(), mesh, bending, materials };
+        if surface.bends() && self.rest != BodyShape::default() {
+            let Vertices { positions, normals } = surface.vertices_at(&self.rest);
+            (surface.mesh.positions, surface.mesh.normals) = (positions, normals);
+            // What was measured was the mesh of the file.
+            surface.bending = surface.bending.resting(self.rest.clone());
+        }
+        surface.sides = sides(&surface.mesh);
+        surface
     }
 
     /// The whole mesh, or the triangles of the object's group.
@@ -175,55 +201,6 @@ impl BodySurface {
             material.is_none_or(|material| !material.unlit)
         };
         (0..self.mesh.triangles.len()).any(is_lit)
-    }
-
-    /// The vertices of the surface in this shape.
-    pub(crate) fn vertices_at(&self, shape: &BodyShape) -> Vertices {
-        let morphed = self.morphed(shape.morph);
-        match shape.displacing() {
-            Some((noise, lookup)) => noise_displace::displaced(&self.mesh, &morphed, noise, lookup),
-            None => morphed,
-        }
-    }
-
-    /// Positions of the vertices of the surface in this shape.
-    pub fn positions_at(&self, shape: &BodyShape) -> Vec<Vec3> {
-        if self.is_at_rest(shape) { self.mesh.positions.clone() } else { self.vertices_at(shape).positions }
-    }
-
-    /// The vertices at a share of the morph, 0..=1.
-    fn morphed(&self, morph: f64) -> Vertices {
-        let Some(target) = &self.morph else {
-            return Vertices { positions: self.mesh.positions.clone(), normals: self.mesh.normals.clone() };
-        };
-        let mix = |from: &[Vec3], to: &[Vec3]| -> Vec<Vec3> {
-            from.iter().zip(to).map(|(from, to)| from.lerp(*to, morph as f32)).collect()
-        };
-        let normals = mix(&self.mesh.normals, &target.normals);
-        let unit = normals.iter().zip(&self.mesh.normals);
-        Vertices {
-            positions: mix(&self.mesh.positions, &target.positions),
-            normals: unit.map(|(normal, usual)| normal.try_normalize().unwrap_or(*usual)).collect(),
-        }
-    }
-
-    /// Whether the surface in this shape is the unchanged mesh.
-    pub fn is_at_rest(&self, shape: &BodyShape) -> bool {
-        (self.morph.is_none() || shape.morph == 0.0) && shape.displacing().is_none()
-    }
-
-    /// Particles of the mesh, moved to the surface in this shape.
-    pub(crate) fn posed(&self, particles: &[Particle], shape: &BodyShape) -> Vec<Particle> {
-        let Vertices { positions, normals } = self.vertices_at(shape);
-        particles.iter().map(|particle| particle.on(&self.mesh, &positions, &normals)).collect()
-    }
-
-    /// Least and greatest corner of the box round the surface, whatever its morph.
-    pub(crate) fn bounds(&self) -> Option<(Vec3, Vec3)> {
-        let (low, high) = self.mesh.bounds()?;
-        let Some(target) = &self.morph else { return Some((low, high)) };
-        let used = self.mesh.triangles.iter().flatten().map(|&vertex| target.positions[vertex as usize]);
-        Some(used.fold((low, high), |(low, high), at| (low.min(at), high.max(at))))
     }
 
     /// Centre and length of the diagonal of the mesh's own bounds, model space.

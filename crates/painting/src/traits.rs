@@ -148,7 +148,7 @@ impl Traits {
     #[inline]
     pub(crate) fn form(&self, particle: usize) -> f32 {
         self.form.at(particle, || {
-            let at_rest = self.particles.at_rest(particle);
+            let at_rest = self.particles.at(particle);
             self.parts.form.at(at_rest.position, at_rest.normal)
         })
     }
@@ -208,7 +208,10 @@ impl TraitInputs {
             regions: Arc::clone(object.regions),
             name_hash: context.name_hash(object.index, kind),
             fits: object.used.iter().any(|&rule| fit_of(kind, rules[usize::from(rule)].strokes.fit) > 0.0),
-            scales: parts.parts.iter().map(|part| px_per_unit(&own.map, part) * scale).collect(),
+            scales: {
+                let of_part = |(index, part)| px_per_unit(own, index, part) * scale;
+                parts.parts.iter().enumerate().map(of_part).collect()
+            },
             rules: of_rule,
             parts: Arc::clone(parts),
         }

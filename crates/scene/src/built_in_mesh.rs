@@ -45,7 +45,7 @@ pub fn of_name(name: &str) -> Option<MeshFile> {
     };
     let material = Material::plain("ground".to_owned(), [0.42, 0.40, 0.35]);
     let groups = groups.iter().map(|&group| group.to_owned()).collect();
-    Some(MeshFile { mesh, groups, materials: vec![material] })
+    Some(MeshFile::still(mesh, groups, vec![material]))
 }
 
 /// Rings of quads round a middle, the outermost uneven.

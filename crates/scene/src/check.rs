@@ -10,6 +10,7 @@ use std::sync::Arc;
 use crate::document::{Number, Scene};
 use crate::limits;
 use crate::mesh_file::MeshFile;
+use crate::point_cache::PointCache;
 use crate::problem::Severity;
 
 mod mesh_names;
@@ -50,19 +51,25 @@ pub fn check(scene: &Scene) -> Vec<Finding> {
 /// Checks the document against its meshes, which are listed by the path written in the document: groups and materials
 /// exist, guides lie on the surface, morphs have equal topology. A mesh that is not listed is skipped; the failure to
 /// read it was reported before.
-pub fn check_with_meshes(scene: &Scene, meshes: &BTreeMap<String, Arc<MeshFile>>) -> Vec<Finding> {
-    check_anew(scene, meshes, &Known::default())
+pub fn check_with_meshes(
+    scene: &Scene,
+    meshes: &BTreeMap<String, Arc<MeshFile>>,
+    caches: &BTreeMap<String, Arc<PointCache>>,
+) -> Vec<Finding> {
+    check_anew(scene, meshes, caches, &Known::default())
 }
 
 /// Like [`check_with_meshes`], but skips what is known to be right.
 pub(crate) fn check_anew(
     scene: &Scene,
     meshes: &BTreeMap<String, Arc<MeshFile>>,
+    caches: &BTreeMap<String, Arc<PointCache>>,
     known: &Known,
 ) -> Vec<Finding> {
     let mut findings = Findings::default();
     mesh_names::check(scene, meshes, &mut findings);
     on_meshes::check(scene, meshes, known, &mut findings);
+    on_meshes::check_caches(scene, meshes, caches, &mut findings);
     findings.done()
 }
 
@@ -192,6 +199,15 @@ impl Findings {
             self.error(field_path, message, "give it a shorter name");
         } else if name.chars().any(char::is_control) {
             self.error(field_path, "the name holds a control character", "use letters, digits and spaces");
+        }
+    }
+
+    /// Checks the number of a frame.
+    fn frame(&mut self, field_path: &str, frame: f64) {
+        if !within(frame, limits::MAX_FRAME) {
+            let limit = short(limits::MAX_FRAME);
+            let mend = format!("give a number from -{limit} to {limit}");
+            self.error(field_path, format!("{} is no frame", short(frame)), mend);
         }
     }
 

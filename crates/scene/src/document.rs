@@ -333,6 +333,12 @@ pub struct Object {
     /// Path of a mesh of equal topology that keys may turn this one into.
     #[serde(default, skip_serializing_if = "is_default")]
     pub morph: Option<String>,
+    /// Path of a PC2 point cache with as many points as the mesh file: where they are, frame by frame, in the mesh file's own space.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub cache: Option<String>,
+    /// The shape in which strokes are laid and sized; what is combed in another is carried back to it.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub rest: Rest,
     /// Overrides the materials of the mesh file.
     #[serde(default, skip_serializing_if = "is_default")]
     pub material: Option<MaterialOverride>,
@@ -347,7 +353,17 @@ pub struct Object {
     pub locked: bool,
 }
 
-/// Static scale: in the file one number, or `(x, y, z)`.
+/// The shape of a body that bends in which strokes are laid.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+pub enum Rest {
+    /// The shape that the mesh file has without any motion.
+    #[default]
+    Bind,
+    /// Its shape at this frame.
+    Frame(i64),
+}
+
+/// A scale along three axes: in the file one number, or `(x, y, z)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scale(pub [f64; 3]);
 
@@ -387,9 +403,9 @@ pub struct ObjectKey {
     /// Euler angles in degrees: about X first, then Y, then Z; interpolated as numbers, so 0 to 720 is two turns.
     #[serde(default, skip_serializing_if = "is_default")]
     pub rotation_deg: [f64; 3],
-    /// Scale, from 0.001 to 1000; children scale with it.
-    #[serde(default = "one", skip_serializing_if = "is_one")]
-    pub scale: f64,
+    /// Scale along the object's own axes, each from 0.001 to 1000; children scale with it.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub scale: Scale,
     /// How far the mesh has turned into the object's `morph`, from 0, not at all, to 1, wholly.
     #[serde(default, skip_serializing_if = "is_default")]
     pub morph: f64,
@@ -410,6 +426,8 @@ impl Object {
             scale: Scale::default(),
             up: Up::default(),
             morph: None,
+            cache: None,
+            rest: Rest::default(),
             material: None,
             hold: one_frame(),
             keys: Vec::new(),
@@ -428,7 +446,37 @@ impl ObjectKey {
     /// A key with the identity pose.
     pub fn at(frame: f64) -> Self {
         let ease = Ease::default();
-        Self { frame, translation: [0.0; 3], rotation_deg: [0.0; 3], scale: 1.0, morph: 0.0, ease }
+        Self {
+            frame,
+            translation: [0.0; 3],
+            rotation_deg: [0.0; 3],
+            scale: Scale::default(),
+            morph: 0.0,
+            ease,
+        }
+    }
+}
+
+impl Scale {
+    /// The same along all axes.
+    pub fn even(scale: f64) -> Self {
+        Self([scale; 3])
+    }
+
+    /// The scale that leaves as much room: the geometric mean of the three.
+    pub fn mean(self) -> f64 {
+        let [x, y, z] = self.0;
+        if x == y && y == z { x } else { (x * y * z).cbrt() }
+    }
+
+    /// With each factor made tidy by `tidy` after it was multiplied.
+    pub fn times(self, factor: f64, tidy: impl Fn(f64) -> f64) -> Self {
+        Self(self.0.map(|scale| tidy(scale * factor)))
+    }
+
+    /// The scale as a matrix.
+    pub fn matrix(self) -> glam::DMat3 {
+        glam::DMat3::from_diagonal(glam::DVec3::from(self.0))
     }
 }
 

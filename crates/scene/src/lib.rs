@@ -18,6 +18,7 @@ pub mod motion;
 mod nearest;
 pub mod new_scene;
 pub mod obj;
+pub mod point_cache;
 pub mod presets;
 pub mod problem;
 pub mod save;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::assets::{AssetFolders, AssetRequest};
+use crate::assets::{self, AssetFolders, AssetRequest};
 use crate::built_in_mesh;
 use crate::check::{self, Finding};
 use crate::document::{Brought, Lost, Scene, Up};
@@ -13,6 +13,7 @@ use crate::locate::Located;
 use crate::mesh_file::{MeshFile, Texture};
 use crate::mesh_format::{self, MeshRead, MeshReader};
 use crate::new_scene::{NewScene, Placing};
+use crate::point_cache::PointCache;
 use crate::problem::{Problem, Report, Severity};
 use crate::shot::{Choice, Shot};
 
@@ -90,7 +91,7 @@ pub fn load_brush(path: &Path) -> Result<Texture, Report> {
 /// Where the file cannot be used; all its problems, warnings included.
 pub fn load_mesh(path: &Path, folders: &AssetFolders) -> Result<(MeshFile, Vec<Problem>), Report> {
     source::check_regular(path).map_err(|problem| Report(vec![problem]))?;
-    let (mesh, warnings) = MeshReader::default().read(path, None, folder_of(path), folders)?;
+    let (mesh, warnings) = MeshReader::default().read(path, None, (folder_of(path), folders), false)?;
     Ok((Arc::unwrap_or_clone(mesh), warnings))
 }
 
@@ -115,7 +116,7 @@ fn load_alone(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report>
         let (shot, _) = Shot::new(file, &name, &Choice::default());
         if shot.has_camera() {
             // What cannot be read is told of when the scene is.
-            let read = |node| made.reader.read(path, Some(node), root, &options.folders).ok();
+            let read = |node| made.reader.read(path, Some(node), (root, &options.folders), false).ok();
             let meshes: Vec<Arc<MeshFile>> =
                 shot.object_names().filter_map(read).map(|(mesh, _)| mesh).collect();
             let scene = crate::new_scene::for_shot(path, &meshes, &Arc::new(shot));
@@ -129,7 +130,7 @@ fn load_alone(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report>
             made.warnings.push(Problem { severity, ..error_in(path, None, message, mend) });
         }
     }
-    let (mesh, warnings) = made.reader.read(path, None, root, &options.folders)?;
+    let (mesh, warnings) = made.reader.read(path, None, (root, &options.folders), false)?;
     made.warnings.extend(warnings);
     let NewScene { scene, up_is_unsure } = crate::new_scene::for_mesh(path, &mesh, options.placing);
     if up_is_unsure {
@@ -191,23 +192,24 @@ fn finish(
     let own_name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
     let known_mesh = known_mesh.map(|mesh| (own_name, mesh));
     let readers = Readers {
-        mesh: &|name| match &known_mesh {
+        mesh: &|name, with_points| match &known_mesh {
             Some((known, mesh)) if *known == name => Ok((Arc::clone(mesh), Vec::new())),
-            _ => read_mesh(&reader, path, name, &options.folders),
+            _ => read_mesh(&reader, path, name, &options.folders, with_points),
         },
+        cache: &|name| read_cache(path, name, &options.folders),
         texture: &|name| read_texture(path, name, &options.folders).map(shared),
         brush: &|name| read_brush(path, name, &options.folders).map(shared),
     };
     let files = Files::read(&scene, &readers, |problem, field_path| locator.of_file(problem, field_path));
-    let in_meshes = check::check_with_meshes(&scene, &files.meshes);
+    let in_meshes = check::check_with_meshes(&scene, &files.meshes, &files.caches);
     problems.extend(in_meshes.into_iter().map(|finding| locator.problem(finding)));
     let of_files = of_made.into_iter().chain(brought).chain(files.problems).collect();
     sort_and_cap(path, &mut problems, of_files);
     if problems.iter().any(|problem| problem.severity.is_fatal()) {
         return Err(Report(problems));
     }
-    let Files { meshes, textures, brushes, .. } = files;
-    Ok(LoadedScene { path: path.to_owned(), scene, meshes, textures, brushes, warnings: problems })
+    let Files { meshes, caches, textures, brushes, .. } = files;
+    Ok(LoadedScene { path: path.to_owned(), scene, meshes, caches, textures, brushes, warnings: problems })
 }
 
 /// Findings about the document, and warnings about the file of its shot.
@@ -222,7 +224,7 @@ fn enter_shot(reader: &MeshReader, scene_path: &Path, scene: &mut Scene, folders
     let max_bytes = crate::gltf::MAX_FILE_BYTES;
     let request = AssetRequest { name: &name, beside: scene_path, root, max_bytes };
     let at_shot =
-        |error: crate::assets::AssetError| Report(vec![error.to_problem(Severity::Error, scene_path, None)]);
+        |error: assets::AssetError| Report(vec![error.to_problem(Severity::Error, scene_path, None)]);
     let path = folders.find(&request).map_err(at_shot)?;
     if !crate::gltf::is_gltf(&path) {
         let message = format!("{name:?} is no glTF file");
@@ -330,7 +332,13 @@ fn sort_and_cap(path: &Path, problems: &mut Vec<Problem>, mut of_files: Vec<Prob
 }
 
 /// Reads a mesh that the scene names.
-fn read_mesh(reader: &MeshReader, scene: &Path, name: &str, folders: &AssetFolders) -> MeshRead {
+fn read_mesh(
+    reader: &MeshReader,
+    scene: &Path,
+    name: &str,
+    folders: &AssetFolders,
+    with_points: bool,
+) -> MeshRead {
     if name.starts_with(built_in_mesh::PREFIX) {
         let unknown = || {
             let message = format!("there is no mesh {name:?} in the house");
@@ -350,7 +358,19 @@ fn read_mesh(reader: &MeshReader, scene: &Path, name: &str, folders: &AssetFolde
     let path = folders
         .find(&request)
         .map_err(|error| Report(vec![error.to_problem(Severity::Error, scene, None)]))?;
-    reader.read(&path, node, root, folders)
+    reader.read(&path, node, (root, folders), with_points)
+}
+
+/// Opens a point cache that the scene names.
+fn read_cache(scene: &Path, name: &str, folders: &AssetFolders) -> Result<Arc<PointCache>, Problem> {
+    let request = AssetRequest { name, beside: scene, root: folder_of(scene), max_bytes: u64::MAX };
+    let refused = |error: assets::AssetError| error.to_problem(Severity::Error, scene, None);
+    let path = folders.find(&request).map_err(refused)?;
+    if !path.is_file() {
+        return Err(refused(assets::AssetError::NotAFile(path)));
+    }
+    let faulty = |[message, mend]: [String; 2]| error_in(&path, None, message, mend);
+    PointCache::open(&path).map(Arc::new).map_err(faulty)
 }
 
 type PictureRead = Result<(Texture, Vec<Problem>), Problem>;

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use crate::document::Scene;
 use crate::mesh_file::{MeshFile, Texture};
 use crate::mesh_format;
+use crate::point_cache::PointCache;
 use crate::problem::Problem;
 
 /// A scene and the files that it names. `check` has passed: names resolve, numbers are finite and in range, limits
@@ -19,6 +20,8 @@ pub struct LoadedScene {
     pub scene: Scene,
     /// Mesh files, by the path written in the document.
     pub meshes: BTreeMap<String, Arc<MeshFile>>,
+    /// Point caches, by the path written in the document.
+    pub caches: BTreeMap<String, Arc<PointCache>>,
     /// Pictures that materials of the document name, by the path written there.
     pub textures: BTreeMap<String, Arc<Texture>>,
     /// Pictures that serve as brushes, by the path written in the document.
@@ -33,7 +36,8 @@ impl LoadedScene {
     pub fn inputs(&self) -> Vec<PathBuf> {
         let folder = self.path.parent().map(PathBuf::from).unwrap_or_default();
         let meshes = self.meshes.keys().map(|name| mesh_format::file_and_node(name).0);
-        let others = self.textures.keys().chain(self.brushes.keys()).chain(&self.scene.shot);
+        let others =
+            self.textures.keys().chain(self.brushes.keys()).chain(self.caches.keys()).chain(&self.scene.shot);
         let named: BTreeSet<&str> = meshes.chain(others.map(String::as_str)).collect();
         std::iter::once(self.path.clone()).chain(named.into_iter().map(|name| folder.join(name))).collect()
     }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use impasto_core::TriangleMesh;
+use impasto_core::bending::Bend;
 pub use impasto_gltf::{Sampler, Wrap};
 
 /// A mesh with the names and materials of its file.
@@ -14,6 +15,26 @@ pub struct MeshFile {
     pub groups: Vec<String>,
     /// Materials, indexed by `mesh.material_of_triangle`. At least one; faces without `usemtl` use a grey one.
     pub materials: Vec<Material>,
+    /// What bends it: morph targets and joints, in the file's own space.
+    pub bend: Option<Arc<Bend>>,
+    /// The points of the file, where a point cache moves them.
+    pub points: Option<Arc<Points>>,
+}
+
+impl MeshFile {
+    /// A mesh that nothing bends.
+    pub fn still(mesh: TriangleMesh, groups: Vec<String>, materials: Vec<Material>) -> Self {
+        Self { mesh, groups, materials, bend: None, points: None }
+    }
+}
+
+/// The points of a mesh file, in the order of the file: in an OBJ file the `v` lines, in a glTF file the positions of the node.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Points {
+    /// How many there are.
+    pub count: usize,
+    /// The point at which each vertex of the mesh lies.
+    pub of_vertex: Vec<u32>,
 }
 
 /// A material of a mesh file.

@@ -72,18 +72,25 @@ pub(crate) struct MeshReader {
 }
 
 impl MeshReader {
-    /// Reads a mesh file, or one node of it.
-    pub fn read(&self, path: &Path, node: Option<&str>, root: &Path, folders: &AssetFolders) -> MeshRead {
+    /// Reads a mesh file, or one node of it; `with_points` where a point cache moves it.
+    pub fn read(
+        &self,
+        path: &Path,
+        node: Option<&str>,
+        (root, folders): (&Path, &AssetFolders),
+        with_points: bool,
+    ) -> MeshRead {
         if !gltf::is_gltf(path) {
-            return obj::read(path, root, folders).map(|(mesh, warnings)| (Arc::new(mesh), warnings));
+            let read = obj::read_for(path, root, folders, with_points);
+            return read.map(|(mesh, warnings)| (Arc::new(mesh), warnings));
         }
         let (file, warnings) = self.open(path, root, folders)?;
         let Some(node) = node else { return file.whole().map(|mesh| (Arc::new(mesh), warnings)) };
-        let key = file.instance_key(node).map(|key| (one_name(path), key));
+        let key = file.instance_key(node).filter(|_| !with_points).map(|key| (one_name(path), key));
         let known = key.as_ref().and_then(|key| self.instances.borrow().get(key).cloned());
         let mesh = match known {
             Some(mesh) => mesh,
-            None => Arc::new(file.of_node(node)?),
+            None => Arc::new(file.of_node(node, with_points)?),
         };
         if let Some(key) = key {
             self.instances.borrow_mut().insert(key, Arc::clone(&mesh));

@@ -1,17 +1,9 @@
 //! Morph targets: meshes of equal topology that a mesh may turn into.
 
 use glam::Vec3;
+use impasto_core::bending::Vertices;
 
 use crate::mesh_file::MeshFile;
-
-/// Where the vertices of a mesh move to, one entry per vertex of the mesh.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MorphTarget {
-    /// Positions, in the file's coordinates.
-    pub positions: Vec<Vec3>,
-    /// Unit normals.
-    pub normals: Vec<Vec3>,
-}
 
 /// The vertices of `base` with their positions and normals in `target`.
 ///
@@ -20,7 +12,7 @@ pub struct MorphTarget {
 ///
 /// # Errors
 /// A phrase that names the difference, where the topologies differ.
-pub fn target_of(base: &MeshFile, target: &MeshFile) -> Result<MorphTarget, String> {
+pub fn target_of(base: &MeshFile, target: &MeshFile) -> Result<Vertices, String> {
     let (base, target) = (&base.mesh, &target.mesh);
     let counts = |what: &str, here: usize, there: usize| {
         if here == there { Ok(()) } else { Err(format!("{there} {what} instead of {here}")) }
@@ -44,7 +36,7 @@ pub fn target_of(base: &MeshFile, target: &MeshFile) -> Result<MorphTarget, Stri
         }
     }
     let pairs = normals.iter().zip(&base.normals);
-    Ok(MorphTarget {
+    Ok(Vertices {
         normals: pairs.map(|(normal, usual)| normal.try_normalize().unwrap_or(*usual)).collect(),
         positions: positions
             .iter()

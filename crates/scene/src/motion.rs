@@ -7,9 +7,10 @@ mod values;
 use std::collections::HashMap;
 
 use glam::{DAffine3, DMat3, DMat4, DVec3, EulerRot};
+use impasto_core::bending::BendPose;
 use impasto_gltf::Posed;
 
-use crate::document::{CameraKey, Lens, Object, ObjectKey, Reference, Scene};
+use crate::document::{CameraKey, Lens, Object, ObjectKey, Reference, Scale, Scene};
 use span::Span;
 
 pub use values::{background_at, light_at, lights_at, stroke_key_at};
@@ -169,6 +170,33 @@ impl ShotPoses {
     }
 }
 
+/// How the shot bends every object by joints and shape keys, in the order of the file; `None` for those that it does not bend. An object
+/// with keys of its own still bends as the shot has it.
+pub fn bends_at(scene: &Scene, frame: f64) -> Vec<Option<BendPose>> {
+    let Some(shot) = &scene.stage.shot else { return vec![None; scene.objects.len()] };
+    let mut at_frames: Vec<(f64, Posed)> = Vec::new();
+    let bend = |object: &Object| {
+        let held = held_frame(scene, object, frame);
+        if !at_frames.iter().any(|(known, _)| *known == held) {
+            at_frames.push((held, shot.at(held / scene.timeline.fps)));
+        }
+        let (_, posed) = at_frames.iter().find(|(known, _)| *known == held)?;
+        shot.bend_of(posed, &object.name, &object.mesh)
+    };
+    scene.objects.iter().map(bend).collect()
+}
+
+/// Whether joints, shape keys, a morph or a point cache may bend an object.
+pub fn bends(scene: &Scene, object: &Object) -> bool {
+    let by_shot = scene.stage.shot.as_ref().is_some_and(|shot| shot.bends(&object.name, &object.mesh));
+    by_shot || object.cache.is_some() || object.morph.is_some()
+}
+
+/// The frame at which every object shows the samples of its point cache, in the order of the file.
+pub fn cache_frames_at(scene: &Scene, frame: f64) -> Vec<f64> {
+    scene.objects.iter().map(|object| held_frame(scene, object, frame)).collect()
+}
+
 /// The morph weight of every object, in the order of the file: 0 is its own mesh, 1 its morph target.
 pub fn morphs_at(scene: &Scene, frame: f64) -> Vec<f64> {
     let weight = |object: &Object| {
@@ -256,8 +284,11 @@ fn pose_in_parent(keys: &[ObjectKey], frame: f64) -> DAffine3 {
     };
     let (left, right) = (&keys[span.left], &keys[span.right]);
     let rotation = rotation_from_euler_deg(span.mix_vec3(left.rotation_deg, right.rotation_deg));
-    let scale = span.mix(left.scale, right.scale);
-    DAffine3::from_mat3_translation(rotation * scale, span.mix_vec3(left.translation, right.translation))
+    let scale = Scale(span.mix_vec3(left.scale.0, right.scale.0).to_array());
+    // A scale that is even multiplies the rotation as one number does.
+    let [x, y, z] = scale.0;
+    let matrix = if x == y && y == z { rotation * x } else { rotation * scale.matrix() };
+    DAffine3::from_mat3_translation(matrix, span.mix_vec3(left.translation, right.translation))
 }
 
 /// An object's pose at a frame as a key, in its parent's space.
@@ -272,20 +303,24 @@ pub fn key_at(scene: &Scene, object: &Object, frame: f64) -> ObjectKey {
         frame,
         translation: span.mix_vec3(left.translation, right.translation).to_array(),
         rotation_deg: span.mix_vec3(left.rotation_deg, right.rotation_deg).to_array(),
-        scale: span.mix(left.scale, right.scale),
+        scale: Scale(span.mix_vec3(left.scale.0, right.scale.0).to_array()),
         morph: span.mix(left.morph, right.morph),
         ease: left.ease,
     }
 }
 
-/// A pose of a shot as a key: an uneven scale becomes its mean.
+/// A pose of a shot as a key. Shear is lost.
 fn key_of_pose(pose: DAffine3, frame: f64) -> ObjectKey {
-    let scale = pose.matrix3.determinant().abs().cbrt();
-    let rotation = if scale > 0.0 { pose.matrix3 * (1.0 / scale) } else { DMat3::IDENTITY };
+    let [x, y, z] = [pose.matrix3.x_axis, pose.matrix3.y_axis, pose.matrix3.z_axis];
+    let scale = DVec3::new(x.length(), y.length(), z.length());
+    let axes = DMat3::from_cols(x / scale.x, y / scale.y, z / scale.z);
+    let rotation = if axes.is_finite() && axes.determinant() > 0.0 { axes } else { DMat3::IDENTITY };
+    let even = scale.max_element() - scale.min_element() < 1e-9 * scale.max_element();
+    let scale = if even { DVec3::splat(pose.matrix3.determinant().abs().cbrt()) } else { scale };
     ObjectKey {
         translation: pose.translation.to_array(),
         rotation_deg: euler_deg_from_rotation(rotation).to_array(),
-        scale: scale.clamp(0.001, 1000.0),
+        scale: Scale(scale.clamp(DVec3::splat(0.001), DVec3::splat(1000.0)).to_array()),
         ..ObjectKey::at(frame)
     }
 }

@@ -14,6 +14,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DMat4};
+use impasto_core::bending::BendPose;
 use impasto_gltf::{Animator, Playing, Posed};
 
 use crate::document::{Brought, Lens, Light, Lost, Object, Scene};
@@ -122,28 +123,7 @@ impl Shot {
             odd.push(["there are no lights: it is lit from one side".to_owned(), mend.to_owned()]);
         }
         shot.mend_light_keys(&mut odd);
-        shot.tell_what_bends(&mut odd);
         (shot, odd)
-    }
-
-    /// Says what bends in the file and does not here.
-    fn tell_what_bends(&self, odd: &mut Vec<[String; 2]>) {
-        let (nodes, meshes) = (&self.file.gltf.nodes, &self.file.gltf.meshes);
-        let bends = |object: &&ShotObject| {
-            let node = &nodes[object.node];
-            node.skin.is_some() || node.mesh.is_some_and(|mesh| meshes[mesh].target_count > 0)
-        };
-        let bending: Vec<&str> =
-            self.objects.iter().filter(bends).map(|object| object.object.name.as_str()).collect();
-        if let Some(first) = bending.first() {
-            let message = match bending.len() {
-                1 => format!("{first} bends by joints or shape keys, and shows as it rests"),
-                many => format!(
-                    "{many} objects bend by joints or shape keys, {first:?} the first of them, and show as they rest"
-                ),
-            };
-            odd.push([message, "only what moves as a whole moves here yet".to_owned()]);
-        }
     }
 
     /// The file.
@@ -212,6 +192,16 @@ impl Brought for Shot {
         }
         let world = posed.world_from_node[object.node];
         Some(DAffine3 { matrix3: world.matrix3 * object.unstretched, translation: world.translation })
+    }
+
+    fn bends(&self, name: &str, mesh: &str) -> bool {
+        let object = self.object_of_name.get(name).map(|&index| &self.objects[index]);
+        object.is_some_and(|object| object.object.mesh == mesh && self.file.bends(object.node))
+    }
+
+    fn bend_of(&self, posed: &Posed, name: &str, mesh: &str) -> Option<BendPose> {
+        let object = self.object_of_name.get(name).filter(|_| self.bends(name, mesh))?;
+        Some(self.file.bend_pose(self.objects[*object].node, posed))
     }
 
     fn changes_visibility(&self) -> bool {

@@ -43,6 +43,17 @@ pub(crate) struct Geometry {
     pub corners: Vec<u32>,
     /// Where the corners of each face end; they begin where those of the face before it end.
     pub ends: Vec<u32>,
+    /// Vertices stay apart even where they agree in all values, since they may part when the mesh bends.
+    pub keeps_vertices: bool,
+}
+
+/// A mesh that was built.
+pub(crate) struct Built {
+    pub mesh: TriangleMesh,
+    /// For each triangle, the number of the face that it was cut from.
+    pub face_of_triangle: Vec<u32>,
+    /// For each vertex of the mesh, that of the [`Geometry`] which it is; empty unless vertices are kept apart.
+    pub source_of_vertex: Vec<u32>,
 }
 
 /// Values that differ in their bits, numbered in the order of their first use.
@@ -190,10 +201,9 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// The mesh, and for each triangle the number of the face that it was cut from. Corners that agree in all values
-    /// are one vertex; vertices are numbered in the order of their first use.
-    pub fn finish(&self) -> (TriangleMesh, Vec<u32>) {
-        let Geometry { positions, uvs, normals, colors, .. } = self.geometry;
+    /// The mesh. Corners that agree in all values are one vertex; vertices are numbered in the order of their first use.
+    pub fn finish(&self) -> Built {
+        let Geometry { positions, uvs, normals, colors, keeps_vertices, .. } = self.geometry;
         let made_normals = self.corner_normals();
         let mut used = self.triangles.iter().flat_map(|triangle| triangle.vertices);
         let has_uvs = used.any(|vertex| uvs[vertex as usize].is_some());
@@ -213,7 +223,8 @@ impl<'a> Builder<'a> {
             let ([x, y, z], [nx, ny, nz]) = (bits(positions[vertex].to_array()), normal);
             let [u, v] = bits(uvs[vertex].unwrap_or_default().to_array());
             let [r, g, b] = colors.get(vertex).copied().unwrap_or_default();
-            let color = u32::from_be_bytes([0, r, g, b]);
+            // Where vertices are kept apart, their number stands for their colour.
+            let color = if *keeps_vertices { vertex as u32 } else { u32::from_be_bytes([0, r, g, b]) };
             let number = vertices.insert_full([x, y, z, u, v, nx, ny, nz, color]).0 as u32;
             last[vertex] = number;
             number
@@ -241,12 +252,23 @@ impl<'a> Builder<'a> {
         }
         if !colors.is_empty() {
             let linear = |vertex: &[u32; 9]| {
-                let [_, r, g, b] = vertex[8].to_be_bytes();
+                let [_, r, g, b] = match keeps_vertices {
+                    true => {
+                        let [r, g, b] = colors[vertex[8] as usize];
+                        [0, r, g, b]
+                    }
+                    false => vertex[8].to_be_bytes(),
+                };
                 Vec3::from([r, g, b].map(|channel| linear_from_srgb(f32::from(channel) / 255.0)))
             };
             mesh.colors = vertices.iter().map(linear).collect();
         }
-        (mesh, self.triangles.iter().map(|triangle| triangle.face).collect())
+        let source_of_vertex = match keeps_vertices {
+            true => vertices.iter().map(|vertex| vertex[8]).collect(),
+            false => Vec::new(),
+        };
+        let face_of_triangle = self.triangles.iter().map(|triangle| triangle.face).collect();
+        Built { mesh, face_of_triangle, source_of_vertex }
     }
 
     /// The file's normals for a triangle, where all three corners have one.

@@ -183,8 +183,11 @@ fn what_is_within_another_body_is_seen_through_it() {
     let ball = |name: &str, scale: f64, tint: [f32; 3], opacity: f64| {
         let mut object = shapes::object(name, 100);
         // The inner ball's middle is nearer to the eye, so bodies cannot be ordered by their middles.
-        object.keys =
-            vec![ObjectKey { translation: [0.0, 0.0, 0.1 - 0.1 * scale], scale, ..ObjectKey::at(0.0) }];
+        object.keys = vec![ObjectKey {
+            translation: [0.0, 0.0, 0.1 - 0.1 * scale],
+            scale: impasto_scene::document::Scale::even(scale),
+            ..ObjectKey::at(0.0)
+        }];
         let surface = SurfaceNoise { layer_count: 1, tint: Color(tint), opacity, ..Default::default() };
         object.material = material(NoiseDisplace { vertex: None, surface: Some(surface), period_secs: None });
         object
@@ -269,7 +272,8 @@ fn what_shines_glows_round_about() {
         let surface = SurfaceNoise { layer_count: 1, intensity: 4.0, bloom, ..Default::default() };
         let mut scene = sheet(surface);
         scene.background = Color([0.0; 3]);
-        scene.objects[0].keys = vec![ObjectKey { scale: 0.3, ..ObjectKey::at(0.0) }];
+        scene.objects[0].keys =
+            vec![ObjectKey { scale: impasto_scene::document::Scale::even(0.3), ..ObjectKey::at(0.0) }];
         drawn(scene, 0.0, &mut renderer)
     };
     let beside = |picture: &Picture| picture.rgba8[((48 * SIDE + 31) * 4) as usize];
@@ -280,6 +284,7 @@ fn what_shines_glows_round_about() {
     let dull = SurfaceNoise { layer_count: 1, intensity: 0.9, bloom: 1.0, ..Default::default() };
     let mut scene = sheet(dull);
     scene.background = Color([0.0; 3]);
-    scene.objects[0].keys = vec![ObjectKey { scale: 0.3, ..ObjectKey::at(0.0) }];
+    scene.objects[0].keys =
+        vec![ObjectKey { scale: impasto_scene::document::Scale::even(0.3), ..ObjectKey::at(0.0) }];
     assert_eq!(beside(&drawn(scene, 0.0, &mut renderer)), 0, "below the threshold nothing glows");
 }

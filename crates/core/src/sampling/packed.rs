@@ -31,6 +31,13 @@ impl PackedParticle {
         (self.triangle_and_side & !FLIPPED) as usize
     }
 
+    /// Weights of the triangle's three corners.
+    #[inline]
+    pub fn weights(self) -> [f32; 3] {
+        let [v, w] = self.barycentric;
+        [1.0 - v - w, v, w]
+    }
+
     /// Unpacks the particle on the mesh that it was sampled on; equal to the bit to the one that was packed.
     #[inline]
     pub fn on(self, mesh: &TriangleMesh) -> Particle {

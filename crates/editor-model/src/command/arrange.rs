@@ -266,7 +266,7 @@ fn shift_motion(scene: &mut Scene, objects: &[String], shift: &Shift) -> Result<
             if !turn.abs_diff_eq(DMat3::IDENTITY, 1e-12) {
                 key.rotation_deg = euler::degrees(turn * euler::matrix(key.rotation_deg), key.rotation_deg);
             }
-            key.scale = tidy(key.scale * factor);
+            key.scale = key.scale.times(factor, tidy);
         }
     }
     Ok(())
@@ -381,8 +381,8 @@ fn set_pose_field(
             if value <= 0.0 {
                 return Err(Refusal::new("A size is a number above 0"));
             }
-            let factor = value / now.scale;
-            object.keys.iter_mut().for_each(|key| key.scale = tidy(key.scale * factor));
+            let factor = value / now.scale.mean();
+            object.keys.iter_mut().for_each(|key| key.scale = key.scale.times(factor, tidy));
             "scale".to_owned()
         }
     };

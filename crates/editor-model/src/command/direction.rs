@@ -322,12 +322,14 @@ fn recapture(scene: &mut Scene, frame: i64) -> Result<Done, Refusal> {
     let old = std::mem::replace(&mut scene.reference, new);
     let (camera, at) = motion::referred_to(scene, &old);
     let poses = motion::poses_at(scene, at);
+    let bends: Vec<bool> = scene.objects.iter().map(|object| motion::bends(scene, object)).collect();
+    let objects = &scene.objects;
     let view_of = |object: Option<&str>| {
-        let index = scene.objects.iter().position(|other| Some(other.name.as_str()) == object)?;
+        let index = objects.iter().position(|other| Some(other.name.as_str()) == object)?;
         let model_from_world = poses[index].inverse();
         let [eye, target] =
             [camera.eye, camera.target].map(|at| model_from_world.transform_point3(at).to_array());
-        Some(GuideView { eye, target })
+        Some(GuideView { eye, target, frame: bends[index].then_some(at) })
     };
     let mut regions = std::mem::take(&mut scene.regions);
     for region in &mut regions {

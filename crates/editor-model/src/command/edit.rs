@@ -260,7 +260,7 @@ fn reparent(scene: &mut Scene, object: &str, parent: Option<&str>, frame: f64) -
         key.translation =
             new_from_old.transform_point3(DVec3::from(key.translation)).map(euler::tidy).to_array();
         key.rotation_deg = euler::degrees(turn * euler::matrix(key.rotation_deg), key.rotation_deg);
-        key.scale = euler::tidy(key.scale * factor);
+        key.scale = key.scale.times(factor, euler::tidy);
     }
     Ok(())
 }

@@ -151,7 +151,7 @@ fn own_keys(scene: &mut Scene, of: &KeyOf) -> Result<Done, Refusal> {
                 keys.push(ObjectKey { frame, rotation_deg, ease: Ease::Linear, ..key });
             }
             let numbers = |key: &ObjectKey| {
-                key.translation.into_iter().chain(key.rotation_deg).chain([key.scale]).collect()
+                key.translation.into_iter().chain(key.rotation_deg).chain(key.scale.0).collect()
             };
             unlocked_object(scene, name)?.keys = thinned(keys, numbers);
         }

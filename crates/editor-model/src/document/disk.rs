@@ -213,9 +213,9 @@ impl Document {
     /// What is wrong with them, in the words to show; then the old ones stay.
     pub fn read_files_again(&mut self) -> Result<Step, Refusal> {
         let scene = self.scene().without_shot();
-        let (meshes, textures, brushes) = Default::default();
+        let (meshes, caches, textures, brushes) = Default::default();
         let (path, warnings) = (self.loaded.path.clone(), Vec::new());
-        let bare = LoadedScene { path, scene: scene.clone(), meshes, textures, brushes, warnings };
+        let bare = LoadedScene { path, scene: scene.clone(), meshes, caches, textures, brushes, warnings };
         let read = bare.with_scene(scene, &self.options.folders).map_err(|report| Refusal::of(&report))?;
         self.preview = None;
         let change = SceneChange::between(self.scene(), &read.scene);

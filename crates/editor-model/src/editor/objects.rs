@@ -198,16 +198,18 @@ fn about_pivot(pivot: DVec3, matrix: DMat3) -> DAffine3 {
 }
 
 fn pose_of(key: &ObjectKey) -> DAffine3 {
-    let matrix = euler::matrix(key.rotation_deg) * key.scale;
+    let matrix = euler::matrix(key.rotation_deg) * key.scale.matrix();
     DAffine3::from_mat3_translation(matrix, DVec3::from(key.translation))
 }
 
 fn key_of(pose: DAffine3, near: &ObjectKey) -> ObjectKey {
-    let scale = pose.matrix3.determinant().cbrt();
+    // What was turned and scaled evenly keeps the ratios of its own scale.
+    let unscaled = pose.matrix3 * near.scale.matrix().inverse();
+    let factor = unscaled.determinant().cbrt();
     ObjectKey {
         translation: pose.translation.map(euler::tidy).to_array(),
-        rotation_deg: euler::degrees(pose.matrix3 * (1.0 / scale), near.rotation_deg),
-        scale: euler::tidy(scale),
+        rotation_deg: euler::degrees(unscaled * (1.0 / factor), near.rotation_deg),
+        scale: near.scale.times(factor, euler::tidy),
         ..near.clone()
     }
 }

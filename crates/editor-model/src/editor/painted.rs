@@ -1,5 +1,6 @@
 //! Answers what the tools ask about the painting: regions and stroke directions under the pointer.
 
+use impasto_core::bending::CarriedPlace;
 use impasto_core::sampling::Particle;
 use impasto_painting::{Painting, SurfacePlace};
 use impasto_scene::motion::CameraPose;
@@ -36,6 +37,11 @@ impl Painted for PaintedView<'_> {
         let is_there = (hit.object) < painting.scene().objects.len();
         let region = is_there.then(|| painting.region_at(hit.object, &place))?;
         (region < painting.scene().regions.len()).then_some(region)
+    }
+
+    fn carried(&self, hit: &Hit, frame: f64) -> Option<CarriedPlace> {
+        let painting = self.painting.filter(|painting| hit.object < painting.scene().objects.len())?;
+        painting.carried(hit.object, &hit.particle(), frame)
     }
 
     fn shown_at(&self, hit: &Hit) -> Option<PaintedDirection> {

@@ -279,6 +279,7 @@ impl Editor {
             loaded: &loaded,
             view,
             poses: &poses,
+            frame: self.session.frame,
             picker: &self.picker,
             options: &self.session.options,
             selection: self.document.selection(),

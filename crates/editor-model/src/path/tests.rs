@@ -290,7 +290,7 @@ fn a_parallel_view_of_a_central_scene_is_seen_from_afar() {
     let reference = own_view();
     let seen = ObjectView::new(&parallel, DAffine3::IDENTITY);
     let middle = DVec3::new(0.4, 0.3, 0.2);
-    let GuideView { eye, target } = seen.guide_view(&reference, middle).unwrap();
+    let GuideView { eye, target, .. } = seen.guide_view(&reference, middle).unwrap();
     let [eye, target] = [eye, target].map(DVec3::from);
     let gaze = (target - eye).normalize();
     assert!((gaze - seen.gaze()).length() < 1e-9 && (middle - eye).normalize().dot(gaze) > 1.0 - 1e-9);
@@ -317,6 +317,7 @@ fn mirror_images_lie_on_the_surface_and_are_seen_from_the_other_side() {
             triangle: 0,
             barycentric: [1.0, 0.0, 0.0],
             position: found,
+            position_now: found,
             normal: found,
             face_normal: found,
             flipped: false,
@@ -327,7 +328,7 @@ fn mirror_images_lie_on_the_surface_and_are_seen_from_the_other_side() {
         assert!((DVec3::from(point.at) - DVec3::from(own.at) * flip).length() < 1e-9);
     }
     assert!(image.points.len() < guide.points.len(), "what has no surface near by is left out");
-    assert_eq!(image.view, Some(GuideView { eye: [-1.0, 0.0, 4.0], target: [0.0; 3] }));
+    assert_eq!(image.view, Some(GuideView { eye: [-1.0, 0.0, 4.0], target: [0.0; 3], frame: None }));
     // The reference looks straight on, so its mirror image is the reference again.
     assert_eq!(mirrored(guide, flip, &own_view(), &own_view(), &mut ball)[0].view, None);
     assert!(mirrored(guide, flip, &side, &own_view(), &mut |_, _, _| None).is_empty());

@@ -14,6 +14,8 @@ pub struct ObjectView {
     pub target: DVec3,
     /// How its rays run.
     pub rays: Rays,
+    /// The frame, for an object that bends.
+    pub frame: Option<f64>,
 }
 
 /// How the rays of a lens run.
@@ -40,7 +42,12 @@ impl ObjectView {
             Lens::Orthographic { .. } => Rays::Parallel,
         };
         let [eye, target] = [camera.eye, camera.target].map(|at| model_from_world.transform_point3(at));
-        Self { eye, target, rays }
+        Self { eye, target, rays, frame: None }
+    }
+
+    /// The same view at a frame, of an object that bends.
+    pub fn at_frame(self, frame: Option<f64>) -> Self {
+        Self { frame, ..self }
     }
 
     /// The view that a guide states if it was drawn here; `None` if this is the reference. `middle` is a point of the
@@ -60,12 +67,12 @@ impl ObjectView {
             (Rays::Central, Rays::Parallel) => [self.eye, middle],
             _ => [self.eye, self.target],
         };
-        Some(GuideView { eye: eye.to_array(), target: target.to_array() })
+        Some(GuideView { eye: eye.to_array(), target: target.to_array(), frame: self.frame })
     }
 
     /// Its mirror image in planes through the object's origin: `flip` has −1 for each mirrored axis, else 1.
     pub fn mirrored(&self, flip: DVec3) -> Self {
-        Self { eye: self.eye * flip, target: self.target * flip, rays: self.rays }
+        Self { eye: self.eye * flip, target: self.target * flip, ..*self }
     }
 
     pub(super) fn gaze(&self) -> DVec3 {
@@ -76,6 +83,9 @@ impl ObjectView {
         let aligned = (self.gaze() - other.gaze()).length() <= SAME;
         let distance = other.eye.distance(other.target);
         let together = self.eye.distance(other.eye) <= SAME * distance;
-        self.rays == other.rays && aligned && (together || self.rays == Rays::Parallel)
+        self.rays == other.rays
+            && self.frame == other.frame
+            && aligned
+            && (together || self.rays == Rays::Parallel)
     }
 }

@@ -1,9 +1,9 @@
 //! The surface of one object for picking: a bounding volume hierarchy over its triangles, in the object's own space.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
-use glam::{DVec3, Vec3, Vec3A};
+use glam::{DMat3, DVec3, Vec3, Vec3A};
 use impasto_core::TriangleMesh;
 use impasto_core::nearest::nearest_point;
 use impasto_core::shells::Side;
@@ -15,7 +15,7 @@ use obvhs::bvh2::builder::build_bvh2;
 use obvhs::ray::RayHit;
 use obvhs::{Boundable, BvhBuildParams};
 
-/// A point of a surface, in the object's own space.
+/// A point of a surface, in the object's own space, **where the surface has it at rest**: what is stated in the document is stated there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
     /// Index of its triangle.
@@ -24,6 +24,8 @@ pub struct SurfacePoint {
     pub barycentric: [f64; 3],
     /// Where.
     pub position: DVec3,
+    /// Where it is now.
+    pub position_now: DVec3,
     /// Smooth normal, unit, of the painted side. A sheet is painted on both sides: there, of the side that was asked
     /// for.
     pub normal: DVec3,
@@ -36,8 +38,15 @@ pub struct SurfacePoint {
 /// A surface with its tree.
 pub(super) struct SurfaceTree {
     surface: Arc<BodySurface>,
-    /// Its morph and noise.
+    /// What bends it, and its noise.
     shape: BodyShape,
+    now: Placed,
+    /// At rest, for a surface that is not; built when it is first needed.
+    rest: OnceLock<Placed>,
+}
+
+/// The triangles of a surface at some places.
+struct Placed {
     positions: Vec<Vec3>,
     tree: Bvh2,
     /// Least and greatest corner.
@@ -53,10 +62,8 @@ impl Boundable for TriangleBox {
     }
 }
 
-impl SurfaceTree {
-    pub(super) fn new(surface: Arc<BodySurface>, shape: BodyShape) -> Self {
-        let positions = surface.positions_at(&shape);
-        let mesh = &surface.mesh;
+impl Placed {
+    fn new(mesh: &TriangleMesh, positions: Vec<Vec3>) -> Self {
         let corners = |triangle: &[u32; 3]| triangle.map(|vertex| positions[vertex as usize]);
         let used = mesh.triangles.iter().flat_map(corners);
         let (low, high) =
@@ -80,7 +87,46 @@ impl SurfaceTree {
         } else {
             build_bvh2(&boxes, BvhBuildParams::very_fast_build(), &mut Duration::default())
         };
-        Self { surface, shape, positions, tree, bounds }
+        Self { positions, tree, bounds }
+    }
+
+    /// Corners of a triangle of the mesh.
+    fn corners(&self, mesh: &TriangleMesh, triangle: u32) -> [DVec3; 3] {
+        mesh.triangles[triangle as usize].map(|vertex| self.positions[vertex as usize].as_dvec3())
+    }
+}
+
+impl SurfaceTree {
+    pub(super) fn new(surface: Arc<BodySurface>, shape: BodyShape) -> Self {
+        let now = Placed::new(&surface.mesh, surface.positions_at(&shape));
+        Self { surface, shape, now, rest: OnceLock::new() }
+    }
+
+    /// The surface at rest.
+    fn rest(&self) -> &Placed {
+        if self.surface.is_at_rest(&self.shape) {
+            return &self.now;
+        }
+        self.rest.get_or_init(|| Placed::new(self.mesh(), self.mesh().positions.clone()))
+    }
+
+    /// Where a point near the surface at rest is now, and the direction that a normal there has.
+    pub(super) fn carried(&self, at_rest: DVec3, normal: DVec3) -> [DVec3; 2] {
+        if self.surface.is_at_rest(&self.shape) {
+            return [at_rest, normal];
+        }
+        let Some((triangle, weights)) = self.nearest(at_rest, f64::INFINITY, |_, _| true) else {
+            return [at_rest, normal];
+        };
+        let (then, now) = (self.rest().corners(self.mesh(), triangle), self.corners(triangle));
+        let frame = |[a, b, c]: [DVec3; 3]| {
+            DMat3::from_cols(b - a, c - a, (b - a).cross(c - a).normalize_or(DVec3::Y))
+        };
+        let gradient = frame(now) * frame(then).inverse();
+        let off = gradient * (at_rest - blend(then, weights));
+        let turned = gradient.inverse().transpose() * normal;
+        let off = if off.is_finite() { off } else { DVec3::ZERO };
+        [blend(now, weights) + off, if turned.is_finite() { turned.normalize_or(normal) } else { normal }]
     }
 
     /// Whether it was built for this surface in this shape.
@@ -89,8 +135,14 @@ impl SurfaceTree {
         Arc::ptr_eq(&self.surface, surface) && (self.shape == *shape || (rests(&self.shape) && rests(shape)))
     }
 
+    /// Of the surface as it is now.
     pub(super) fn bounds(&self) -> Option<[DVec3; 2]> {
-        self.bounds
+        self.now.bounds
+    }
+
+    /// Whether joints, targets or a cache may bend it.
+    pub(super) fn bends(&self) -> bool {
+        self.surface.bends()
     }
 
     pub(super) fn surface(&self) -> &BodySurface {
@@ -106,9 +158,9 @@ impl SurfaceTree {
         &self.surface.mesh
     }
 
-    /// Corners of a triangle, in the object's own space.
+    /// Corners of a triangle as they are now, in the object's own space.
     pub(super) fn corners(&self, triangle: u32) -> [DVec3; 3] {
-        self.mesh().triangles[triangle as usize].map(|vertex| self.positions[vertex as usize].as_dvec3())
+        self.now.corners(self.mesh(), triangle)
     }
 
     /// The first point that a ray meets within `farthest`, its distance, and whether its painted side was met.
@@ -119,7 +171,7 @@ impl SurfaceTree {
         direction: DVec3,
         farthest: f64,
     ) -> Option<(SurfacePoint, f64, bool)> {
-        let [low, high] = self.bounds?;
+        let [low, high] = self.now.bounds?;
         let length = direction.length();
         if !origin.is_finite() || !(length.is_normal()) {
             return None;
@@ -132,7 +184,7 @@ impl SurfaceTree {
         let ray = obvhs::ray::Ray::new_inf(near.as_vec3a(), unit.as_vec3a());
         let mut best = (farthest * length - skipped, None);
         let mut try_triangle = |slot: usize| -> f32 {
-            let triangle = self.tree.primitive_indices[slot];
+            let triangle = self.now.tree.primitive_indices[slot];
             if let Some((distance, weights)) = meet(self.corners(triangle), near, unit)
                 && distance < best.0
             {
@@ -140,22 +192,39 @@ impl SurfaceTree {
             }
             (best.0 as f32).next_up()
         };
-        self.tree.ray_traverse(ray, &mut RayHit::none(), |_, slot| try_triangle(slot));
+        self.now.tree.ray_traverse(ray, &mut RayHit::none(), |_, slot| try_triangle(slot));
         let (distance, found) = best;
         let (triangle, weights) = found?;
         let (point, front) = self.point(triangle, weights, |face| face.dot(unit) < 0.0);
         Some((point, (distance + skipped) / length, front))
     }
 
-    /// The point of the surface that is nearest to `to`, at most `farthest` away. Only points whose painted side faces
+    /// The point of the surface at rest that is nearest to `to`, at most `farthest` away. Only points whose painted side faces
     /// the way of `facing` count; a sheet is painted on both sides.
     pub(super) fn closest(&self, to: DVec3, farthest: f64, facing: DVec3) -> Option<SurfacePoint> {
-        if self.tree.nodes.is_empty() || !to.is_finite() {
+        let point = |triangle, weights| self.point_at_rest(triangle, weights, |face| face.dot(facing) > 0.0);
+        let counts = |triangle, weights| {
+            let (point, agrees) = point(triangle, weights);
+            agrees && point.normal.dot(facing) > 0.0
+        };
+        let (triangle, weights) = self.nearest(to, farthest, counts)?;
+        Some(point(triangle, weights).0)
+    }
+
+    /// The triangle at rest that is nearest to `to` among those that count, and the weights of its nearest point.
+    fn nearest(
+        &self,
+        to: DVec3,
+        farthest: f64,
+        counts: impl Fn(u32, [f64; 3]) -> bool,
+    ) -> Option<(u32, [f64; 3])> {
+        let rest = self.rest();
+        if rest.tree.nodes.is_empty() || !to.is_finite() {
             return None;
         }
         let near = to.as_vec3a();
         let gap_sq = |node: u32| {
-            let aabb = self.tree.nodes[node as usize].aabb();
+            let aabb = rest.tree.nodes[node as usize].aabb();
             f64::from((near.clamp(aabb.min, aabb.max) - near).length_squared()) * (1.0 - 1e-5)
         };
         let mut best = (farthest * farthest, None);
@@ -164,18 +233,15 @@ impl SurfaceTree {
             if gap > best.0 {
                 continue;
             }
-            let node = &self.tree.nodes[index as usize];
+            let node = &rest.tree.nodes[index as usize];
             if node.is_leaf() {
                 for slot in node.first_index..node.first_index + node.prim_count {
-                    let triangle = self.tree.primitive_indices[slot as usize];
-                    let corners = self.corners(triangle);
+                    let triangle = rest.tree.primitive_indices[slot as usize];
+                    let corners = rest.corners(self.mesh(), triangle);
                     let weights = closest_weights(corners, to);
                     let distance_sq = (blend(corners, weights) - to).length_squared();
-                    if distance_sq <= best.0 {
-                        let (point, agrees) = self.point(triangle, weights, |face| face.dot(facing) > 0.0);
-                        if agrees && point.normal.dot(facing) > 0.0 {
-                            best = (distance_sq, Some(point));
-                        }
+                    if distance_sq <= best.0 && counts(triangle, weights) {
+                        best = (distance_sq, Some((triangle, weights)));
                     }
                 }
             } else {
@@ -188,32 +254,55 @@ impl SurfaceTree {
         best.1
     }
 
-    /// A point with the normals of its painted side, and whether that side is the one that is looked at.
+    /// A point with the normals of its painted side, and whether that side is the one that is looked at now.
     fn point(
         &self,
         triangle: u32,
         barycentric: [f64; 3],
         looked_at: impl Fn(DVec3) -> bool,
     ) -> (SurfacePoint, bool) {
-        let corners = self.corners(triangle);
-        let winding = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or(DVec3::Y);
-        // A front that is looked at counts as painted. That is wrong only inside a closed shell that winds inwards,
-        // where the eye hardly ever is.
-        let sign = if looked_at(winding) {
-            1.0
-        } else {
-            if self.surface.sides[triangle as usize] == Side::Front { 1.0 } else { -1.0 }
-        };
+        let winding = winding(self.corners(triangle));
+        let sign = self.painted_side(triangle, looked_at(winding));
+        (self.on_side(triangle, barycentric, sign), looked_at(winding * sign))
+    }
+
+    /// As [`Self::point`], of the surface at rest.
+    fn point_at_rest(
+        &self,
+        triangle: u32,
+        barycentric: [f64; 3],
+        looked_at: impl Fn(DVec3) -> bool,
+    ) -> (SurfacePoint, bool) {
+        let winding = winding(self.rest().corners(self.mesh(), triangle));
+        let sign = self.painted_side(triangle, looked_at(winding));
+        (self.on_side(triangle, barycentric, sign), looked_at(winding * sign))
+    }
+
+    /// 1 for the front of a triangle, −1 for its back. A front that is looked at counts as painted. That is wrong only inside a closed
+    /// shell that winds inwards, where the eye hardly ever is.
+    fn painted_side(&self, triangle: u32, front_is_looked_at: bool) -> f64 {
+        let is_front = front_is_looked_at || self.surface.sides[triangle as usize] == Side::Front;
+        if is_front { 1.0 } else { -1.0 }
+    }
+
+    fn on_side(&self, triangle: u32, barycentric: [f64; 3], sign: f64) -> SurfacePoint {
+        let corners = self.mesh().corners(triangle as usize).map(Vec3::as_dvec3);
+        let winding = winding(corners);
         let face_normal = winding * sign;
         let normals = self.mesh().triangles[triangle as usize]
             .map(|vertex| self.mesh().normals[vertex as usize].as_dvec3());
         let smooth = blend(normals, barycentric).normalize_or(winding);
         // A file's normals may point to the other side than its winding: the winding decides.
         let normal = if smooth.dot(face_normal) < 0.0 { -smooth } else { smooth };
-        let position = blend(corners, barycentric);
-        let front = looked_at(face_normal);
-        (SurfacePoint { triangle, barycentric, position, normal, face_normal, flipped: sign < 0.0 }, front)
+        let (position, position_now) =
+            (blend(corners, barycentric), blend(self.corners(triangle), barycentric));
+        let flipped = sign < 0.0;
+        SurfacePoint { triangle, barycentric, position, position_now, normal, face_normal, flipped }
     }
+}
+
+fn winding([a, b, c]: [DVec3; 3]) -> DVec3 {
+    (b - a).cross(c - a).normalize_or(DVec3::Y)
 }
 
 fn blend(corners: [DVec3; 3], [u, v, w]: [f64; 3]) -> DVec3 {

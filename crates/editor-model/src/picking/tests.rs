@@ -3,7 +3,6 @@
 use glam::{DQuat, DVec2, Vec3};
 use impasto_core::TriangleMesh;
 use impasto_core::hash::scramble;
-use impasto_core::shells::sides;
 use impasto_scene::document::Lens;
 use impasto_scene::motion::CameraPose;
 
@@ -18,8 +17,8 @@ fn numbers() -> impl FnMut() -> f64 {
     }
 }
 
-fn surface(mesh: TriangleMesh) -> Arc<BodySurface> {
-    Arc::new(BodySurface { sides: sides(&mesh), mesh, morph: None, materials: Vec::new() })
+fn surface(mesh: TriangleMesh) -> (Arc<BodySurface>, BodyShape) {
+    (Arc::new(BodySurface::still(mesh)), BodyShape::default())
 }
 
 fn mesh(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> TriangleMesh {
@@ -78,7 +77,7 @@ fn heap(count: u32) -> TriangleMesh {
 
 /// The nearest triangle, found by testing each one's plane and edges: (object, triangle, distance).
 fn nearest_by_force(
-    bodies: &[(Arc<BodySurface>, f64)],
+    bodies: &[(Arc<BodySurface>, BodyShape)],
     poses: &[DAffine3],
     ray: &Ray,
 ) -> Option<(usize, u32, f64)> {
@@ -103,7 +102,7 @@ fn nearest_by_force(
 
 #[test]
 fn picking_equals_a_search_of_all_triangles() {
-    let bodies = [(surface(heap(400)), 0.0), (surface(ball(40, 20)), 0.0), (surface(heap(3)), 0.0)];
+    let bodies = [surface(heap(400)), surface(ball(40, 20)), surface(heap(3))];
     let turn = DQuat::from_euler(glam::EulerRot::XYZ, 0.4, -1.0, 2.0);
     let poses = [
         DAffine3::from_scale_rotation_translation(DVec3::splat(0.7), turn, DVec3::new(1.0, 0.0, -2.0)),
@@ -146,7 +145,7 @@ fn picking_equals_a_search_of_all_triangles() {
 
 #[test]
 fn hidden_objects_are_not_picked() {
-    let bodies = [(surface(ball(16, 8)), 0.0), (surface(ball(16, 8)), 0.0)];
+    let bodies = [surface(ball(16, 8)), surface(ball(16, 8))];
     let poses = [DAffine3::from_translation(DVec3::Z * 4.0), DAffine3::IDENTITY];
     let mut picker = Picker::default();
     assert_eq!(picker.update(&bodies), 2);
@@ -155,8 +154,8 @@ fn hidden_objects_are_not_picked() {
     assert_eq!(picker.pick(&ray, &poses, |object| object != 0).unwrap().object, 1);
     assert_eq!(picker.pick(&ray, &poses, |_| false), None);
     assert_eq!(picker.update(&bodies), 0, "nothing changed");
-    assert_eq!(picker.update(&[bodies[1].clone(), (surface(heap(3)), 0.0)]), 1);
-    assert_eq!(picker.update::<f64>(&[]), 0);
+    assert_eq!(picker.update(&[bodies[1].clone(), surface(heap(3))]), 1);
+    assert_eq!(picker.update(&[]), 0);
     assert_eq!(picker.pick(&ray, &poses, |_| true), None);
 }
 
@@ -172,7 +171,7 @@ fn the_painted_side_is_the_outside_of_what_is_closed_and_either_side_of_a_sheet(
     );
     let pick = |mesh: TriangleMesh, from: DVec3| {
         let mut picker = Picker::default();
-        picker.update(&[(surface(mesh), 0.0)]);
+        picker.update(&[surface(mesh)]);
         let ray = Ray { origin: from, direction: (DVec3::new(0.01, -0.02, -0.1) - from).normalize() };
         picker.pick(&ray, &[DAffine3::IDENTITY], |_| true).unwrap()
     };
@@ -198,7 +197,7 @@ fn the_painted_side_is_the_outside_of_what_is_closed_and_either_side_of_a_sheet(
 fn the_nearest_point_of_a_surface() {
     let mut picker = Picker::default();
     let mesh = ball(64, 32);
-    picker.update(&[(surface(mesh.clone()), 0.0)]);
+    picker.update(&[surface(mesh.clone())]);
     let mut number = numbers();
     for _ in 0..200 {
         let to = DVec3::new(number() - 0.5, number() - 0.5, number() - 0.5) * 3.0;
@@ -255,7 +254,7 @@ fn the_ray_of_a_pixel_projects_back_to_it() {
 
 #[test]
 fn trees_of_another_picker_are_reused() {
-    let bodies = [(surface(mesh(vec![Vec3::ZERO, Vec3::X, Vec3::Y], vec![[0, 1, 2]])), 0.0)];
+    let bodies = [surface(mesh(vec![Vec3::ZERO, Vec3::X, Vec3::Y], vec![[0, 1, 2]]))];
     let mut there = Picker::default();
     assert_eq!(there.update(&bodies), 1);
     let mut here = Picker::default();
@@ -265,7 +264,7 @@ fn trees_of_another_picker_are_reused() {
     let hits = [&there, &here].map(|picker| picker.pick(&ray, &[DAffine3::IDENTITY], |_| true));
     assert!(hits[0].is_some() && hits[0] == hits[1]);
     // The tree of another surface is not reused, even if the two are equal.
-    let other = [(surface(mesh(vec![Vec3::ZERO, Vec3::X, Vec3::Y], vec![[0, 1, 2]])), 0.0)];
+    let other = [surface(mesh(vec![Vec3::ZERO, Vec3::X, Vec3::Y], vec![[0, 1, 2]]))];
     let mut elsewhere = Picker::default();
     elsewhere.learn(there);
     assert_eq!(elsewhere.update(&other), 1);

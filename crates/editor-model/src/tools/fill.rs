@@ -135,11 +135,15 @@ pub(super) fn to_reference_rad(hit: &Hit, region: Option<usize>, around: &Surrou
     let (camera, pose) = around.reference(hit.object, region);
     let reference = crate::picking::View { camera, size_px: around.view.size_px };
     let (right, up) = hit.normal_in_model.any_orthonormal_pair();
-    let shown = |view: &crate::picking::View, pose| {
-        let [jx, jy] = view.map(pose).jacobian(hit.position_in_model);
+    let shown = |view: &crate::picking::View, pose, frame: f64| {
+        let [jx, jy] = match around.painted.carried(hit, frame) {
+            Some(carried) => carried.pulled_back(view.map(pose).jacobian(carried.position)),
+            None => view.map(pose).jacobian(hit.position_in_model),
+        };
         DMat2::from_cols(DVec2::new(jx.dot(right), jy.dot(right)), DVec2::new(jx.dot(up), jy.dot(up)))
     };
-    let (now, then) = (shown(around.view, around.pose(hit.object)), shown(&reference, pose));
+    let now = shown(around.view, around.pose(hit.object), around.frame);
+    let then = shown(&reference, pose, around.reference_frame(region));
     let area = now.determinant() * then.determinant();
     if area.is_nan() || area <= 0.0 {
         return None;

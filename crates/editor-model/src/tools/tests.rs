@@ -3,6 +3,8 @@
 use std::fmt::Write;
 use std::sync::{Arc, OnceLock};
 
+use impasto_core::bending::CarriedPlace;
+use impasto_painting::BodyShape;
 use impasto_painting::frame::BodySurface;
 use impasto_painting::prepare;
 use impasto_scene::document::Guide;
@@ -83,6 +85,10 @@ struct Stub {
 }
 
 impl Painted for Stub {
+    fn carried(&self, _: &Hit, _: f64) -> Option<CarriedPlace> {
+        None
+    }
+
     fn region_at(&self, hit: &Hit) -> Option<usize> {
         (hit.object == 0).then_some(usize::from(hit.position_in_model.y > 0.5))
     }
@@ -106,7 +112,7 @@ impl World {
             [0, 1].map(|object| Arc::clone(painting.surface(object)))
         });
         let mut picker = Picker::default();
-        picker.update(&[0, 1].map(|object: usize| (Arc::clone(&surfaces[object]), 0.0)));
+        picker.update(&[0, 1].map(|object: usize| (Arc::clone(&surfaces[object]), BodyShape::default())));
         let (camera, poses) =
             (motion::camera_at(document.scene(), 0.0), motion::poses_at(document.scene(), 0.0));
         let options = ToolOptions { radius_px: 30.0, steady: 0.0, ..ToolOptions::default() };
@@ -131,6 +137,7 @@ impl World {
             loaded: &loaded,
             view: &self.view,
             poses: &self.poses,
+            frame: 0.0,
             picker: &self.picker,
             options: &self.options,
             selection: &selection,

@@ -281,7 +281,10 @@ fn guides(editor: &Editor, scene: &Scene, sight: &Sight<'_>) -> Vec<GuideCurve> 
         let name = guide.object.as_deref().or(region.on.object())?;
         let object = scene.objects.iter().position(|object| object.name == name)?;
         let pose = sight.poses.get(object)?;
-        let place = |at: [f64; 3], normal: [f64; 3]| lifted(pose, at, normal);
+        let place = |at: [f64; 3], normal: [f64; 3]| {
+            let [at, normal] = sight.picker.carried(object, DVec3::from(at), DVec3::from(normal));
+            lifted(pose, at, normal)
+        };
         let points: Vec<[DVec3; 2]> =
             guide.points.iter().map(|point| place(point.at, point.normal)).collect();
         let is_selected = selected == Some(index);
@@ -292,9 +295,9 @@ fn guides(editor: &Editor, scene: &Scene, sight: &Sight<'_>) -> Vec<GuideCurve> 
     region.guides.iter().enumerate().filter(|(index, _)| is_shown(*index)).filter_map(curve).collect()
 }
 
-fn lifted(pose: &DAffine3, at: [f64; 3], normal: [f64; 3]) -> [DVec3; 2] {
-    let normal = (pose.matrix3.inverse().transpose() * DVec3::from(normal)).normalize_or(DVec3::Y);
-    [pose.transform_point3(DVec3::from(at)), normal]
+fn lifted(pose: &DAffine3, at: DVec3, normal: DVec3) -> [DVec3; 2] {
+    let normal = (pose.matrix3.inverse().transpose() * normal).normalize_or(DVec3::Y);
+    [pose.transform_point3(at), normal]
 }
 
 fn singular(editor: &Editor, poses: &[DAffine3], view: &View) -> Vec<SingularPoint> {
@@ -305,7 +308,8 @@ fn singular(editor: &Editor, poses: &[DAffine3], view: &View) -> Vec<SingularPoi
     objects
         .flat_map(|object| painting.singularities(object).iter().map(move |point| (object, point)))
         .map(|(object, point)| {
-            let position_in_world = poses[object].transform_point3(point.position);
+            let [now, _] = editor.picker().carried(object, point.position, DVec3::Y);
+            let position_in_world = poses[object].transform_point3(now);
             // Its normal points to the eye, so that only surfaces in front of it can hide it.
             let normal_in_world = (view.camera.eye - position_in_world).normalize_or(DVec3::Z);
             SingularPoint { position_in_world, normal_in_world, index: point.index as f32 }

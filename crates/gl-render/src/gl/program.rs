@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use glam::{Mat4, Vec2, Vec3, Vec4};
+use glam::{Mat3, Mat4, Vec2, Vec3, Vec4};
 use glow::HasContext as _;
 
 use super::shader_text::{Expanded, Sources, expand};
@@ -71,6 +71,7 @@ pub(crate) enum Value {
     Vec2(Vec2),
     Vec3(Vec3),
     Vec4(Vec4),
+    Mat3(Mat3),
     Mat4(Mat4),
 }
 
@@ -83,7 +84,7 @@ macro_rules! value_from {
         })*
     };
 }
-value_from!(f32 => Float, i32 => Int, u32 => Uint, Vec2 => Vec2, Vec3 => Vec3, Vec4 => Vec4, Mat4 => Mat4);
+value_from!(f32 => Float, i32 => Int, u32 => Uint, Vec2 => Vec2, Vec3 => Vec3, Vec4 => Vec4, Mat3 => Mat3, Mat4 => Mat4);
 
 impl Program {
     /// Compiles, links and compares the shader's uniforms with those that the Rust side knows.
@@ -277,6 +278,7 @@ impl Bound<'_> {
                 Value::Vec2(v) => gl.uniform_2_f32(at, v.x, v.y),
                 Value::Vec3(v) => gl.uniform_3_f32(at, v.x, v.y, v.z),
                 Value::Vec4(v) => gl.uniform_4_f32(at, v.x, v.y, v.z, v.w),
+                Value::Mat3(m) => gl.uniform_matrix_3_f32_slice(at, false, &m.to_cols_array()),
                 Value::Mat4(m) => gl.uniform_matrix_4_f32_slice(at, false, &m.to_cols_array()),
             }
         }
@@ -300,6 +302,7 @@ impl Value {
             Value::Vec2(_) => glow::FLOAT_VEC2,
             Value::Vec3(_) => glow::FLOAT_VEC3,
             Value::Vec4(_) => glow::FLOAT_VEC4,
+            Value::Mat3(_) => glow::FLOAT_MAT3,
             Value::Mat4(_) => glow::FLOAT_MAT4,
         }
     }

@@ -7,7 +7,7 @@
 //! - if something glows, `gather`, `spread` (twice) and `bloom`. They use two targets of a quarter of the width and
 //!   height.
 //!
-//! Noise that displaces vertices is not handled here but in `body_program`.
+//! Noise that displaces vertices has moved them already.
 
 mod bloom;
 
@@ -145,24 +145,20 @@ fn draw_body(
     frame: &Frame,
     tiles: &NoiseTiles,
     body_id: f32,
-    DrawnBody { body, mesh }: &DrawnBody<'_>,
+    DrawnBody { body, mesh, array }: &DrawnBody<'_>,
 ) -> Result<(), GlError> {
     let (Some(noise), Some(layers)) = (&body.noise, layers(body)) else { return Ok(()) };
     let in_front = DrawState { depth_test: true, depth_kept: true, ..DrawState::default() };
     gpu.begin_pass(&targets.place_pass, in_front);
     for part in &mesh.parts {
-        let bound = set_camera(programs.place.bind(body, part, tiles), frame).set("body_id", body_id);
-        gpu.draw(bound, &mesh.array, part.vertices())?;
+        let bound = set_camera(programs.place.bind(body, part), frame).set("body_id", body_id);
+        gpu.draw(bound, array, part.vertices())?;
     }
     gpu.begin_pass(&targets.look_pass, DrawState { blend: Blend::Over, ..in_front });
     for part in &mesh.parts {
-        let bound = set_layers(
-            set_camera(programs.look.bind(body, part, tiles), frame),
-            layers,
-            noise.travelled,
-            tiles,
-        );
-        gpu.draw(bound, &mesh.array, part.vertices())?;
+        let bound =
+            set_layers(set_camera(programs.look.bind(body, part), frame), layers, noise.travelled, tiles);
+        gpu.draw(bound, array, part.vertices())?;
     }
     Ok(())
 }
@@ -196,8 +192,12 @@ fn set_layers<'a>(bound: Bound<'a>, layers: &NoiseLayers, travelled: Vec2, tiles
 /// Indices of the bodies to draw, in drawing order: the farthest centre first, except that a body inside another is
 /// drawn before that other. Fully transparent bodies are left out.
 fn farthest_first(frame: &Frame, bodies: &[DrawnBody<'_>]) -> Vec<usize> {
-    let depth = |DrawnBody { body, mesh }: &DrawnBody<'_>| {
-        let (low, high) = mesh.bounds.unwrap_or_default();
+    let depth = |DrawnBody { body, mesh, .. }: &DrawnBody<'_>| {
+        let bounds = match &body.bent {
+            Some(bent) => body.surface.mesh.bounds_at(&bent.vertices.positions),
+            None => mesh.bounds,
+        };
+        let (low, high) = bounds.unwrap_or_default();
         let center = body.world_from_model.transform_point3((low + high) * 0.5);
         -frame.view.view_from_world.transform_point3(center).z
     };

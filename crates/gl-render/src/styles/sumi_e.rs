@@ -246,16 +246,16 @@ fn draw_bodies(
 ) -> Result<(), GlError> {
     gpu.begin_pass(pass, DrawState { depth_test: true, clear: Some([1.0; 4]), ..DrawState::default() });
     let view = &input.frame.view;
-    for DrawnBody { body, mesh } in input.bodies {
+    for DrawnBody { body, mesh, array } in input.bodies {
         if body.hidden || body.is_backdrop {
             continue;
         }
         for part in &mesh.parts {
             let bound = program
-                .bind(body, part, input.tiles)
+                .bind(body, part)
                 .set("view_from_world", view.view_from_world)
                 .set("clip_from_view", view.clip_from_view);
-            gpu.draw(set_own(bound), &mesh.array, part.vertices())?;
+            gpu.draw(set_own(bound), array, part.vertices())?;
         }
     }
     Ok(())

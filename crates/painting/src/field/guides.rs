@@ -7,13 +7,13 @@ use impasto_core::angle::wrap_pi;
 use impasto_core::direction::field::Constraint;
 use impasto_core::direction::guide::Influence;
 use impasto_core::direction::{Symmetry, tangent_axes};
-use impasto_core::screen_map::{PixelLens, facing};
+use impasto_core::screen_map::PixelLens;
 use impasto_scene::document::GuideMode;
 use rayon::prelude::*;
 
 use super::inputs::{FieldInputs, SamplePoint};
 use crate::references::{SurfacePoint, Views, shown_rad};
-use crate::regions::BodyGuide;
+use crate::regions::{BodyGuide, BodyGuideView};
 use crate::stated::symmetry;
 
 /// How firmly a direction that is stated outright, or a guide on its own line, pulls at a sample. One neighbour pulls
@@ -53,9 +53,10 @@ impl FieldInputs {
             tangent * cos + normal.cross(tangent) * sin
         };
         let on_surface = turned((along - normal * normal.dot(along)).normalize_or(views.axes[0]), turn_rad);
-        let map = match guide.view {
+        let map = match &guide.view {
             None => self.references.of_rule(rule).map,
-            Some([eye, target]) => {
+            Some(BodyGuideView { eye, target, .. }) => {
+                let (eye, target) = (*eye, *target);
                 let gaze = (target - eye).normalize_or(DVec3::NEG_Z);
                 let up = if gaze.cross(DVec3::Y).length_squared() > 1e-12 { DVec3::Y } else { DVec3::Z };
                 let view: DMat4 = glam::dcamera::rh::view::look_to_mat4(eye, gaze, up);
@@ -67,11 +68,20 @@ impl FieldInputs {
                 ScreenMap::new(view, DAffine3::IDENTITY, lens)
             }
         };
-        let jacobian = map.jacobian(position);
-        let in_front = map.depth(position) > 0.0 || self.orthographic;
+        // Where the body stands otherwise in the guide's view, or in the reference, than at rest.
+        let bent = match &guide.view {
+            Some(view) => view.stands.bent.as_ref(),
+            None => self.references.of_rule(rule).stands.bent.as_ref(),
+        };
+        let carried = bent.map(|bent| bent.place(point.place));
+        let (seen_at, seen_normal) =
+            carried.map_or((position, normal), |carried| (carried.position, carried.normal(normal)));
+        let seen = map.jacobian(seen_at);
+        let jacobian = carried.map_or(seen, |carried| carried.pulled_back(seen));
+        let in_front = map.depth(seen_at) > 0.0 || self.orthographic;
         let wanted = shown_rad(along, jacobian) + turn_rad;
         // Where the guide's view does not see the point, its stroke follows the gesture as projected to the surface.
-        let trust = ((facing(jacobian, normal) - 0.02) / 0.15).clamp(0.0, 1.0);
+        let trust = ((map.facing(seen, seen_normal) - 0.02) / 0.15).clamp(0.0, 1.0);
         if !in_front || trust.is_nan() || trust <= 0.0 || !wanted.is_finite() {
             return on_surface;
         }

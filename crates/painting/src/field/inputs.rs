@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use impasto_core::direction::{Symmetry, tangent_axes};
-use impasto_core::sampling::Particle;
+use impasto_core::sampling::{PackedParticle, Particle};
 use impasto_scene::document::{Direction, Seam};
 use rayon::prelude::*;
 
@@ -100,7 +100,8 @@ impl FieldInputs {
         let rule = usize::from(self.regions.of(sample));
         let part = self.parts.of_triangle[sample.triangle as usize] as usize;
         let (position, normal) = (sample.position.as_dvec3(), sample.normal.as_dvec3());
-        let point = SurfacePoint { position, normal, rule, part };
+        let point =
+            SurfacePoint { place: PackedParticle::of(sample), position, height: 0.0, normal, rule, part };
         let views = self.references.views(point, |_| None);
         let base = stated.base(point, &views);
         let stated = symmetry(&self.rules[rule]).encode(base.tangent, tangent_axes(normal));

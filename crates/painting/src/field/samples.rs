@@ -6,7 +6,6 @@ use impasto_core::direction::field::MAX_SAMPLES;
 use impasto_core::neighbours::Points;
 use impasto_core::sampling::{self, Particle, Surface};
 
-use crate::body::{BodyShape, BodySurface};
 use crate::particles::Particles;
 
 /// The samples of a body.
@@ -26,20 +25,6 @@ impl FieldSamples {
             positions: particles.iter().map(|particle| particle.position).collect(),
             normals: particles.iter().map(|particle| particle.normal).collect(),
             spacing: sampling::hexagonal_spacing(surface.area(), particles.len().max(1)),
-            particles,
-        }
-    }
-
-    /// The samples, moved with the surface into this shape.
-    pub(crate) fn posed(self, surface: &BodySurface, shape: &BodyShape) -> Self {
-        if surface.is_at_rest(shape) {
-            return self;
-        }
-        let particles = surface.posed(&self.particles, shape);
-        Self {
-            positions: particles.iter().map(|particle| particle.position).collect(),
-            normals: particles.iter().map(|particle| particle.normal).collect(),
-            spacing: self.spacing,
             particles,
         }
     }

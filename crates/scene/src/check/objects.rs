@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::{Findings, did_you_mean, noise_displace, short, shown};
-use crate::document::{Object, Scene};
+use crate::document::{Object, Rest, Scene};
 use crate::limits;
 
 pub(super) fn check(scene: &Scene, findings: &mut Findings) {
@@ -34,6 +34,12 @@ fn check_object(object_path: &str, object: &Object, findings: &mut Findings) {
     if let Some(morph) = &object.morph {
         findings.name(&format!("{object_path}.morph"), morph);
     }
+    if let Some(cache) = &object.cache {
+        findings.name(&format!("{object_path}.cache"), cache);
+    }
+    if let Rest::Frame(frame) = object.rest {
+        findings.frame(&format!("{object_path}.rest"), frame as f64);
+    }
     check_scale(&format!("{object_path}.scale"), object.scale.0, findings);
     findings.number(
         &format!("{object_path}.hold"),
@@ -47,7 +53,9 @@ fn check_object(object_path: &str, object: &Object, findings: &mut Findings) {
         for angle_deg in key.rotation_deg {
             findings.number(&format!("{object_path}.keys[{index}].rotation_deg"), angle_deg, -turn..=turn);
         }
-        findings.number(&format!("{object_path}.keys[{index}].scale"), key.scale, limits::KEY_SCALE);
+        let bad = key.scale.0.into_iter().find(|scale| !limits::KEY_SCALE.contains(scale));
+        let scale = bad.unwrap_or(key.scale.0[0]);
+        findings.number(&format!("{object_path}.keys[{index}].scale"), scale, limits::KEY_SCALE);
         findings.number(&format!("{object_path}.keys[{index}].morph"), key.morph, 0.0..=1.0);
     }
     let without_target =

@@ -11,6 +11,7 @@ use super::{Findings, Known, shown};
 use crate::document::{Guide, Object, PatchRef, Scene};
 use crate::mesh_file::MeshFile;
 use crate::morph;
+use crate::point_cache::PointCache;
 
 /// At most this many distances from guides to triangles are measured. The guides after that are not checked.
 const MOST_DISTANCES: usize = 200_000_000;
@@ -26,6 +27,11 @@ pub(super) fn check(
     {
         let Some(target) = object.morph.as_ref().and_then(|path| meshes.get(path)) else { continue };
         let Some(base) = meshes.get(&object.mesh) else { continue };
+        if base.bend.as_ref().is_some_and(|bend| bend.skin.is_some()) {
+            let message = format!("joints bend {} already: it cannot morph as well", shown(&object.mesh));
+            findings.error(format!("objects[{index}].morph"), message, "use the file's own shape keys");
+            continue;
+        }
         if let Err(difference) = morph::target_of(base, target) {
             let message = format!("{} does not go with {}: {difference}", morph_name(object), object.mesh);
             let mend = "export both from the same mesh, with the same faces in the same order; a face without area is no face";
@@ -52,6 +58,35 @@ pub(super) fn check(
                 let guide_path = format!("regions[{index}].guides[{guide_index}]");
                 check_guide(&guide_path, guide, object, file, &mut left, findings);
             }
+        }
+    }
+}
+
+/// A cache must move as many points as its mesh has.
+pub(super) fn check_caches(
+    scene: &Scene,
+    meshes: &BTreeMap<String, Arc<MeshFile>>,
+    caches: &BTreeMap<String, Arc<PointCache>>,
+    findings: &mut Findings,
+) {
+    for (index, object) in scene.objects.iter().enumerate() {
+        let field_path = format!("objects[{index}].cache");
+        let Some(name) = &object.cache else { continue };
+        let (Some(cache), Some(mesh)) = (caches.get(name), meshes.get(&object.mesh)) else { continue };
+        let Some(points) = &mesh.points else {
+            let message = format!("{} has no points that a cache could move", shown(&object.mesh));
+            findings.error(field_path, message, "give the object an OBJ file, or a node of a glTF file");
+            continue;
+        };
+        if points.count != cache.count() {
+            let [cached, own] = [cache.count(), points.count];
+            let message =
+                format!("{} moves {cached} points, but {} has {own}", shown(name), shown(&object.mesh));
+            findings.error(
+                field_path,
+                message,
+                "export both from the same mesh, without modifiers that add points",
+            );
         }
     }
 }

@@ -254,18 +254,16 @@ fn regions_name_objects_and_differ() {
 
 #[test]
 fn groups_and_materials_are_looked_for_in_the_mesh() {
-    let mesh = MeshFile {
-        mesh: TriangleMesh::default(),
-        groups: vec!["skin".to_owned(), "leaf".to_owned()],
-        materials: vec![Material::plain("wax".to_owned(), [0.5; 3])],
-    };
+    let groups = vec!["skin".to_owned(), "leaf".to_owned()];
+    let wax = Material::plain("wax".to_owned(), [0.5; 3]);
+    let mesh = MeshFile::still(TriangleMesh::default(), groups, vec![wax]);
     let meshes = BTreeMap::from([("cube.obj".to_owned(), Arc::new(mesh))]);
     let scene = scene(
         "objects: [(name: \"a\", mesh: \"cube.obj\", group: \"laef\"), (name: \"b\", mesh: \"unread.obj\", group: \"x\")],
          regions: [(name: \"1\", on: Group(\"a\", \"skin\")), (name: \"2\", on: Group(\"a\", \"wax\")),
                    (name: \"3\", on: Material(\"a\", \"wax\")), (name: \"4\", on: Material(\"a\", \"skin\"))]",
     );
-    let findings = check_with_meshes(&scene, &meshes);
+    let findings = check_with_meshes(&scene, &meshes, &BTreeMap::new());
     let paths: Vec<&str> = findings.iter().map(|finding| finding.field_path.as_str()).collect();
     assert_eq!(paths, ["objects[0].group", "regions[1].on", "regions[3].on"]);
     assert_eq!(findings[0].mend, "did you mean \"leaf\"?");
@@ -341,6 +339,8 @@ fn guides_lie_on_their_surface_and_morphs_have_its_topology() {
                 ..TriangleMesh::default()
             },
             groups: vec!["skin".to_owned(), "bare".to_owned()],
+            bend: None,
+            points: None,
             materials: vec![Material::plain(String::new(), [0.5; 3])],
         })
     };
@@ -364,7 +364,7 @@ fn guides_lie_on_their_surface_and_morphs_have_its_topology() {
         guide("(0, 0, 0)", "(1, 1, 3)"),
         guide("(0, 0, 0)", "(18, 1.2, 0)"),
     ));
-    let findings = check_with_meshes(&scene, &meshes);
+    let findings = check_with_meshes(&scene, &meshes, &BTreeMap::new());
     let found: Vec<(Severity, &str)> =
         findings.iter().map(|finding| (finding.severity, finding.field_path.as_str())).collect();
     assert_eq!(

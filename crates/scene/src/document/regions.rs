@@ -210,6 +210,9 @@ pub struct GuideView {
     pub eye: [f64; 3],
     /// What it looked at.
     pub target: [f64; 3],
+    /// The frame whose shape the body had then; left out, its rest.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub frame: Option<f64>,
 }
 
 /// One point of a guide.

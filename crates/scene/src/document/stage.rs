@@ -4,6 +4,7 @@ use std::fmt::Debug;
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat4};
+use impasto_core::bending::BendPose;
 use impasto_gltf::Posed;
 
 use super::{Lens, Light, Object, Scene};
@@ -53,6 +54,12 @@ pub trait Brought: Debug + Send + Sync {
 
     /// World from model of an object; `None` if the shot does not bring it.
     fn pose_of(&self, posed: &Posed, name: &str) -> Option<DAffine3>;
+
+    /// Whether joints or targets bend an object with this mesh.
+    fn bends(&self, name: &str, mesh: &str) -> bool;
+
+    /// How joints and targets bend an object with this mesh, in the space of its mesh file; `None` where the shot does not bend it.
+    fn bend_of(&self, posed: &Posed, name: &str, mesh: &str) -> Option<BendPose>;
 
     /// Whether things are hidden or shown over time.
     fn changes_visibility(&self) -> bool;

@@ -4,6 +4,7 @@
 //! A node's mesh keeps the size that it has in the file: the stretch of its place in the world at rest is applied to it, turn and
 //! place are left to the scene. Each primitive is a group; materials keep their names.
 
+mod bend;
 mod materials;
 mod stretch;
 mod surface;
@@ -13,6 +14,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3};
+use impasto_core::bending::BendPose;
 use impasto_gltf::{Animator, Finding, Gltf, Playing, Posed, Severity as Level};
 
 use crate::assets::{self, AssetError, AssetFolders, AssetRequest};
@@ -100,14 +102,14 @@ impl GltfFile {
             |node: usize| self.rest.is_visible[node].then(|| (node, self.rest.world_from_node[node]));
         let nodes: Vec<(usize, DAffine3)> = (0..self.gltf.nodes.len()).filter_map(placed).collect();
         let nodes = nodes.iter().filter(|(node, _)| self.gltf.nodes[*node].mesh.is_some());
-        surface::mesh_of(self, nodes, true).ok_or_else(|| self.bare("the file shows no triangle"))
+        surface::mesh_of_nodes(self, nodes).ok_or_else(|| self.bare("the file shows no triangle"))
     }
 
     /// The mesh of one node, stretched as in the file.
     ///
     /// # Errors
     /// There is no such node, or it shows no triangle.
-    pub fn of_node(&self, name: &str) -> Result<MeshFile, Report> {
+    pub fn of_node(&self, name: &str, with_points: bool) -> Result<MeshFile, Report> {
         let Some(node) = self.node(name) else {
             let names = self.gltf.nodes.iter().filter(|node| node.mesh.is_some());
             let mut report = self.bare(&format!("there is no node {name:?} in the file"));
@@ -116,8 +118,18 @@ impl GltfFile {
             return Err(report);
         };
         let stretch = DAffine3::from_mat3(self.stretch(node));
-        let mesh = surface::mesh_of(self, [&(node, stretch)].into_iter(), false);
+        let mesh = surface::mesh_of_node(self, (node, stretch), with_points);
         mesh.ok_or_else(|| self.bare(&format!("the node {name:?} shows no triangle")))
+    }
+
+    /// Whether joints or morph targets bend a node's mesh.
+    pub fn bends(&self, node: usize) -> bool {
+        bend::bends(self, node)
+    }
+
+    /// How far the targets and joints of a node have moved, in the space of its mesh file.
+    pub fn bend_pose(&self, node: usize, posed: &Posed) -> BendPose {
+        bend::pose(self, node, posed)
     }
 
     /// Whether a node is in the scene that is shown.

@@ -3,40 +3,63 @@
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
-use impasto_core::TriangleMesh;
 use impasto_core::color::srgb_from_linear;
 use impasto_gltf::{Influences, Mesh, Node, Primitive};
 
 use super::GltfFile;
-use crate::mesh_file::MeshFile;
-use crate::surface::{Builder, Geometry};
+use super::bend::{self, Run};
+use crate::mesh_file::{MeshFile, Points};
+use crate::surface::{Builder, Built, Geometry};
 
-/// The mesh of these nodes, each placed; `None` where there is no triangle with an area. Groups are the nodes, or, with
-/// `by_node` off, the primitives.
-pub(super) fn mesh_of<'a>(
+/// The mesh of several nodes, each placed; `None` where there is no triangle with an area. Groups are the nodes.
+pub(super) fn mesh_of_nodes<'a>(
     file: &GltfFile,
     nodes: impl Iterator<Item = &'a (usize, DAffine3)>,
-    by_node: bool,
 ) -> Option<MeshFile> {
     let mut joined = Joined::default();
-    for &(index, placed) in nodes {
+    nodes.for_each(|node| joined.add_node(file, *node, true));
+    joined.finish(file).map(|(mesh, _)| mesh)
+}
+
+/// The mesh of one node, placed, with what bends it; `None` where there is no triangle with an area. Groups are the primitives.
+/// `with_points` where a point cache moves it.
+pub(super) fn mesh_of_node(file: &GltfFile, node: (usize, DAffine3), with_points: bool) -> Option<MeshFile> {
+    let mut joined = Joined::default();
+    let bends = bend::bends(file, node.0);
+    joined.geometry.keeps_vertices = bends || with_points;
+    joined.add_node(file, node, false);
+    let runs = std::mem::take(&mut joined.runs);
+    let count = joined.geometry.positions.len();
+    let (mut mesh, source_of_vertex) = joined.finish(file)?;
+    if bends {
+        mesh.bend = Some(Arc::new(bend::of(file, node.0, &runs, &source_of_vertex, &mesh.mesh)));
+    }
+    if with_points {
+        mesh.points = Some(Arc::new(Points { count, of_vertex: source_of_vertex }));
+    }
+    Some(mesh)
+}
+
+impl Joined {
+    fn add_node(&mut self, file: &GltfFile, (index, placed): (usize, DAffine3), by_node: bool) {
         let node = &file.gltf.nodes[index];
-        let Some(mesh) = node.mesh.map(|mesh| &file.gltf.meshes[mesh]) else { continue };
+        let Some(mesh) = node.mesh.map(|mesh| &file.gltf.meshes[mesh]) else { return };
         let copies = match &node.instances {
             Some(instances) => instances.iter().map(|copy| placed * copy.parent_from_local()).collect(),
             None => vec![placed],
         };
-        for primitive in &mesh.primitives {
+        for (number, primitive) in mesh.primitives.iter().enumerate() {
             let group = if by_node { node.name.clone() } else { group_name(file, mesh, primitive) };
-            let group = joined.group(group);
+            let group = self.group(group);
             let material = primitive.material.unwrap_or(file.gltf.materials.len());
             let vertices = Vertices::of(file, node, mesh, primitive);
             for copy in &copies {
-                joined.add(&vertices, *copy, [group, material as u32]);
+                let first = self.geometry.positions.len();
+                self.runs.push(Run { primitive: number, copy: *copy, first, kept: vertices.kept.clone() });
+                self.add(&vertices, *copy, [group, material as u32]);
             }
         }
     }
-    joined.finish(file)
 }
 
 /// A primitive's name: that of its material, or its number.
@@ -58,6 +81,8 @@ struct Vertices {
     colors: Option<Vec<[u8; 3]>>,
     /// The corners of each triangle.
     triangles: Arc<Vec<[u32; 3]>>,
+    /// Which vertices of the primitive these are; all of them where it is empty.
+    kept: Vec<u32>,
 }
 
 impl Vertices {
@@ -94,7 +119,7 @@ impl Vertices {
         let opaque = |&[r, g, b, _]: &[f32; 4]| [r, g, b].map(byte);
         let colors = primitive.colors.as_ref().map(|list| list.iter().map(opaque).collect());
         let triangles = Arc::clone(&primitive.triangles);
-        let mut vertices = Self { positions, normals, uvs, colors, triangles };
+        let mut vertices = Self { positions, normals, uvs, colors, triangles, kept: Vec::new() };
         // Primitives may share their vertices: each takes those that it uses.
         if vertices.positions.len() > vertices.triangles.len() {
             vertices.drop_unused();
@@ -120,6 +145,7 @@ impl Vertices {
             list.retain(|_| used.next() == Some(&true));
             list.shrink_to_fit();
         }
+        self.kept = (0..is_used.len() as u32).filter(|&vertex| is_used[vertex as usize]).collect();
         keep(&mut self.positions, &is_used);
         self.normals.iter_mut().for_each(|list| keep(list, &is_used));
         self.uvs.iter_mut().for_each(|list| keep(list, &is_used));
@@ -130,7 +156,7 @@ impl Vertices {
 }
 
 /// The mean of the joints that move a vertex.
-fn blended(joints: &[DAffine3], influences: &Influences, vertex: usize) -> DAffine3 {
+pub(super) fn blended(joints: &[DAffine3], influences: &Influences, vertex: usize) -> DAffine3 {
     let of_vertex = vertex * influences.per_vertex..(vertex + 1) * influences.per_vertex;
     let mut sum = DAffine3::ZERO;
     for at in of_vertex {
@@ -145,7 +171,7 @@ fn blended(joints: &[DAffine3], influences: &Influences, vertex: usize) -> DAffi
 }
 
 /// Takes normals where a matrix takes surfaces: the inverse transpose times the determinant, also of mirrored and flat matrices.
-fn cofactors(matrix: DMat3) -> DMat3 {
+pub(super) fn cofactors(matrix: DMat3) -> DMat3 {
     let DMat3 { x_axis: x, y_axis: y, z_axis: z } = matrix;
     DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y))
 }
@@ -166,11 +192,11 @@ fn uvs_of(file: &GltfFile, primitive: &Primitive) -> Option<Vec<Vec2>> {
 #[derive(Default)]
 struct Joined {
     geometry: Geometry,
+    /// Where its vertices come from.
+    runs: Vec<Run>,
     groups: Vec<String>,
     group_of_face: Vec<u32>,
     material_of_face: Vec<u32>,
-    /// Whether any vertex has no normal.
-    lacks_normals: bool,
 }
 
 impl Joined {
@@ -217,15 +243,16 @@ impl Joined {
         let faces = vertices.triangles.len();
         self.group_of_face.extend(std::iter::repeat_n(group, faces));
         self.material_of_face.extend(std::iter::repeat_n(material, faces));
-        self.lacks_normals |= vertices.normals.is_none();
     }
 
-    fn finish(self, file: &GltfFile) -> Option<MeshFile> {
-        let (mut mesh, faces): (TriangleMesh, Vec<u32>) = Builder::new(&self.geometry).finish();
+    /// The mesh, and of which joined vertex each of its vertices comes, where vertices are kept apart.
+    fn finish(self, file: &GltfFile) -> Option<(MeshFile, Vec<u32>)> {
+        let Built { mut mesh, face_of_triangle: faces, source_of_vertex } =
+            Builder::new(&self.geometry).finish();
         mesh.group_of_triangle = faces.iter().map(|&face| self.group_of_face[face as usize]).collect();
         mesh.material_of_triangle = faces.iter().map(|&face| self.material_of_face[face as usize]).collect();
         let groups = if self.groups.is_empty() { vec!["default".to_owned()] } else { self.groups };
-        let file = MeshFile { mesh, groups, materials: file.materials.clone() };
-        (!file.mesh.triangles.is_empty()).then_some(file)
+        let file = MeshFile::still(mesh, groups, file.materials.clone());
+        (!file.mesh.triangles.is_empty()).then_some((file, source_of_vertex))
     }
 }

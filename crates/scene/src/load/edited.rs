@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
 use super::files::{Files, Readers};
-use super::{FieldLocator, read_brush, read_mesh, read_texture, shared, sort_and_cap};
+use super::{FieldLocator, read_brush, read_cache, read_mesh, read_texture, shared, sort_and_cap};
 use crate::assets::AssetFolders;
 use crate::check;
 use crate::document::{Object, Scene};
@@ -37,9 +37,13 @@ impl LoadedScene {
         let mut problems: Vec<Problem> =
             check::check(&scene).into_iter().chain(lost).map(|finding| locator.problem(finding)).collect();
         let readers = Readers {
-            mesh: &|name| match self.meshes.get(name) {
-                Some(mesh) => Ok((Arc::clone(mesh), Vec::new())),
-                None => read_mesh(&reader, path, name, folders),
+            mesh: &|name, with_points| match self.meshes.get(name) {
+                Some(mesh) if mesh.points.is_some() || !with_points => Ok((Arc::clone(mesh), Vec::new())),
+                _ => read_mesh(&reader, path, name, folders, with_points),
+            },
+            cache: &|name| match self.caches.get(name) {
+                Some(cache) => Ok(Arc::clone(cache)),
+                None => read_cache(path, name, folders),
             },
             texture: &|name| match self.textures.get(name) {
                 Some(texture) => Ok((Arc::clone(texture), Vec::new())),
@@ -52,15 +56,15 @@ impl LoadedScene {
         };
         let mut files =
             Files::read(&scene, &readers, |problem, field_path| locator.of_file(problem, field_path));
-        let in_meshes = check::check_anew(&scene, &files.meshes, &self.known_in(&scene));
+        let in_meshes = check::check_anew(&scene, &files.meshes, &files.caches, &self.known_in(&scene));
         problems.extend(in_meshes.into_iter().map(|finding| locator.problem(finding)));
         files.problems.splice(..0, of_shot.into_iter().chain(self.warnings_of_files(&files.meshes)));
         sort_and_cap(path, &mut problems, files.problems);
         if problems.iter().any(|problem| problem.severity.is_fatal()) {
             return Err(Report(problems));
         }
-        let Files { meshes, textures, brushes, .. } = files;
-        Ok(Self { path: path.clone(), scene, meshes, textures, brushes, warnings: problems })
+        let Files { meshes, caches, textures, brushes, .. } = files;
+        Ok(Self { path: path.clone(), scene, meshes, caches, textures, brushes, warnings: problems })
     }
 
     /// The parts of another document that need no new check, because they equal parts of this one. This one has passed:
@@ -71,7 +75,8 @@ impl LoadedScene {
             let place = |object: &Object| (object.scale, object.up);
             place(old) == place(new)
                 && [&old.mesh, &new.mesh].iter().all(|mesh| self.meshes.contains_key(*mesh))
-                && (&old.mesh, &old.group, &old.morph) == (&new.mesh, &new.group, &new.morph)
+                && (&old.mesh, &old.group, &old.morph, &old.cache)
+                    == (&new.mesh, &new.group, &new.morph, &new.cache)
         };
         let old_objects: HashMap<&str, &Object> =
             old.objects.iter().map(|object| (object.name.as_str(), object)).collect();

@@ -9,13 +9,16 @@ use crate::document::Scene;
 use crate::limits;
 use crate::mesh_file::{MeshFile, Texture};
 use crate::mesh_format::MeshRead;
+use crate::point_cache::PointCache;
 use crate::problem::{Problem, Report};
 
 pub(super) type TextureRead = Result<(Arc<Texture>, Vec<Problem>), Problem>;
 
 /// How the files of one scene are read. Names are as the document writes them.
 pub(super) struct Readers<'a> {
-    pub(super) mesh: &'a dyn Fn(&str) -> MeshRead,
+    /// With `true`, the mesh's points are wanted, since a cache moves them.
+    pub(super) mesh: &'a dyn Fn(&str, bool) -> MeshRead,
+    pub(super) cache: &'a dyn Fn(&str) -> Result<Arc<PointCache>, Problem>,
     pub(super) texture: &'a dyn Fn(&str) -> TextureRead,
     pub(super) brush: &'a dyn Fn(&str) -> TextureRead,
 }
@@ -24,6 +27,7 @@ pub(super) struct Readers<'a> {
 #[derive(Debug, Default)]
 pub(super) struct Files {
     pub(super) meshes: BTreeMap<String, Arc<MeshFile>>,
+    pub(super) caches: BTreeMap<String, Arc<PointCache>>,
     pub(super) textures: BTreeMap<String, Arc<Texture>>,
     pub(super) brushes: BTreeMap<String, Arc<Texture>>,
     pub(super) problems: Vec<Problem>,
@@ -39,7 +43,7 @@ impl Files {
         let mut morphs = first_uses(scene, |object| object.morph.as_ref(), "morph");
         morphs.retain(|(name, _)| !known.contains(name));
         for (name, field_path) in meshes.into_iter().chain(morphs) {
-            match (readers.mesh)(name) {
+            match (readers.mesh)(name, has_cache(scene, name)) {
                 Ok((mesh, warnings)) => {
                     files.problems.extend(warnings);
                     files.meshes.insert(name.to_owned(), mesh);
@@ -51,6 +55,12 @@ impl Files {
                         None => at(problem, &field_path),
                     }));
                 }
+            }
+        }
+        for (name, field_path) in first_uses(scene, |object| object.cache.as_ref(), "cache") {
+            match (readers.cache)(name) {
+                Ok(cache) => drop(files.caches.insert(name.to_owned(), cache)),
+                Err(problem) => files.problems.push(at(problem, &field_path)),
             }
         }
         let mut seen = std::collections::HashSet::new();
@@ -74,6 +84,11 @@ impl Files {
         }
         files
     }
+}
+
+/// Whether a point cache moves any object with this mesh.
+pub(super) fn has_cache(scene: &Scene, mesh: &str) -> bool {
+    scene.objects.iter().any(|object| object.mesh == mesh && object.cache.is_some())
 }
 
 /// Each picture that materials name, with every field that names it, in the order of the file.

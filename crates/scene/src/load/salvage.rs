@@ -153,7 +153,7 @@ impl Reading<'_> {
             }
             return Ok(None);
         }
-        let on_meshes = check::check_with_meshes(&scene, &files.real);
+        let on_meshes = check::check_with_meshes(&scene, &files.real, &files.caches);
         if self.take_out_found(&located, &on_meshes)? {
             return Ok(None);
         }
@@ -169,6 +169,7 @@ impl Reading<'_> {
             path: self.path.to_owned(),
             scene,
             meshes,
+            caches: files.caches,
             textures: files.textures,
             brushes: files.brushes,
             warnings,

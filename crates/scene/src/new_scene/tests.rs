@@ -33,7 +33,7 @@ fn box_between(low: Vec3, high: Vec3, open: bool) -> MeshFile {
         triangles,
         ..TriangleMesh::default()
     };
-    MeshFile { mesh, groups: vec![String::new()], materials: vec![material([0.8; 3])] }
+    MeshFile::still(mesh, vec![String::new()], vec![material([0.8; 3])])
 }
 
 /// A material of this sRGB colour.

@@ -6,7 +6,7 @@ use std::io::{self, BufRead, Read};
 use std::ops::Range;
 
 /// Stretches of the file's text and of rewritten lines, in order.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Cleaned<'a> {
     file: &'a [u8],
     written: Vec<u8>,

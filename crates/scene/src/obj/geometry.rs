@@ -60,7 +60,7 @@ pub(super) fn read(checked: &mut Checked<'_>, findings: &mut Findings<'_>) -> Re
     }
     // Adding 0 makes -0 and 0 the same.
     let positions = positions.iter().map(|at| Vec3::from_array(at.map(|value| value as f32 + 0.0))).collect();
-    Ok(Geometry { positions, uvs, normals, colors: Vec::new(), corners: mesh.indices, ends })
+    Ok(Geometry { positions, uvs, normals, corners: mesh.indices, ends, ..Geometry::default() })
 }
 
 /// Scales a model whose areas would vanish, or for which no floor is large enough, to a size of 1, and returns how large it was.

@@ -11,16 +11,20 @@ mod lint;
 mod material_library;
 mod materials;
 mod oddities;
+mod points;
 mod scan;
 mod text;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use impasto_core::TriangleMesh;
 
 use crate::assets::{self, AssetError, AssetFolders};
-use crate::mesh_file::MeshFile;
+use crate::mesh_file::{MeshFile, Points};
 use crate::problem::{Problem, Report, Severity};
-use crate::surface::{self, Builder};
+use crate::surface::{self, Builder, Built};
 use lint::{Checked, Face};
 use material_library::MaterialLibrary;
 
@@ -41,6 +45,16 @@ pub const MAX_MTL_BYTES: u64 = 64 << 20;
 /// A [`Report`] of every error found, with lines and columns: a file that is missing or too large, numbers or indices
 /// that are wrong, no face or no area at all, or a picture that claims more than the limits.
 pub fn read(path: &Path, root: &Path, folders: &AssetFolders) -> Result<(MeshFile, Vec<Problem>), Report> {
+    read_for(path, root, folders, false)
+}
+
+/// As [`read`]; `with_points` where a point cache moves the mesh.
+pub(crate) fn read_for(
+    path: &Path,
+    root: &Path,
+    folders: &AssetFolders,
+    with_points: bool,
+) -> Result<(MeshFile, Vec<Problem>), Report> {
     let bytes = assets::read_regular_file(path, MAX_FILE_BYTES)
         .map_err(|error| Report(vec![unread(path, &error)]))?;
     let (text, was_utf16) = text::to_utf8(bytes);
@@ -52,15 +66,16 @@ pub fn read(path: &Path, root: &Path, folders: &AssetFolders) -> Result<(MeshFil
     if findings.has_errors() {
         return Err(findings.finish().err().unwrap_or(Report(Vec::new())));
     }
-    let mesh = build(&mut checked, &mut findings);
+    let built = build(&mut checked, &mut findings, with_points);
     let place_of = |offset: usize| findings.place(offset);
     let mut library = MaterialLibrary::new(path, root, folders);
-    let materials = if mesh.is_some() { library.materials(&checked, &place_of)? } else { Vec::new() };
+    let materials = if built.is_some() { library.materials(&checked, &place_of)? } else { Vec::new() };
     let more = library.finish();
     let mut warnings = findings.finish()?;
     warnings.extend(more);
-    let mesh = mesh.ok_or(Report(Vec::new()))?;
-    Ok((MeshFile { mesh, groups: checked.groups.list, materials }, warnings))
+    let (mesh, points) = built.ok_or(Report(Vec::new()))?;
+    let points = points.map(Arc::new);
+    Ok((MeshFile { mesh, groups: checked.groups.list, materials, bend: None, points }, warnings))
 }
 
 /// The files that must be copied with an OBJ file in `root` to another folder: the MTL files and pictures that it names
@@ -90,17 +105,23 @@ fn unread(path: &Path, error: &AssetError) -> Problem {
     problem
 }
 
-/// The mesh; `None` after an error.
-fn build(checked: &mut Checked<'_>, findings: &mut Findings<'_>) -> Option<impasto_core::TriangleMesh> {
-    let geometry = match geometry::read(checked, findings) {
+/// The mesh, and its points where they are asked for; `None` after an error.
+fn build(
+    checked: &mut Checked<'_>,
+    findings: &mut Findings<'_>,
+    with_points: bool,
+) -> Option<(TriangleMesh, Option<Points>)> {
+    let named = with_points.then(|| points::of(checked.cleaned.clone()));
+    let mut geometry = match geometry::read(checked, findings) {
         Ok(geometry) => geometry,
         Err(error) => {
             findings.error_of_file(format!("tobj can not read the file: {error}"), "export the model again");
             return None;
         }
     };
+    geometry.keeps_vertices = with_points;
     let builder = Builder::new(&geometry);
-    let (mut mesh, faces) = builder.finish();
+    let Built { mut mesh, face_of_triangle: faces, source_of_vertex } = builder.finish();
     mesh.group_of_triangle = faces.iter().map(|&face| checked.faces[face as usize].group).collect();
     mesh.material_of_triangle = faces.iter().map(|&face| checked.faces[face as usize].material).collect();
     tell(&builder.odd, &checked.faces, findings);
@@ -111,7 +132,15 @@ fn build(checked: &mut Checked<'_>, findings: &mut Findings<'_>) -> Option<impas
         );
         return None;
     }
-    Some(mesh)
+    let points = named.map(|named| {
+        let mut of_source = vec![0; geometry.positions.len()];
+        for (&source, &point) in geometry.corners.iter().zip(&named.of_corner) {
+            of_source[source as usize] = point;
+        }
+        let of_vertex = source_of_vertex.iter().map(|&source| of_source[source as usize]).collect();
+        Points { count: named.count, of_vertex }
+    });
+    Some((mesh, points))
 }
 
 fn tell(odd: &surface::Oddities, faces: &[Face], findings: &mut Findings<'_>) {

@@ -73,7 +73,9 @@ pub(super) fn of_object(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]
                 warns,
                 ..Number::new("Uniform scale", effect_of(animate))
             };
-            asker.number(ui, &number, [now.scale, was.scale], |to| set(PoseField::Scale, to.unwrap_or(1.0)));
+            asker.number(ui, &number, [now.scale.mean(), was.scale.mean()], |to| {
+                set(PoseField::Scale, to.unwrap_or(1.0))
+            });
         });
     });
     if animate {
@@ -91,7 +93,7 @@ fn posed(was: &ObjectKey, field: PoseField, value: f64) -> ObjectKey {
     match field {
         PoseField::Move(axis) => key.translation[axis] = value,
         PoseField::Turn(axis) => key.rotation_deg[axis] = value,
-        PoseField::Scale => key.scale = value,
+        PoseField::Scale => key.scale = key.scale.times(value / key.scale.mean(), |scale| scale),
     }
     key
 }

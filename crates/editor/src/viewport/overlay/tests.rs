@@ -1,5 +1,6 @@
 //! Tests of overlays by the shapes that they draw.
 
+use impasto_painting::BodyShape;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -142,13 +143,15 @@ fn what_the_map_shows_is_what_rays_meet() {
         .enumerate()
         .map(|(object, &world_from_model)| StandingBody {
             surface: Arc::clone(painting.surface(object)),
-            shape: 0.0.into(),
+            shape: BodyShape::default(),
             world_from_model,
             visible: true,
         })
         .collect();
     let mut picker = Picker::default();
-    picker.update(&bodies.iter().map(|body| (Arc::clone(&body.surface), 0.0)).collect::<Vec<_>>());
+    picker.update(
+        &bodies.iter().map(|body| (Arc::clone(&body.surface), body.shape.clone())).collect::<Vec<_>>(),
+    );
     let view = View { camera: motion::camera_at(painting.scene(), 20.0), size_px: DVec2::new(320.0, 180.0) };
     let map = SurfaceMap::new(&bodies, &view, 0.5);
     let [columns, rows] = map.size();
@@ -182,7 +185,9 @@ fn a_guide_shows_only_where_its_surface_faces_the_eye() {
     let poses = motion::poses_at(painting.scene(), 0.0);
     let mut picker = Picker::default();
     picker.update(
-        &(0..poses.len()).map(|object| (Arc::clone(painting.surface(object)), 0.0)).collect::<Vec<_>>(),
+        &(0..poses.len())
+            .map(|object| (Arc::clone(painting.surface(object)), BodyShape::default()))
+            .collect::<Vec<_>>(),
     );
     let view = View { camera: motion::camera_at(painting.scene(), 0.0), size_px: DVec2::new(320.0, 180.0) };
     let sight = Sight { picker: &picker, poses: &poses, visible: &|_| true, view: &view };

@@ -95,11 +95,11 @@ impl Coverage {
             for part in &drawn.mesh.parts {
                 let bound = self
                     .place
-                    .bind(drawn.body, part, input.tiles)
+                    .bind(drawn.body, part)
                     .set("view_from_world", view.view_from_world)
                     .set("clip_from_view", view.clip_from_view)
                     .set("body_id", (index + 1) as f32);
-                self.gpu.draw(bound, &drawn.mesh.array, part.vertices())?;
+                self.gpu.draw(bound, &drawn.array, part.vertices())?;
             }
         }
         self.gpu.begin_pass(&targets.surface_pass, DrawState::default());

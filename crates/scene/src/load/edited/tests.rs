@@ -4,7 +4,7 @@ use std::fs;
 use std::sync::Arc;
 
 use super::*;
-use crate::document::{Guide, Object, Region, Selector};
+use crate::document::{Guide, Object, Region, Scale, Selector};
 use crate::load::{LoadOptions, load};
 use crate::problem::Severity;
 
@@ -63,7 +63,7 @@ fn loaded_files_are_shared_new_ones_read_and_unused_ones_dropped() {
 fn problems_name_their_field() {
     let (_folder, loaded) = folder();
     let refused = edited(&loaded, |scene| {
-        scene.objects[0].keys[1].scale = 0.0;
+        scene.objects[0].keys[1].scale = Scale::even(0.0);
         scene.objects[1].name = "b.c".to_owned();
         scene.objects[1].hold = 0;
         scene.regions.push(Region::new("r", Selector::Group("apple".to_owned(), "frnt".to_owned())));

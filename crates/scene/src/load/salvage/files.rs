@@ -9,11 +9,12 @@ use super::{LoadOptions, Loss};
 use crate::check;
 use crate::document::{PatchRef, Scene};
 use crate::limits;
-use crate::load::files::{as_scene_problem, first_uses, textures};
-use crate::load::{folder_of, read_brush, read_mesh, read_texture};
+use crate::load::files::{as_scene_problem, first_uses, has_cache, textures};
+use crate::load::{folder_of, read_brush, read_cache, read_mesh, read_texture};
 use crate::locate::Located;
 use crate::mesh_file::{Material, MeshFile, Texture};
 use crate::mesh_format::MeshReader;
+use crate::point_cache::PointCache;
 use crate::problem::{Problem, Severity};
 
 /// Missing files are not searched for if the scene's folder and those below it hold more entries than this.
@@ -40,6 +41,7 @@ pub(super) struct FileCache<'a> {
 pub(super) struct Found {
     pub(super) real: BTreeMap<String, Arc<MeshFile>>,
     pub(super) stand_ins: BTreeMap<String, Arc<MeshFile>>,
+    pub(super) caches: BTreeMap<String, Arc<PointCache>>,
     pub(super) textures: BTreeMap<String, Arc<Texture>>,
     pub(super) brushes: BTreeMap<String, Arc<Texture>>,
     pub(super) warnings: Vec<Problem>,
@@ -60,7 +62,8 @@ impl<'a> FileCache<'a> {
         let mut found = Found::default();
         let (path, folders) = (self.path, &self.options.folders);
         for (name, field_path) in first_uses(scene, |object| Some(&object.mesh), "mesh") {
-            let read = self.meshes.entry(name.to_owned()).or_insert_with(|| mesh(path, name, self.options));
+            let read =
+                self.meshes.entry(name.to_owned()).or_insert_with(|| mesh(path, name, scene, self.options));
             match read.clone() {
                 Ok((mesh, warnings)) => {
                     found.warnings.extend(warnings);
@@ -86,9 +89,16 @@ impl<'a> FileCache<'a> {
             if found.stand_ins.contains_key(name) {
                 continue;
             }
-            let read = self.meshes.entry(name.to_owned()).or_insert_with(|| mesh(path, name, self.options));
+            let read =
+                self.meshes.entry(name.to_owned()).or_insert_with(|| mesh(path, name, scene, self.options));
             match read.clone() {
                 Ok((mesh, _)) => drop(found.real.insert(name.to_owned(), mesh)),
+                Err(problem) => self.refuse(&mut found, problem, name, &field_path, located),
+            }
+        }
+        for (name, field_path) in first_uses(scene, |object| object.cache.as_ref(), "cache") {
+            match read_cache(path, name, folders) {
+                Ok(cache) => drop(found.caches.insert(name.to_owned(), cache)),
                 Err(problem) => self.refuse(&mut found, problem, name, &field_path, located),
             }
         }
@@ -181,8 +191,9 @@ impl<'a> FileCache<'a> {
     }
 }
 
-fn mesh(path: &Path, name: &str, options: &LoadOptions) -> Read<MeshFile> {
-    read_mesh(&MeshReader::default(), path, name, &options.folders).map_err(|report| {
+fn mesh(path: &Path, name: &str, scene: &Scene, options: &LoadOptions) -> Read<MeshFile> {
+    let with_points = has_cache(scene, name);
+    read_mesh(&MeshReader::default(), path, name, &options.folders, with_points).map_err(|report| {
         let fatal = report.0.iter().find(|problem| problem.severity.is_fatal()).or(report.0.first());
         fatal.cloned().unwrap_or_else(|| super::error_in(path, None, "the mesh cannot be used", ""))
     })
@@ -249,7 +260,7 @@ fn stand_in(scene: &Scene, name: &str) -> MeshFile {
     let (groups, materials) = (or_plain(groups), or_plain(materials));
     let material = |name| Material::plain(name, [0.55, 0.53, 0.5]);
     let mesh = box_mesh(groups.len() as u32, materials.len() as u32);
-    MeshFile { mesh, groups, materials: materials.into_iter().map(material).collect() }
+    MeshFile::still(mesh, groups, materials.into_iter().map(material).collect())
 }
 
 fn box_mesh(groups: u32, materials: u32) -> impasto_core::TriangleMesh {

@@ -142,7 +142,7 @@ fn noise_displace() -> impl Strategy<Value = NoiseDisplace> {
     )
 }
 fn any_object() -> impl Strategy<Value = Object> {
-    let key = (number(), vector3(), vector3(), number(), number(), ease()).prop_map(
+    let key = (number(), vector3(), vector3(), vector3().prop_map(Scale), number(), ease()).prop_map(
         |(frame, translation, rotation_deg, scale, morph, ease)| ObjectKey {
             frame,
             translation,
@@ -167,26 +167,32 @@ fn any_object() -> impl Strategy<Value = Object> {
             noise_displace,
         });
     let maybe_name = || proptest::option::of(name());
-    let names = (name(), name(), maybe_name(), maybe_name(), maybe_name());
+    let names = (name(), name(), maybe_name(), maybe_name(), [maybe_name(), maybe_name()]);
+    let rest = prop_oneof![Just(Rest::Bind), any::<i64>().prop_map(Rest::Frame)];
     let scale = prop_oneof![number().prop_map(|x| [x; 3]), vector3()].prop_map(Scale);
     let up = prop_oneof![Just(Up::Y), Just(Up::Z)];
     let keys = prop::collection::vec(key, 0..4);
     let counts = (proptest::option::of(any::<u64>()), any::<u32>(), any::<[bool; 2]>());
-    (names, counts, scale, up, proptest::option::of(material), keys).prop_map(
-        |((name, mesh, group, parent, morph), (particles, hold, flags), scale, up, material, keys)| Object {
-            name,
-            mesh,
-            group,
-            parent,
-            particles,
-            hold,
-            scale,
-            up,
-            morph,
-            material,
-            keys,
-            hidden: flags[0],
-            locked: flags[1],
+    (names, counts, scale, (up, rest), proptest::option::of(material), keys).prop_map(
+        |(names, (particles, hold, flags), scale, (up, rest), material, keys)| {
+            let (name, mesh, group, parent, [morph, cache]) = names;
+            Object {
+                name,
+                mesh,
+                group,
+                parent,
+                particles,
+                hold,
+                scale,
+                up,
+                morph,
+                cache,
+                rest,
+                material,
+                keys,
+                hidden: flags[0],
+                locked: flags[1],
+            }
         },
     )
 }
@@ -282,7 +288,9 @@ fn any_style() -> impl Strategy<Value = Style> {
 }
 
 fn any_guide() -> impl Strategy<Value = Guide> {
-    let view = (vector3(), vector3()).prop_map(|(eye, target)| GuideView { eye, target });
+    let frame = proptest::option::of(number());
+    let view =
+        (vector3(), vector3(), frame).prop_map(|(eye, target, frame)| GuideView { eye, target, frame });
     let point = (vector3(), vector3(), number()).prop_map(|(at, normal, turn_deg)| GuidePoint {
         at,
         normal,

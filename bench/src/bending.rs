@@ -1,0 +1,128 @@
+//! Measures what a body that bends costs in a frame: its vertices by joints, how it is strained, and its particles carried and solved.
+//! Each beside the floor that memory sets.
+
+use anyhow::ensure;
+use glam::{DAffine3, DVec3, Vec3};
+use impasto_core::TriangleMesh;
+use impasto_core::bending::{Bend, BendPose, Carrier, Gradients, SkinWeights, Vertices};
+use impasto_core::lift::Lift;
+use impasto_core::sampling::{PackedParticle, Particle};
+use impasto_core::solve::{BakedParticles, SolvedParticles, solve};
+use impasto_core::{ScreenMap, screen_map::PixelLens};
+
+use crate::bench::Bench;
+use crate::floor::Streams;
+use crate::race::{Contender, race};
+use crate::table::Row;
+
+/// Rings of a bar, and vertices round each: 100,000 vertices.
+const RINGS: u32 = 400;
+const AROUND: u32 = 250;
+
+const JOINTS: usize = 24;
+const PARTICLES: u32 = 355_000;
+
+/// Measures a bar that joints roll up.
+pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
+    let (mesh, bend) = bar();
+    let name = format!("{} vertices, 4 joints each", mesh.positions.len());
+    let pose = rolled_up();
+    let bent = bend.at(&pose);
+    ensure!(bent.positions.iter().all(|at| at.is_finite()), "a vertex is nowhere");
+    let contenders = vec![
+        Contender::here("Impasto", "", || bend.at(&pose)),
+        // Position, normal, four weights and four joints of two bytes; position and normal.
+        Streams::new(mesh.positions.len(), 12, 6).contender(),
+    ];
+    let figures = race(&bench.pace(false), contenders)?;
+    bench.push(Row::of_race("vertices and normals of a frame", &name, figures, true));
+
+    let gradients = Gradients::new(&mesh);
+    let strain = || Carrier::new(&bent.positions, &gradients.at(&bent.positions));
+    let contenders = vec![
+        Contender::here("Impasto", "", strain),
+        // Six neighbours with three numbers each, and their positions; position and F.
+        Streams::new(mesh.positions.len(), 6 * 3 + 9 + 3, 12).contender(),
+    ];
+    let figures = race(&bench.pace(false), contenders)?;
+    bench.push(Row::of_race("how the surface is strained", &name, figures, true));
+
+    let carrier = strain();
+    let (places, baked) = particles(&mesh);
+    let map = ScreenMap::new(
+        glam::DMat4::from_translation(DVec3::new(0.0, 0.0, -6.0)),
+        DAffine3::IDENTITY,
+        PixelLens::Perspective { focal_px: 1000.0 },
+    );
+    let mut solved = SolvedParticles::default();
+    let contenders = vec![
+        Contender::here("Impasto", "", || {
+            let carried = carrier.carry(&mesh, &places, &baked, |_| 0.0);
+            solve(&carried, &map, &mut solved);
+        }),
+        // Place (3) and what is baked (12) in, what is carried (12) out and in again, and what is solved (5) out.
+        Streams::new(places.len(), 3 + 12 + 12, 12 + 5).contender(),
+    ];
+    let figures = race(&bench.pace(false), contenders)?;
+    let input = format!("{PARTICLES} particles, {name}");
+    bench.push(Row::of_race("carry, project and solve", &input, figures, true));
+    Ok(())
+}
+
+fn bar() -> (TriangleMesh, Bend) {
+    let (mut mesh, mut skin) = (TriangleMesh::default(), SkinWeights { per_vertex: 4, ..SkinWeights::default() });
+    for ring in 0..RINGS {
+        let along = ring as f32 / (RINGS - 1) as f32;
+        for side in 0..AROUND {
+            let (sin, cos) = (std::f32::consts::TAU * side as f32 / AROUND as f32).sin_cos();
+            mesh.positions.push(Vec3::new(4.0 * along - 2.0, 0.3 * sin, 0.3 * cos));
+            mesh.normals.push(Vec3::new(0.0, sin, cos));
+            let first = (along * (JOINTS - 4) as f32) as u16;
+            let part = (along * (JOINTS - 4) as f32).fract();
+            skin.joints.extend([first, first + 1, first + 2, first + 3]);
+            skin.weights.extend([0.4 * (1.0 - part), 0.4, 0.2, 0.4 * part]);
+        }
+    }
+    for ring in 0..RINGS - 1 {
+        for side in 0..AROUND {
+            let at = |ring: u32, side: u32| ring * AROUND + side % AROUND;
+            let [a, b, c, d] = [at(ring, side), at(ring + 1, side), at(ring + 1, side + 1), at(ring, side + 1)];
+            mesh.triangles.extend([[a, c, b], [a, d, c]]);
+        }
+    }
+    let bound = Vertices { positions: mesh.positions.clone(), normals: mesh.normals.clone() };
+    (mesh, Bend { bound, skin: Some(skin), ..Bend::default() })
+}
+
+/// Joint after joint turns a little more than the one before.
+fn rolled_up() -> BendPose {
+    let mut world = DAffine3::IDENTITY;
+    let joints = (0..JOINTS).map(|joint| {
+        let x = 4.0 * joint as f64 / JOINTS as f64 - 2.0;
+        let about = DAffine3::from_translation(DVec3::X * x);
+        world = world * about * DAffine3::from_rotation_z(0.12) * about.inverse();
+        world
+    });
+    BendPose { weights: Vec::new(), joints: joints.collect() }
+}
+
+fn particles(mesh: &TriangleMesh) -> (Vec<PackedParticle>, BakedParticles) {
+    let (mut places, mut baked) = (Vec::new(), BakedParticles::default());
+    for index in 0..PARTICLES {
+        // As in a coat, particles that follow each other lie far apart.
+        let triangle = (u64::from(index) * 2_654_435_761 % mesh.triangles.len() as u64) as u32;
+        let particle = Particle {
+            triangle,
+            barycentric: [0.2, 0.5],
+            flipped: false,
+            position: Vec3::ZERO,
+            normal: Vec3::Y,
+        };
+        let place = PackedParticle::of(&particle);
+        let on = place.on(mesh);
+        let lift = Lift { along: DVec3::X * 0.01, across: on.normal.as_dvec3().cross(DVec3::X) * 0.01 };
+        baked.push(on.position.as_dvec3(), on.normal.as_dvec3(), lift);
+        places.push(place);
+    }
+    (places, baked)
+}

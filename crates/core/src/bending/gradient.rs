@@ -1,0 +1,172 @@
+//! The deformation gradient F at each vertex of a bent surface.
+
+use std::collections::HashMap;
+
+use glam::{DMat2, DMat3, DVec2, DVec3, Mat3, Vec3};
+use rayon::prelude::*;
+
+use super::Vertices;
+use crate::TriangleMesh;
+
+/// How many places one task measures.
+const CHUNK: usize = 1024;
+
+/// Weights that give the deformation gradient F at each vertex from where the vertices are.
+///
+/// At a vertex, the two tangential columns of F are fitted to the edges round it (least squares, edges of any length counting
+/// alike); the third takes the normal of the fitted plane to the unit normal of where that plane goes. So F is exact for any rigid
+/// motion and, on the surface, for any affine one, and it does not step at edges. Vertices with equal positions and normals,
+/// as along a seam of texture coordinates, are one place.
+#[derive(Debug)]
+pub struct Gradients {
+    /// The place of each vertex.
+    place_of_vertex: Vec<u32>,
+    places: Vec<Place>,
+    /// The neighbours of all places, place by place.
+    edges: Vec<Edge>,
+}
+
+#[derive(Debug)]
+struct Place {
+    /// One of its vertices.
+    vertex: u32,
+    /// Where its edges end in the list; they begin where those of the place before end.
+    end: u32,
+    /// Rows of M⁻¹, M being the fitted tangents and their normal at rest.
+    from_rest: [Vec3; 3],
+}
+
+/// An edge from a place to a neighbour, with its weights in the two fitted tangents.
+#[derive(Clone, Copy, Debug)]
+struct Edge {
+    to: u32,
+    weights: [f32; 2],
+}
+
+impl Gradients {
+    /// The weights for a mesh at rest.
+    pub fn new(mesh: &TriangleMesh) -> Self {
+        let rest = Vertices { positions: mesh.positions.clone(), normals: mesh.normals.clone() };
+        let (place_of_vertex, vertex_of_place) = places(&rest);
+        let mut corners: Vec<(u32, [u32; 2])> = Vec::with_capacity(mesh.triangles.len() * 3);
+        for &[a, b, c] in &mesh.triangles {
+            let place = |vertex: u32| place_of_vertex[vertex as usize];
+            corners.extend([(place(a), [b, c]), (place(b), [c, a]), (place(c), [a, b])]);
+        }
+        corners.sort_unstable_by_key(|(place, _)| *place);
+        let (mut places, mut edges) = (Vec::with_capacity(vertex_of_place.len()), Vec::new());
+        let mut rest_of = corners.as_slice();
+        for (place, &vertex) in vertex_of_place.iter().enumerate() {
+            let count = rest_of.iter().take_while(|(other, _)| *other as usize == place).count();
+            let (own, others) = rest_of.split_at(count);
+            rest_of = others;
+            let own: Vec<[u32; 2]> = own.iter().map(|(_, others)| *others).collect();
+            let from_rest = fit(&rest.positions, vertex, &own, &mut edges);
+            places.push(Place { vertex, end: edges.len() as u32, from_rest });
+        }
+        Self { place_of_vertex, places, edges }
+    }
+
+    /// F at each vertex when the vertices are at these positions, columns in model space: it takes a step on the surface at rest to the
+    /// same step now, and the normal at rest to about the normal now.
+    pub fn at(&self, positions: &[Vec3]) -> Vec<Mat3> {
+        let mut of_place = vec![Mat3::IDENTITY; self.places.len()];
+        of_place.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, gradients)| {
+            for (offset, gradient) in gradients.iter_mut().enumerate() {
+                *gradient = self.of_place(chunk * CHUNK + offset, positions);
+            }
+        });
+        self.place_of_vertex.iter().map(|&place| of_place[place as usize]).collect()
+    }
+
+    fn of_place(&self, index: usize, positions: &[Vec3]) -> Mat3 {
+        let Place { vertex, end, from_rest: [u, v, w] } = self.places[index];
+        let first = index.checked_sub(1).map_or(0, |before| self.places[before].end);
+        let center = positions[vertex as usize];
+        let (mut along, mut across) = (Vec3::ZERO, Vec3::ZERO);
+        for Edge { to, weights } in &self.edges[first as usize..end as usize] {
+            let step = positions[*to as usize] - center;
+            along += step * weights[0];
+            across += step * weights[1];
+        }
+        let normal = along.cross(across).normalize_or_zero();
+        let column = |axis: usize| along * u[axis] + across * v[axis] + normal * w[axis];
+        Mat3::from_cols(column(0), column(1), column(2))
+    }
+
+    /// The normals of a mesh when its vertices are at these positions: each turns as the surface round it does.
+    pub fn normals(&self, rest: &[Vec3], gradients: &[Mat3]) -> Vec<Vec3> {
+        let turned = |(normal, gradient): (&Vec3, &Mat3)| {
+            (cofactors(gradient) * *normal).try_normalize().unwrap_or(*normal)
+        };
+        rest.par_iter().zip(gradients).with_min_len(CHUNK).map(turned).collect()
+    }
+}
+
+/// Takes normals where a matrix takes surfaces: its inverse transpose times its determinant. The length of what it makes of a unit normal
+/// is the area now over the area before.
+#[inline(always)]
+pub(super) fn cofactors(matrix: &Mat3) -> Mat3 {
+    let Mat3 { x_axis: x, y_axis: y, z_axis: z } = *matrix;
+    Mat3::from_cols(y.cross(z), z.cross(x), x.cross(y))
+}
+
+/// The place of each vertex, and for each place one vertex.
+fn places(rest: &Vertices) -> (Vec<u32>, Vec<u32>) {
+    let bits = |v: Vec3| v.to_array().map(f32::to_bits);
+    let mut known = HashMap::with_capacity(rest.positions.len());
+    let mut vertex_of_place = Vec::new();
+    let of_vertex = rest.positions.iter().zip(&rest.normals).enumerate();
+    let place_of_vertex = of_vertex.map(|(vertex, (&position, &normal))| {
+        *known.entry((bits(position), bits(normal))).or_insert_with(|| {
+            vertex_of_place.push(vertex as u32);
+            vertex_of_place.len() as u32 - 1
+        })
+    });
+    let place_of_vertex = place_of_vertex.collect();
+    (place_of_vertex, vertex_of_place)
+}
+
+/// Adds the edges of a place with their weights, and returns the rows of M⁻¹. `corners` are the other two corners of its triangles, in
+/// order.
+fn fit(positions: &[Vec3], vertex: u32, corners: &[[u32; 2]], edges: &mut Vec<Edge>) -> [Vec3; 3] {
+    let rigid = DMat3::IDENTITY;
+    let as_rows = |matrix: DMat3| [0, 1, 2].map(|row| matrix.row(row).as_vec3());
+    let center = positions[vertex as usize].as_dvec3();
+    let step = |to: u32| positions[to as usize].as_dvec3() - center;
+    let faces = corners.iter().map(|&[b, c]| step(b).cross(step(c)));
+    let largest = faces.clone().max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+    let Some(largest) = largest.and_then(DVec3::try_normalize) else { return as_rows(rigid) };
+    // Where faces lie on each other, back to back, their normals cancel.
+    let normal = faces.sum::<DVec3>().normalize_or_zero();
+    let normal = if normal.dot(largest) > 0.1 { normal } else { largest };
+    let (right, up) = normal.any_orthonormal_pair();
+    let mut around: Vec<u32> = corners.iter().flatten().copied().collect();
+    around.sort_unstable();
+    around.dedup();
+    let flat = |to: u32| DVec2::new(step(to).dot(right), step(to).dot(up));
+    let weight = |to: u32| 1.0 / step(to).length_squared().max(f64::MIN_POSITIVE);
+    let sum = around.iter().fold(DMat2::ZERO, |sum, &to| {
+        let (e, w) = (flat(to), weight(to));
+        sum + DMat2::from_cols(e * (e.x * w), e * (e.y * w))
+    });
+    let inverse = sum.inverse();
+    if !inverse.is_finite() {
+        return as_rows(rigid);
+    }
+    let before = edges.len();
+    let (mut along, mut across) = (DVec3::ZERO, DVec3::ZERO);
+    for &to in &around {
+        let h = inverse * flat(to) * weight(to);
+        along += step(to) * h.x;
+        across += step(to) * h.y;
+        edges.push(Edge { to, weights: h.as_vec2().to_array() });
+    }
+    let fitted = DMat3::from_cols(along, across, along.cross(across).normalize_or(normal));
+    let from_rest = fitted.inverse();
+    if !from_rest.is_finite() {
+        edges.truncate(before);
+        return as_rows(rigid);
+    }
+    as_rows(from_rest)
+}

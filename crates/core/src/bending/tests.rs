@@ -1,0 +1,145 @@
+use glam::{DMat3, DVec3, EulerRot, Mat3};
+
+use super::*;
+use crate::TriangleMesh;
+use crate::sampling::{PackedParticle, Particle};
+use crate::solve::BakedParticles;
+
+/// A bumpy sheet of 20 × 20 quads.
+fn sheet() -> TriangleMesh {
+    const SIDE: u32 = 20;
+    let mut mesh = TriangleMesh::default();
+    for row in 0..=SIDE {
+        for column in 0..=SIDE {
+            let [x, y] = [column, row].map(|at| at as f32 / SIDE as f32 - 0.5);
+            mesh.positions.push(Vec3::new(x, y, 0.1 * (7.0 * x).sin() * (5.0 * y).cos()));
+            let [dx, dy] =
+                [0.7 * (7.0 * x).cos() * (5.0 * y).cos(), -0.5 * (7.0 * x).sin() * (5.0 * y).sin()];
+            mesh.normals.push(Vec3::new(-dx, -dy, 1.0).normalize());
+        }
+    }
+    for row in 0..SIDE {
+        for column in 0..SIDE {
+            let at = |row: u32, column: u32| row * (SIDE + 1) + column;
+            let [a, b, c, d] =
+                [at(row, column), at(row, column + 1), at(row + 1, column + 1), at(row + 1, column)];
+            mesh.triangles.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    mesh
+}
+
+fn moved(mesh: &TriangleMesh, by: impl Fn(DVec3) -> DVec3) -> Vec<Vec3> {
+    mesh.positions.iter().map(|at| by(at.as_dvec3()).as_vec3()).collect()
+}
+
+#[test]
+fn the_gradient_of_a_rigid_motion_is_its_rotation_everywhere() {
+    let mesh = sheet();
+    let gradients = Gradients::new(&mesh);
+    for angles in [[7.0f64, 30.0, 137.0], [-80.0, 12.0, 3.0]] {
+        let [a, b, c] = angles.map(f64::to_radians);
+        let turn = DMat3::from_euler(EulerRot::XYZ, a, b, c);
+        let positions = moved(&mesh, |at| turn * at + DVec3::new(3.0, -2.0, 1.0));
+        for gradient in gradients.at(&positions) {
+            assert!(gradient.abs_diff_eq(turn.as_mat3(), 3e-5), "{gradient} {turn}");
+        }
+    }
+}
+
+#[test]
+fn the_gradient_of_an_affine_map_is_exact_on_a_flat_surface() {
+    let tilt = DMat3::from_euler(EulerRot::XYZ, 0.4, 2.4, -1.0);
+    let mut mesh = sheet();
+    for (at, normal) in mesh.positions.iter_mut().zip(&mut mesh.normals) {
+        *at = tilt.as_mat3() * at.truncate().extend(0.0);
+        *normal = tilt.z_axis.as_vec3();
+    }
+    let map =
+        DMat3::from_cols(DVec3::new(2.5, 0.3, 0.0), DVec3::new(-0.4, 0.7, 0.2), DVec3::new(0.1, 0.0, 1.4));
+    for gradient in Gradients::new(&mesh).at(&moved(&mesh, |at| map * at)) {
+        for tangent in [tilt.x_axis, tilt.y_axis] {
+            assert!((gradient.as_dmat3() * tangent - map * tangent).length() < 1e-4);
+        }
+    }
+}
+
+#[test]
+fn a_carried_normal_is_as_long_as_the_surface_has_grown() {
+    let mesh = TriangleMesh {
+        positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(1.0, 1.0, 0.0)],
+        normals: vec![Vec3::Z; 4],
+        triangles: vec![[0, 1, 2], [1, 3, 2]],
+        ..TriangleMesh::default()
+    };
+    let positions = moved(&mesh, |at| DVec3::new(3.0 * at.x, 0.5 * at.z, -2.0 * at.y));
+    let gradients = Gradients::new(&mesh).at(&positions);
+    let carrier = Carrier::new(&positions, &gradients);
+    let particle = Particle {
+        triangle: 1,
+        barycentric: [0.2, 0.3],
+        flipped: true,
+        position: Vec3::ZERO,
+        normal: Vec3::ZERO,
+    };
+    let place = PackedParticle::of(&particle);
+    let mut baked = BakedParticles::default();
+    let lift = crate::lift::Lift { along: DVec3::X, across: DVec3::Y };
+    baked.push(DVec3::new(0.8, 0.5, 0.0), DVec3::NEG_Z, lift);
+    let carried = carrier.carry(&mesh, &[place], &baked, |_| 0.25);
+    assert!(carried.normal_of(0).abs_diff_eq(DVec3::new(0.0, -6.0, 0.0), 1e-5), "{}", carried.normal_of(0));
+    let lift = carried.lift_of(0);
+    assert!(
+        lift.along.abs_diff_eq(DVec3::X * 3.0, 1e-5) && lift.across.abs_diff_eq(DVec3::NEG_Z * 2.0, 1e-5)
+    );
+    let lifted = carrier.place(&mesh, place).position + DVec3::NEG_Y * 0.25;
+    assert!(carried.position_of(0).abs_diff_eq(lifted, 1e-5));
+}
+
+#[test]
+fn a_collapsed_or_mirrored_surface_gives_numbers() {
+    let mesh = sheet();
+    let gradients = Gradients::new(&mesh);
+    for by in
+        [DVec3::ZERO, DVec3::new(1.0, 0.0, 0.0), DVec3::new(-1.0, 1.0, 1.0), DVec3::new(1e-20, 1e-20, 1e-20)]
+    {
+        let positions = moved(&mesh, |at| at * by);
+        let bent = gradients.at(&positions);
+        assert!(bent.iter().all(Mat3::is_finite), "{by}");
+        let normals = gradients.normals(&mesh.normals, &bent);
+        assert!(normals.iter().all(|normal| (normal.length() - 1.0).abs() < 1e-5), "{by}");
+    }
+}
+
+#[test]
+fn joints_and_targets_move_vertices_as_the_formula_says() {
+    let bound = Vertices {
+        positions: vec![Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 2.0, 0.0)],
+        normals: vec![Vec3::X, Vec3::Y],
+    };
+    let mut smile = Target::default();
+    smile.push(0, Vec3::ZERO, Vec3::ZERO);
+    smile.push(1, Vec3::new(0.0, 0.0, 1.0), Vec3::new(0.0, -1.0, 1.0));
+    assert_eq!(smile.vertices, [1]);
+    let skin = SkinWeights { per_vertex: 2, joints: vec![0, 1, 1, 0], weights: vec![0.25, 0.75, 1.0, 0.0] };
+    let bend = Bend { bound, targets: vec![smile], skin: Some(skin), ..Bend::default() };
+    let joints = vec![
+        DAffine3::from_translation(DVec3::new(0.0, 4.0, 0.0)),
+        DAffine3::from_scale(DVec3::new(1.0, 2.0, 3.0)),
+    ];
+    let bent = bend.at(&BendPose { weights: vec![0.5], joints });
+    assert_eq!(bent.positions, [Vec3::new(1.0, 1.0, 0.0), Vec3::new(0.0, 4.0, 1.5)]);
+    // The cofactors of the second joint are (6, 3, 2).
+    let expected = Vec3::new(0.0, 3.0 * 0.5, 2.0 * 0.5).normalize();
+    assert!(bent.normals[1].abs_diff_eq(expected, 1e-6), "{}", bent.normals[1]);
+    assert_eq!(bend.at(&BendPose::default()), bend.bound);
+}
+
+#[test]
+fn a_joint_that_there_is_not_moves_nothing_to_nowhere() {
+    let bound = Vertices { positions: vec![Vec3::X], normals: vec![Vec3::X] };
+    let skin = SkinWeights { per_vertex: 1, joints: vec![9], weights: vec![1.0] };
+    let bend = Bend { bound, targets: Vec::new(), skin: Some(skin), ..Bend::default() };
+    let bent = bend.at(&BendPose { weights: vec![], joints: vec![DAffine3::IDENTITY] });
+    assert!(bent.positions[0].is_finite() && bent.normals == [Vec3::X]);
+}

@@ -1,0 +1,74 @@
+//! The shapes of all bodies at a frame, from what the document and its shot say.
+
+use std::sync::Arc;
+
+use glam::DAffine3;
+use impasto_core::bending::{Bend, BendPose};
+use impasto_scene::document::Object;
+use impasto_scene::loaded::LoadedScene;
+use impasto_scene::motion;
+
+use crate::body::{BodyNoise, BodyShape};
+
+/// What moves the vertices of all objects at one frame, noise left out.
+pub(crate) struct BodyShapes<'a> {
+    loaded: &'a LoadedScene,
+    bends: Vec<Option<BendPose>>,
+    morphs: Vec<f64>,
+    cache_frames: Vec<f64>,
+}
+
+/// What bends the mesh file of an object.
+pub(crate) fn file_bend<'a>(loaded: &'a LoadedScene, object: &Object) -> Option<&'a Bend> {
+    loaded.meshes.get(&object.mesh)?.bend.as_deref()
+}
+
+impl<'a> BodyShapes<'a> {
+    pub(crate) fn at(loaded: &'a LoadedScene, frame: f64) -> Self {
+        let scene = &loaded.scene;
+        Self {
+            loaded,
+            bends: motion::bends_at(scene, frame),
+            morphs: motion::morphs_at(scene, frame),
+            cache_frames: motion::cache_frames_at(scene, frame),
+        }
+    }
+
+    /// The shape of one object. `bend` is what its mesh file has.
+    pub(crate) fn of(&self, object: usize, bend: Option<&Bend>) -> BodyShape {
+        let stated = &self.loaded.scene.objects[object];
+        let cache = stated.cache.as_ref().and_then(|name| self.loaded.caches.get(name));
+        let cache_frame = cache.map(|cache| {
+            let [first, last] = cache.frames();
+            // The `max` and `min` of a number that is none give the other one.
+            self.cache_frames[object].max(first).min(last)
+        });
+        let rest = bend.map_or_else(BendPose::default, |bend| bend.rest.clone());
+        let mut pose = match bend {
+            Some(_) => self.bends[object].clone().unwrap_or_else(|| rest.clone()),
+            None => BendPose::default(),
+        };
+        let is_as_in_file = pose == rest && self.morphs[object] == 0.0;
+        if stated.morph.is_some() {
+            pose.weights.push(self.morphs[object] as f32);
+        }
+        let place = DAffine3::from_mat3(stated.model_from_file());
+        pose.joints.iter_mut().for_each(|joint| *joint = place * *joint);
+        BodyShape { pose: (!is_as_in_file).then(|| Arc::new(pose)), cache_frame, noise: None }
+    }
+}
+
+/// The shape of every object at a frame.
+pub(crate) fn shapes(loaded: &LoadedScene, noises: &[Option<Arc<BodyNoise>>], frame: f64) -> Vec<BodyShape> {
+    let scene = &loaded.scene;
+    let all = BodyShapes::at(loaded, frame);
+    let with_noise = noises.iter().any(Option::is_some);
+    let at = with_noise.then(|| (motion::poses_at(scene, frame), motion::seconds_at(scene, frame)));
+    let shape = |(index, object): (usize, &Object)| BodyShape {
+        noise: at.as_ref().and_then(|(poses, seconds)| {
+            noises[index].as_ref().map(|noise| noise.at(seconds[index], poses[index]))
+        }),
+        ..all.of(index, file_bend(loaded, object))
+    };
+    scene.objects.iter().enumerate().map(shape).collect()
+}

@@ -1,0 +1,139 @@
+//! What bends the mesh of a node: its morph targets and its joints, vertex by vertex as the mesh has them.
+
+use glam::{DAffine3, DMat3, DVec3, Vec3};
+use impasto_core::TriangleMesh;
+use impasto_core::bending::{Bend, BendPose, SkinWeights, Target};
+use impasto_gltf::{Mesh, Posed, Primitive};
+
+use super::GltfFile;
+use super::surface::{blended, cofactors};
+
+/// Consecutive vertices of a joined mesh that come from one primitive.
+#[derive(Debug)]
+pub(super) struct Run {
+    /// Index of the primitive in its mesh.
+    pub primitive: usize,
+    /// Where they were placed.
+    pub copy: DAffine3,
+    /// The number of the first of them in the joined mesh.
+    pub first: usize,
+    /// Which vertices of the primitive they are; all of them where it is empty.
+    pub kept: Vec<u32>,
+}
+
+/// A vertex of a mesh: its primitive, its number there, and where it was placed.
+struct Origin<'a> {
+    primitive: &'a Primitive,
+    vertex: usize,
+    copy: DAffine3,
+}
+
+/// Whether joints or morph targets bend a node's mesh.
+pub(super) fn bends(file: &GltfFile, node: usize) -> bool {
+    let node = &file.gltf.nodes[node];
+    let Some(mesh) = node.mesh.map(|mesh| &file.gltf.meshes[mesh]) else { return false };
+    // Copies of a mesh that joints move stay as they rest.
+    let is_skinned = node.skin.is_some() && node.instances.is_none();
+    is_skinned && mesh.primitives.iter().any(|primitive| primitive.influences.is_some())
+        || node.skin.is_none() && mesh.target_count > 0
+}
+
+/// How far the targets and joints of a node have moved, in the space of its mesh file.
+pub(super) fn pose(file: &GltfFile, node: usize, posed: &Posed) -> BendPose {
+    let weights = posed.weights[node].clone();
+    let skin = file.gltf.nodes[node].skin.map(|skin| &file.gltf.skins[skin]);
+    BendPose { weights, joints: skin.map_or(Vec::new(), |skin| posed.world_from_bound(skin)) }
+}
+
+/// What bends a node's mesh. `source_of_vertex` says which joined vertex each vertex of the mesh is.
+pub(super) fn of(
+    file: &GltfFile,
+    node: usize,
+    runs: &[Run],
+    source_of_vertex: &[u32],
+    mesh_at_rest: &TriangleMesh,
+) -> Bend {
+    let node_data = &file.gltf.nodes[node];
+    let Some(mesh) = node_data.mesh.map(|mesh| &*file.gltf.meshes[mesh]) else { return Bend::default() };
+    let rest = pose(file, node, &file.rest);
+    let is_skinned = !rest.joints.is_empty();
+    let origins: Vec<Origin<'_>> =
+        source_of_vertex.iter().map(|&source| origin(mesh, runs, source as usize)).collect();
+    let turns_normals = origins.iter().any(|origin| {
+        let primitive = origin.primitive;
+        let lacks =
+            |target: &impasto_gltf::MorphTarget| target.positions.is_some() && target.normals.is_none();
+        primitive.targets.iter().any(|target| primitive.normals.is_none() || lacks(target))
+    });
+    let mut bend = Bend {
+        targets: vec![Target::default(); mesh.target_count],
+        skin: is_skinned.then(|| skin_weights(&origins)),
+        turns_normals,
+        ..Bend::default()
+    };
+    for (vertex, origin) in origins.iter().enumerate() {
+        let placed = if is_skinned { DAffine3::IDENTITY } else { origin.copy };
+        let position = wide(origin.primitive.positions[origin.vertex]);
+        let turn = cofactors(placed.matrix3);
+        // Where the file has no normal, the one that was made for the mesh at rest is led back.
+        let normal = match &origin.primitive.normals {
+            Some(normals) => turn * wide(normals[origin.vertex]),
+            None => unmoved(origin, &rest, is_skinned).transpose() * mesh_at_rest.normals[vertex].as_dvec3(),
+        };
+        let length = if normal.length() > 0.0 { normal.length() } else { 1.0 };
+        bend.bound.positions.push(placed.transform_point3(position).as_vec3() + Vec3::ZERO);
+        bend.bound.normals.push((normal / length).as_vec3());
+        for (target, of_file) in bend.targets.iter_mut().zip(&origin.primitive.targets) {
+            let delta = |list: &Option<std::sync::Arc<Vec<[f32; 3]>>>| {
+                list.as_ref().map_or(DVec3::ZERO, |list| wide(list[origin.vertex]))
+            };
+            let moved = placed.matrix3 * delta(&of_file.positions);
+            let turned = turn * delta(&of_file.normals) / length;
+            target.push(vertex as u32, moved.as_vec3(), turned.as_vec3());
+        }
+    }
+    bend.rest = rest;
+    bend
+}
+
+fn wide(vector: [f32; 3]) -> DVec3 {
+    DVec3::from(vector.map(f64::from))
+}
+
+fn origin<'a>(mesh: &'a Mesh, runs: &[Run], source: usize) -> Origin<'a> {
+    let run = &runs[runs.partition_point(|run| run.first <= source).saturating_sub(1)];
+    let number = source - run.first;
+    let vertex = run.kept.get(number).map_or(number, |&kept| kept as usize);
+    Origin { primitive: &mesh.primitives[run.primitive], vertex, copy: run.copy }
+}
+
+/// What joints did to the surroundings of a vertex at rest.
+fn unmoved(origin: &Origin<'_>, rest: &BendPose, is_skinned: bool) -> DMat3 {
+    match origin.primitive.influences.as_ref().filter(|_| is_skinned) {
+        Some(influences) => blended(&rest.joints, influences, origin.vertex).matrix3,
+        None => DMat3::IDENTITY,
+    }
+}
+
+/// The joints of all vertices. One of a primitive without joints hangs on the first joint.
+fn skin_weights(origins: &[Origin<'_>]) -> SkinWeights {
+    let of = |origin: &Origin<'_>| origin.primitive.influences.as_ref().map_or(1, |all| all.per_vertex);
+    let per_vertex = origins.iter().map(of).max().unwrap_or(1);
+    let mut skin = SkinWeights { per_vertex, ..SkinWeights::default() };
+    for (vertex, origin) in origins.iter().enumerate() {
+        match &origin.primitive.influences {
+            Some(own) => {
+                let range = origin.vertex * own.per_vertex..(origin.vertex + 1) * own.per_vertex;
+                skin.joints.extend(&own.joints[range.clone()]);
+                skin.weights.extend(&own.weights[range]);
+            }
+            None => {
+                skin.joints.push(0);
+                skin.weights.push(1.0);
+            }
+        }
+        skin.joints.resize((vertex + 1) * per_vertex, 0);
+        skin.weights.resize((vertex + 1) * per_vertex, 0.0);
+    }
+    skin
+}

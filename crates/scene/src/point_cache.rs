@@ -1,0 +1,236 @@
+//! Point caches: files that say where every point of a mesh is, sample by sample. They are read one sample at a time.
+//!
+//! The format is PC2, which Blender, Maya, 3ds Max and Houdini write. All numbers are little-endian:
+//!
+//! | bytes | what |
+//! |---|---|
+//! | 12 | `POINTCACHE2` and a zero byte |
+//! | 4 | version, a whole number: 1 |
+//! | 4 | number of points, a whole number |
+//! | 4 | frame of the first sample, a float |
+//! | 4 | frames from one sample to the next, a float |
+//! | 4 | number of samples, a whole number |
+//! | 12 for each point of each sample | x, y, z, floats; sample by sample, points in the order of the mesh file |
+
+use std::fmt;
+use std::fs::File;
+use std::io::{self, Read as _, Seek as _, SeekFrom};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use glam::Vec3;
+
+/// The header, in bytes.
+const HEADER: u64 = 32;
+
+/// One point of a sample, in bytes.
+const POINT: u64 = 12;
+
+/// A file of at most so many bytes is read whole when it is opened, to find places that are no numbers. Of a larger one, some samples
+/// are.
+const READ_WHOLE: u64 = 256 << 20;
+
+/// Of a large file, so many samples are read when it is opened.
+const READ_SAMPLES: u64 = 16;
+
+/// Coordinates beyond this are refused, as in meshes.
+const FARTHEST: f32 = 1e9;
+
+/// An open point cache.
+pub struct PointCache {
+    path: PathBuf,
+    file: Mutex<File>,
+    count: usize,
+    samples: u64,
+    first_frame: f64,
+    frames_per_sample: f64,
+}
+
+/// The path alone: a cache may be large.
+impl fmt::Debug for PointCache {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.debug_tuple("PointCache").field(&self.path).finish()
+    }
+}
+
+/// What is wrong with a cache, and the mend.
+pub(crate) type Fault = [String; 2];
+
+impl PointCache {
+    /// Opens a cache and checks it: its header against its length, and its places.
+    ///
+    /// # Errors
+    /// What is wrong, and the mend.
+    pub(crate) fn open(path: &Path) -> Result<Self, Fault> {
+        let unread =
+            |error: io::Error| [format!("it could not be read: {error}"), "check the file".to_owned()];
+        let again = || "export the cache again".to_owned();
+        let mut file = File::open(path).map_err(unread)?;
+        let length = file.metadata().map_err(unread)?.len();
+        let mut header = [0; HEADER as usize];
+        if length < HEADER || file.read_exact(&mut header).is_err() || &header[..12] != b"POINTCACHE2\0" {
+            return Err([
+                "it is no PC2 file".to_owned(),
+                "export the motion as PC2 (point cache 2)".to_owned(),
+            ]);
+        }
+        let word = |at: usize| [0, 1, 2, 3].map(|byte| header[at + byte]);
+        let (whole, float) =
+            (|at: usize| i32::from_le_bytes(word(at)), |at: usize| f64::from(f32::from_le_bytes(word(at))));
+        let (version, count, samples) = (whole(12), whole(16), whole(28));
+        if version != 1 {
+            return Err([format!("its version is {version}"), "only version 1 is known".to_owned()]);
+        }
+        if count <= 0 || samples <= 0 {
+            return Err([format!("it has {count} points and {samples} samples"), again()]);
+        }
+        let (first_frame, frames_per_sample) = (float(20), float(24));
+        if !(first_frame.is_finite() && frames_per_sample.is_finite() && frames_per_sample > 0.0) {
+            let message =
+                format!("it begins at frame {first_frame}, with {frames_per_sample} frames a sample");
+            return Err([message, again()]);
+        }
+        let claimed = u128::from(HEADER) + u128::from(POINT) * count as u128 * samples as u128;
+        if claimed != u128::from(length) {
+            let message = format!(
+                "it has {length} bytes, but {count} points in {samples} samples are {claimed} bytes: {}",
+                if claimed > u128::from(length) { "it is cut short" } else { "there is more behind them" }
+            );
+            return Err([message, again()]);
+        }
+        let cache = Self {
+            path: path.to_owned(),
+            file: Mutex::new(file),
+            count: count as usize,
+            samples: samples as u64,
+            first_frame,
+            frames_per_sample,
+        };
+        cache.check(length).map(|()| cache)
+    }
+
+    /// Reads samples for places that are no numbers.
+    fn check(&self, length: u64) -> Result<(), Fault> {
+        let read = if length <= READ_WHOLE { self.samples } else { READ_SAMPLES.min(self.samples) };
+        for number in 0..read {
+            let sample = number * (self.samples - 1) / (read - 1).max(1);
+            let places = self.sample(sample).map_err(|error| {
+                [format!("sample {sample} could not be read: {error}"), "check the file".to_owned()]
+            })?;
+            if let Some(point) =
+                places.iter().position(|at| !at.is_finite() || at.abs().max_element() > FARTHEST)
+            {
+                let message = format!("point {point} of sample {sample} is at {}", places[point]);
+                return Err([message, "export the cache again".to_owned()]);
+            }
+        }
+        Ok(())
+    }
+
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// How many points it moves.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The frames of the first and the last sample.
+    pub fn frames(&self) -> [f64; 2] {
+        [self.first_frame, self.first_frame + (self.samples - 1) as f64 * self.frames_per_sample]
+    }
+
+    /// Where the points are at a frame, in the space of the mesh file. Between two samples, points move evenly from one to the other; before
+    /// the first and after the last, they stand still. Memory for two samples is taken, whatever the length of the file.
+    ///
+    /// # Errors
+    /// Those of the system, and of a place that is no number.
+    pub fn at(&self, frame: f64) -> io::Result<Vec<Vec3>> {
+        let last = (self.samples - 1) as f64;
+        let place = ((frame - self.first_frame) / self.frames_per_sample).max(0.0).min(last);
+        let (sample, part) = (place.floor(), place.fract() as f32);
+        let mut places = self.sample(sample as u64)?;
+        if part > 0.0 {
+            let next = self.sample(sample as u64 + 1)?;
+            places.iter_mut().zip(next).for_each(|(at, next)| *at = at.lerp(next, part));
+        }
+        if places.iter().any(|at| !at.is_finite()) {
+            return Err(io::Error::new(io::ErrorKind::InvalidData, "a place is no number"));
+        }
+        Ok(places)
+    }
+
+    fn sample(&self, number: u64) -> io::Result<Vec<Vec3>> {
+        let mut bytes = vec![0; self.count * POINT as usize];
+        {
+            // What a thread that panicked left behind is only the place in the file.
+            let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+            file.seek(SeekFrom::Start(HEADER + number * self.count as u64 * POINT))?;
+            file.read_exact(&mut bytes)?;
+        }
+        let float = |bytes: &[u8; 4]| f32::from_le_bytes(*bytes);
+        let place = |point: &[u8; 12]| {
+            let [x, y, z] =
+                [0, 4, 8].map(|at| float(&[point[at], point[at + 1], point[at + 2], point[at + 3]]));
+            Vec3::new(x, y, z)
+        };
+        Ok(bytes.as_chunks::<12>().0.iter().map(place).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn header(count: i32, first: f32, rate: f32, samples: i32) -> Vec<u8> {
+        let mut bytes = b"POINTCACHE2\0".to_vec();
+        bytes.extend(1i32.to_le_bytes().into_iter().chain(count.to_le_bytes()));
+        bytes.extend(first.to_le_bytes().into_iter().chain(rate.to_le_bytes()).chain(samples.to_le_bytes()));
+        bytes
+    }
+
+    fn with_places(mut bytes: Vec<u8>, places: &[[f32; 3]]) -> Vec<u8> {
+        bytes.extend(places.as_flattened().iter().flat_map(|value| value.to_le_bytes()));
+        bytes
+    }
+
+    fn opened(bytes: &[u8]) -> Result<PointCache, Fault> {
+        let folder = tempfile::tempdir().expect("a folder for the test");
+        let path = folder.path().join("flag.pc2");
+        std::fs::write(&path, bytes).expect("the folder can be written");
+        PointCache::open(&path)
+    }
+
+    #[test]
+    fn points_move_evenly_between_samples_and_stand_before_and_after() {
+        let places = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [1.0, 0.0, 4.0]];
+        let cache = opened(&with_places(header(2, 10.0, 2.0, 2), &places)).expect("the cache is good");
+        assert_eq!((cache.count(), cache.frames()), (2, [10.0, 12.0]));
+        let at = |frame: f64| cache.at(frame).expect("it can be read");
+        assert_eq!(at(3.0), at(10.0));
+        assert_eq!(at(10.5), [Vec3::new(0.0, 0.5, 0.0), Vec3::new(1.0, 0.0, 1.0)]);
+        assert_eq!(at(12.0), at(1e9));
+        assert_eq!(at(12.0)[1], Vec3::new(1.0, 0.0, 4.0));
+    }
+
+    #[test]
+    fn what_a_header_claims_is_held_against_the_file() {
+        let one = [[0.0; 3]];
+        for (bytes, expected) in [
+            (b"POINTCACHE2".to_vec(), "no PC2 file"),
+            (b"PNG".repeat(40), "no PC2 file"),
+            (with_places(header(i32::MAX, 0.0, 1.0, i32::MAX), &one), "cut short"),
+            (with_places(header(1, 0.0, 1.0, 2), &one), "cut short"),
+            (with_places(header(1, 0.0, 1.0, 1), &[[0.0; 3]; 2]), "more behind"),
+            (with_places(header(-1, 0.0, 1.0, 1), &one), "-1 points"),
+            (with_places(header(1, 0.0, 0.0, 1), &one), "0 frames a sample"),
+            (with_places(header(1, f32::NAN, 1.0, 1), &one), "frame NaN"),
+            (with_places(header(1, 0.0, 1.0, 1), &[[0.0, f32::NAN, 0.0]]), "point 0 of sample 0"),
+        ] {
+            let [message, mend] = opened(&bytes).expect_err(expected);
+            assert!(message.contains(expected) && !mend.is_empty(), "{message}");
+        }
+    }
+}

@@ -1,0 +1,369 @@
+//! Tests of bodies that bend: strokes turn as closed forms say, particles suffice where a body stretches, nothing depends on what was
+//! asked before, and bad caches are told.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
+
+use glam::{DAffine3, DMat3, DVec3};
+use impasto_core::TriangleMesh;
+use impasto_measure::truth::{BodyView, PointMotion, ScreenTurn, SurfacePoint, TrueView};
+use impasto_painting::frame::{Frame, LayerKind};
+use impasto_painting::{FrameOptions, Painting, prepare};
+use impasto_scene::document::{
+    Direction, Ease, ObjectKey, Region, Rest, Scale, Scene, Selector, Solver, Style,
+};
+use impasto_scene::load::{LoadOptions, load};
+use impasto_scene::motion;
+use impasto_tests::shapes;
+
+const SIZE_PX: [u32; 2] = [640, 360];
+
+/// A sheet from −1 to 1 with many cells, or a round bar along X.
+fn bar(radius: f64) -> TriangleMesh {
+    const ALONG: u32 = 96;
+    const AROUND: u32 = 48;
+    let mut mesh = TriangleMesh::default();
+    for ring in 0..=ALONG {
+        for side in 0..=AROUND {
+            let turn = std::f64::consts::TAU * f64::from(side % AROUND) / f64::from(AROUND);
+            let (sin, cos) = turn.sin_cos();
+            let x = 2.4 * f64::from(ring) / f64::from(ALONG) - 1.2;
+            mesh.positions.push(DVec3::new(x, radius * sin, radius * cos).as_vec3());
+            mesh.normals.push(DVec3::new(0.0, sin, cos).as_vec3());
+        }
+    }
+    for ring in 0..ALONG {
+        for side in 0..AROUND {
+            let at = |ring: u32, side: u32| ring * (AROUND + 1) + side;
+            let [a, b, c, d] =
+                [at(ring, side), at(ring + 1, side), at(ring + 1, side + 1), at(ring, side + 1)];
+            mesh.triangles.extend([[a, c, b], [a, d, c]]);
+        }
+    }
+    let count = mesh.triangles.len();
+    mesh.polygon_of_triangle = (0..count as u32).collect();
+    (mesh.group_of_triangle, mesh.material_of_triangle) = (vec![0; count], vec![0; count]);
+    mesh
+}
+
+/// A scene whose only object morphs over ten frames.
+fn morphing_scene(angle_deg: f64) -> Scene {
+    let mut scene = shapes::scene(vec![shapes::object("thing", 8000)]);
+    scene.strokes.layers = shapes::body_layer_alone();
+    scene.strokes.contour = Some(0.0);
+    scene.camera.keys[0] = shapes::camera_key(0.0, [0.6, 1.0, 5.0], [0.0, 0.1, 0.0]);
+    scene.camera.keys[0].roll_deg = 7.0;
+    scene.timeline.last = 10;
+    scene.objects[0].morph = Some("target.obj".to_owned());
+    scene.objects[0].keys = vec![ObjectKey::at(0.0), ObjectKey { morph: 1.0, ..ObjectKey::at(10.0) }];
+    let direction = Direction::Angle(angle_deg);
+    scene.regions = vec![Region { direction, ..Region::new("all", Selector::Object("thing".to_owned())) }];
+    scene
+}
+
+/// The angle of each stroke of the body layer that faces the eye, by particle.
+fn angles(frame: &Frame, least_facing: f32) -> BTreeMap<u32, f64> {
+    let run = frame.layers.iter().find(|run| run.kind == LayerKind::Body).expect("a body layer");
+    (run.first as usize..(run.first + run.count) as usize)
+        .filter(|&index| frame.sources[index].facing > least_facing)
+        .map(|index| (frame.sources[index].particle, f64::from(frame.strokes[index].angle_rad)))
+        .collect()
+}
+
+fn lines_apart_deg(a: f64, b: f64) -> f64 {
+    let off = (a - b).rem_euclid(std::f64::consts::PI);
+    off.min(std::f64::consts::PI - off).to_degrees()
+}
+
+/// How far strokes are from the turn of a map of space that bends a mesh, degrees: of each stroke that the reference states wholly and
+/// that faces the eye after. `reference` is the frame in whose picture directions are stated.
+fn errors(mesh: &TriangleMesh, map: &dyn Fn(DVec3) -> DVec3, scene: Scene, reference: f64) -> Vec<f64> {
+    let target = shapes::moved(mesh, map);
+    let painting = prepare(shapes::morphing(scene, [mesh.clone(), target])).expect("the scene is good");
+    let views = [reference, 10.0 - reference];
+    let shown = |frame: f64, least: f32| angles(&painting.at(frame, &FrameOptions::new(SIZE_PX)), least);
+    let (before, after) = (shown(views[0], 0.5), shown(views[1], 0.3));
+    let cameras = views.map(|frame| TrueView::new(&motion::camera_at(painting.scene(), frame), SIZE_PX));
+    let particles = painting.particles(0);
+    let mut errors = Vec::new();
+    for (particle, base) in &before {
+        let Some(now) = after.get(particle) else { continue };
+        let place = particles.at(*particle as usize);
+        let (at, normal) = (place.position.as_dvec3(), place.normal.as_dvec3());
+        const STEP: f64 = 1e-4;
+        let column = |axis: DVec3| (map(at + axis * STEP) - map(at - axis * STEP)) / (2.0 * STEP);
+        let gradient = DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z));
+        let rest = SurfacePoint { position: at, normal };
+        let turned = (gradient.inverse().transpose() * normal).normalize();
+        let bent = SurfacePoint { position: map(at), normal: turned };
+        let moved = if reference == 0.0 {
+            PointMotion { before: rest, after: bent, carry: gradient }
+        } else {
+            PointMotion { before: bent, after: rest, carry: gradient.inverse() }
+        };
+        let [then, seen] =
+            [0, 1].map(|side: usize| BodyView { view: &cameras[side], world_from_model: DAffine3::IDENTITY });
+        let Some(truth) = ScreenTurn::between(&moved, then, seen) else { continue };
+        errors.push(lines_apart_deg(now - base, truth.polar_rad));
+    }
+    errors.sort_by(f64::total_cmp);
+    assert!(errors.len() > 250, "{} strokes", errors.len());
+    errors
+}
+
+/// Bent about an axis along Z, as a bow.
+fn bowed(at: DVec3) -> DVec3 {
+    const RADIUS: f64 = 1.5;
+    let (sin, cos) = (at.x / RADIUS).sin_cos();
+    DVec3::new((RADIUS + at.y) * sin, (RADIUS + at.y) * cos - RADIUS, at.z)
+}
+
+/// Twisted about X, by 137 degrees from end to end.
+fn twisted(at: DVec3) -> DVec3 {
+    let (sin, cos) = (137f64.to_radians() * at.x / 2.4).sin_cos();
+    DVec3::new(at.x, at.y * cos - at.z * sin, at.y * sin + at.z * cos)
+}
+
+/// Sheared and stretched threefold.
+fn stretched(at: DVec3) -> DVec3 {
+    DVec3::new(1.5 * at.x + 0.4 * at.y, 0.7 * at.y, 0.5 * at.z)
+}
+
+#[test]
+fn strokes_turn_as_closed_forms_of_bending_say() {
+    for (name, mesh, map) in [
+        ("a bowed bar", bar(0.45), &bowed as &dyn Fn(DVec3) -> DVec3),
+        ("a twisted bar", bar(0.5), &twisted),
+        ("a stretched sheet", shapes::sheet(48), &stretched),
+        ("a bowed sheet", shapes::sheet(48), &bowed),
+    ] {
+        for angle_deg in [7.0, 30.0, 137.0] {
+            // Directions are stated in the picture of the straight shape, then in that of the bent one.
+            for reference in [0.0, 10.0] {
+                let mut scene = morphing_scene(angle_deg);
+                scene.reference = impasto_scene::document::Reference::Frame(reference as i64);
+                let errors = errors(&mesh, map, scene, reference);
+                let (p95, max) = (errors[errors.len() * 95 / 100], errors[errors.len() - 1]);
+                println!("{name}, {angle_deg} from frame {reference}: p95 {p95:.3}, max {max:.3} degrees");
+                assert!(p95 <= 0.5 && max <= 2.0, "{name}, {angle_deg}: p95 {p95}, max {max}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_stated_angle_shows_in_the_reference_whatever_the_rest() {
+    let target = shapes::moved(&shapes::sheet(32), bowed);
+    for rest in [Rest::Bind, Rest::Frame(10), Rest::Frame(4)] {
+        let mut scene = morphing_scene(30.0);
+        scene.reference = impasto_scene::document::Reference::Frame(10);
+        scene.objects[0].rest = rest;
+        let painting = prepare(shapes::morphing(scene, [shapes::sheet(32), target.clone()])).expect("good");
+        let shown = angles(&painting.at(10.0, &FrameOptions::new(SIZE_PX)), 0.6);
+        let worst =
+            shown.values().map(|angle| lines_apart_deg(*angle, 30f64.to_radians())).fold(0.0, f64::max);
+        assert!(shown.len() > 200 && worst < 0.2, "{rest:?}: {worst} degrees of {} strokes", shown.len());
+    }
+}
+
+#[test]
+fn the_paper_s_sum_agrees_on_a_bent_body() {
+    let mut scene = morphing_scene(30.0);
+    scene.objects[0].particles = Some(20_000);
+    let angles_of = |solver: Solver| {
+        let mut scene = scene.clone();
+        let Style::RotatingStrokes(style) = &mut scene.style else { panic!("the usual style") };
+        style.solver = solver;
+        let target = shapes::moved(&shapes::sheet(32), twisted);
+        let painting = prepare(shapes::morphing(scene, [shapes::sheet(32), target])).expect("good");
+        angles(&painting.at(10.0, &FrameOptions::new(SIZE_PX)), 0.6)
+    };
+    let (tangent, exact) = (angles_of(Solver::Tangent), angles_of(Solver::HornExact));
+    let mut apart: Vec<f64> = tangent
+        .iter()
+        .filter_map(|(particle, angle)| Some(lines_apart_deg(*angle, *exact.get(particle)?)))
+        .collect();
+    apart.sort_by(f64::total_cmp);
+    let (p50, p95) = (apart[apart.len() / 2], apart[apart.len() * 95 / 100]);
+    println!("tangent against the paper's sum: p50 {p50:.3}, p95 {p95:.3} degrees over {}", apart.len());
+    assert!(apart.len() > 200 && p50 <= 1.0 && p95 <= 6.0, "{p50} {p95}");
+}
+
+/// Strokes on a body that stretches threefold are as many for each pixel as on the body at rest.
+#[test]
+fn a_stretched_body_has_no_fewer_strokes_a_pixel() {
+    let wide = |at: DVec3| DVec3::new(3.0 * at.x, at.y, at.z);
+    let mut scene = morphing_scene(7.0);
+    scene.objects[0].particles = None;
+    // The camera is far enough to see all of the stretched sheet, and sees it from straight ahead.
+    scene.camera.keys = vec![shapes::camera_key(0.0, [0.0, 0.0, 12.0], [0.0; 3])];
+    let target = shapes::moved(&shapes::sheet(32), wide);
+    let painting = prepare(shapes::morphing(scene, [shapes::sheet(32), target])).expect("good");
+    let present = |frame: f64| {
+        let frame = painting.at(frame, &FrameOptions::new(SIZE_PX));
+        let supplied = frame.strokes.iter().filter(|stroke| stroke.supply_ln > 0.0).count();
+        supplied as f64
+    };
+    let (rest, wide) = (present(0.0), present(10.0));
+    println!("{rest} strokes at rest, {wide} on three times the area");
+    assert!(rest > 100.0 && (wide / rest / 3.0 - 1.0).abs() < 0.06, "{rest} {wide}");
+}
+
+#[test]
+fn a_collapsed_or_mirrored_body_paints_numbers() {
+    for map in [
+        &(|_| DVec3::ZERO) as &dyn Fn(DVec3) -> DVec3,
+        &|at| DVec3::new(-at.x, at.y, at.z),
+        &|at| DVec3::new(at.x.abs(), at.y, at.z),
+        &|at| DVec3::new(at.x, 0.0, 0.0),
+    ] {
+        let target = shapes::moved(&shapes::sheet(12), map);
+        let painting =
+            prepare(shapes::morphing(morphing_scene(30.0), [shapes::sheet(12), target])).expect("good");
+        for frame in [3.0, 5.0, 9.5, 10.0] {
+            let frame = painting.at(frame, &FrameOptions::new(SIZE_PX));
+            for (stroke, source) in frame.strokes.iter().zip(&frame.sources) {
+                let numbers =
+                    [stroke.angle_rad, stroke.length_px, stroke.width_px, stroke.supply_ln, source.kappa];
+                assert!(numbers.iter().all(|number| number.is_finite()), "{stroke:?}");
+                let normal = stroke.normal_in_world;
+                assert!(normal.iter().all(|number| number.is_finite()), "{stroke:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn an_uneven_scale_turns_strokes_as_its_map_says() {
+    // A sheet that keys stretch: the same as one that is modelled so.
+    let scales = [1.5, 0.6, 1.0];
+    let mut keyed = morphing_scene(30.0);
+    keyed.objects[0].morph = None;
+    keyed.objects[0].keys = vec![
+        ObjectKey { ease: Ease::Linear, ..ObjectKey::at(0.0) },
+        ObjectKey { scale: Scale(scales), ..ObjectKey::at(10.0) },
+    ];
+    let mut morphed = morphing_scene(30.0);
+    let stretch = |at: DVec3| at * DVec3::from(scales);
+    let of = |painting: &Painting| angles(&painting.at(10.0, &FrameOptions::new(SIZE_PX)), 0.3);
+    keyed.strokes.flatness = Some(0.5);
+    morphed.strokes.flatness = Some(0.5);
+    let by_keys = of(&prepare(shapes::loaded(keyed, [shapes::sheet(16)])).expect("good"));
+    let target = shapes::moved(&shapes::sheet(16), stretch);
+    let by_morph = of(&prepare(shapes::morphing(morphed, [shapes::sheet(16), target])).expect("good"));
+    let mut compared = 0;
+    for (particle, angle) in &by_keys {
+        let Some(other) = by_morph.get(particle) else { continue };
+        assert!(lines_apart_deg(*angle, *other) < 0.02, "{particle}: {angle} {other}");
+        compared += 1;
+    }
+    assert!(compared > 300, "{compared}");
+}
+
+/// Writes a scene of a plate that a cache moves.
+fn cached_plate(folder: &Path, cache: &[u8]) -> std::path::PathBuf {
+    let plate = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 0\nf 1 2 3 4\nf 5 3 2\n";
+    std::fs::write(folder.join("plate.obj"), plate).expect("written");
+    std::fs::write(folder.join("plate.pc2"), cache).expect("written");
+    let text = "(version: 1, size: (64, 36), camera: (keys: [(frame: 0, eye: (0.5, 0.5, 3), target: (0.5, 0.5, 0))]), \
+                timeline: (last: 4), objects: [(name: \"plate\", mesh: \"plate.obj\", cache: \"plate.pc2\")])";
+    let path = folder.join("scene.ron");
+    std::fs::write(&path, text).expect("written");
+    path
+}
+
+fn pc2(samples: &[Vec<[f32; 3]>], claimed: i32) -> Vec<u8> {
+    let mut bytes = b"POINTCACHE2\0".to_vec();
+    bytes.extend(1i32.to_le_bytes().into_iter().chain(claimed.to_le_bytes()));
+    bytes.extend(0f32.to_le_bytes().into_iter().chain(2f32.to_le_bytes()));
+    bytes.extend((samples.len() as i32).to_le_bytes());
+    bytes.extend(samples.iter().flatten().flatten().flat_map(|number| number.to_le_bytes()));
+    bytes
+}
+
+#[test]
+fn a_cache_moves_the_points_of_its_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // Points 0 and 4 lie on each other at rest and part in the cache.
+    let still = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]];
+    let mut moved = still.clone();
+    (moved[0][2], moved[4][2]) = (1.0, -1.0);
+    let path = cached_plate(folder.path(), &pc2(&[still, moved], 5));
+    let loaded = load(&path, &LoadOptions::default()).unwrap_or_else(|report| panic!("{report}"));
+    let painting = prepare(Arc::new(loaded)).expect("good");
+    let heights = |frame: f64| {
+        let positions = painting.surface(0).positions_at(&painting.shapes_at(frame)[0]);
+        let mut heights: Vec<f32> = positions.iter().map(|at| at.z).filter(|z| *z != 0.0).collect();
+        heights.sort_by(f32::total_cmp);
+        heights.dedup();
+        heights
+    };
+    assert_eq!((heights(0.0), heights(1.0), heights(2.0)), (vec![], vec![-0.5, 0.5], vec![-1.0, 1.0]));
+    assert_eq!(heights(4.0), [-1.0, 1.0]);
+    assert_eq!(painting.faults(), Vec::<String>::new());
+}
+
+#[test]
+fn a_cache_that_does_not_fit_is_refused_with_its_place() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let sample = |count: usize| vec![vec![[0.0; 3]; count]; 2];
+    for (bytes, expected) in [
+        (pc2(&sample(4), 4), "plate.pc2 moves 4 points, but plate.obj has 5"),
+        (pc2(&sample(5), 6), "cut short"),
+        (pc2(&sample(5), 1_000_000_000), "cut short"),
+        (pc2(&sample(5), 4), "more behind"),
+        (b"POINTCACHE2\0 no".to_vec(), "no PC2 file"),
+        (pc2(&[vec![[f32::NAN; 3]; 5]], 5), "point 0 of sample 0"),
+    ] {
+        let path = cached_plate(folder.path(), &bytes);
+        let report = load(&path, &LoadOptions::default()).err().expect(expected).to_string();
+        assert!(report.contains(expected), "{report}");
+        assert!(report.contains("plate.pc2"), "{report}");
+    }
+    std::fs::remove_file(folder.path().join("plate.pc2")).expect("removed");
+    let report = load(&folder.path().join("scene.ron"), &LoadOptions::default()).unwrap_err().to_string();
+    assert!(report.contains("scene.ron:1:") && report.contains("not found"), "{report}");
+}
+
+#[test]
+fn a_cache_that_is_lost_later_leaves_the_body_at_rest_and_is_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let cache = pc2(&vec![vec![[0.5; 3]; 5]; 3], 5);
+    let path = cached_plate(folder.path(), &cache);
+    let painting = prepare(Arc::new(load(&path, &LoadOptions::default()).expect("good"))).expect("good");
+    std::fs::OpenOptions::new()
+        .write(true)
+        .open(folder.path().join("plate.pc2"))
+        .and_then(|file| file.set_len(40))
+        .expect("cut");
+    let positions = painting.surface(0).positions_at(&painting.shapes_at(2.0)[0]);
+    assert_eq!(positions, painting.surface(0).mesh.positions);
+    assert!(painting.faults()[0].contains("plate.pc2, at frame 2"), "{:?}", painting.faults());
+}
+
+/// Frames of the parade, in any order, alone and with other numbers of threads, are the same to the bit.
+#[test]
+fn any_frame_alone_is_the_frame_of_the_sequence() {
+    let path = impasto_tests::command::root().join("scenes/parade.ron");
+    let loaded = Arc::new(load(&path, &LoadOptions::default()).unwrap_or_else(|report| panic!("{report}")));
+    let options = FrameOptions::new([320, 180]);
+    let painting = prepare(Arc::clone(&loaded)).expect("good");
+    let sums = |painting: &Painting, frame: f64| {
+        let frame = painting.at(frame, &options);
+        let bodies: Vec<_> =
+            frame.bodies.iter().map(|body| body.bent.as_ref().map(|bent| bent.vertices.clone())).collect();
+        (frame.strokes, bodies)
+    };
+    let frames = [0.0, 13.0, 24.0, 30.5];
+    let in_order: Vec<_> = frames.iter().map(|frame| sums(&painting, *frame)).collect();
+    for (index, frame) in frames.iter().enumerate().rev() {
+        assert!(sums(&painting, *frame) == in_order[index], "frame {frame} again");
+    }
+    for threads in [1, 2, 7] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        let alone = pool.install(|| sums(&prepare(Arc::clone(&loaded)).expect("good"), 13.0));
+        assert!(alone == in_order[1], "{threads} threads");
+    }
+    assert!(in_order[0] != in_order[1]);
+}
