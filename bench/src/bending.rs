@@ -4,10 +4,10 @@
 use anyhow::ensure;
 use glam::{DAffine3, DVec3, Vec3};
 use impasto_core::TriangleMesh;
-use impasto_core::bending::{Bend, BendPose, Carrier, Gradients, SkinWeights, Vertices};
+use impasto_core::bending::{Bend, BendPose, Carrier, Gradients, SkinWeights, SortedParticles, Vertices};
 use impasto_core::lift::Lift;
 use impasto_core::sampling::{PackedParticle, Particle};
-use impasto_core::solve::{BakedParticles, SolvedParticles, solve};
+use impasto_core::solve::{BakedParticles, Bounds, ParticleView, SolvedParticles, solve};
 use impasto_core::{ScreenMap, screen_map::PixelLens};
 
 use crate::bench::Bench;
@@ -54,6 +54,39 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
         DAffine3::IDENTITY,
         PixelLens::Perspective { focal_px: 1000.0 },
     );
+    let input = format!("{PARTICLES} particles, {name}");
+    let sorted = SortedParticles::new(&places, &baked, |_| 0.0);
+    let view = ParticleView::new(&map);
+    // As many are present as in a picture that is full of strokes.
+    let bounds =
+        Bounds { half_px: [640.0, 360.0], near_far: [0.1, 100.0], most_per_area: 10_000.0 / 20_000.0 };
+    let mut showing = 0;
+    let contenders = vec![
+        Contender::here("Impasto", "those that show", || {
+            let words = carrier.within(&mesh, &sorted, &view, &bounds);
+            let mut sum = 0.0;
+            showing = 0;
+            for (word, bits) in words.iter().enumerate() {
+                let mut bits = *bits;
+                while bits != 0 {
+                    let index = word * 64 + bits.trailing_zeros() as usize;
+                    bits &= bits - 1;
+                    let vectors = carrier.particle(&mesh, places[index], (&baked, index), 0.0);
+                    sum += view.solved_at(vectors.map(|vector| vector.to_array()), None).angle_rad;
+                    showing += 1;
+                }
+            }
+            sum
+        }),
+        // Place, number, normal and height (8) of all, once.
+        Streams::new(places.len(), 8, 1).contender(),
+    ];
+    let figures = race(&bench.pace(false), contenders)?;
+    ensure!(showing > 1000, "{showing} show");
+    let mut row = Row::of_race("carry and cull all, solve those that show", &input, figures, true);
+    row.ours.note = format!("{showing} show");
+    bench.push(row);
+
     let mut solved = SolvedParticles::default();
     let contenders = vec![
         Contender::here("Impasto", "", || {
@@ -64,13 +97,13 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
         Streams::new(places.len(), 3 + 12 + 12, 12 + 5).contender(),
     ];
     let figures = race(&bench.pace(false), contenders)?;
-    let input = format!("{PARTICLES} particles, {name}");
-    bench.push(Row::of_race("carry, project and solve", &input, figures, true));
+    bench.push(Row::of_race("carry, project and solve all", &input, figures, true));
     Ok(())
 }
 
 fn bar() -> (TriangleMesh, Bend) {
-    let (mut mesh, mut skin) = (TriangleMesh::default(), SkinWeights { per_vertex: 4, ..SkinWeights::default() });
+    let (mut mesh, mut skin) =
+        (TriangleMesh::default(), SkinWeights { per_vertex: 4, ..SkinWeights::default() });
     for ring in 0..RINGS {
         let along = ring as f32 / (RINGS - 1) as f32;
         for side in 0..AROUND {
@@ -86,7 +119,8 @@ fn bar() -> (TriangleMesh, Bend) {
     for ring in 0..RINGS - 1 {
         for side in 0..AROUND {
             let at = |ring: u32, side: u32| ring * AROUND + side % AROUND;
-            let [a, b, c, d] = [at(ring, side), at(ring + 1, side), at(ring + 1, side + 1), at(ring, side + 1)];
+            let [a, b, c, d] =
+                [at(ring, side), at(ring + 1, side), at(ring + 1, side + 1), at(ring, side + 1)];
             mesh.triangles.extend([[a, c, b], [a, d, c]]);
         }
     }

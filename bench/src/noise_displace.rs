@@ -7,7 +7,7 @@ use std::time::Instant;
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::{Driver, OpenOptions, open};
 use impasto_painting::{FrameOptions, Painting, prepare};
-use impasto_scene::document::{MaterialOverride, NoiseDisplace, ObjectKey, Scene, Style};
+use impasto_scene::document::{MaterialOverride, NoiseDisplace, ObjectKey, Scale, Scene, Style};
 use impasto_tests::shapes;
 
 use crate::bench::Bench;
@@ -34,7 +34,7 @@ fn spheres(count: usize, noise: Option<&NoiseDisplace>) -> Painting {
         });
         object.keys = vec![ObjectKey {
             translation: [at(index % columns), at(index / columns), 0.0],
-            scale: 0.4 * spacing,
+            scale: Scale::even(0.4 * spacing),
             ..ObjectKey::at(0.0)
         }];
         object

@@ -317,7 +317,7 @@ fn a_cache_that_does_not_fit_is_refused_with_its_place() {
         (pc2(&[vec![[f32::NAN; 3]; 5]], 5), "point 0 of sample 0"),
     ] {
         let path = cached_plate(folder.path(), &bytes);
-        let report = load(&path, &LoadOptions::default()).err().expect(expected).to_string();
+        let report = load(&path, &LoadOptions::default()).expect_err(expected).to_string();
         assert!(report.contains(expected), "{report}");
         assert!(report.contains("plate.pc2"), "{report}");
     }
@@ -340,6 +340,73 @@ fn a_cache_that_is_lost_later_leaves_the_body_at_rest_and_is_told() {
     let positions = painting.surface(0).positions_at(&painting.shapes_at(2.0)[0]);
     assert_eq!(positions, painting.surface(0).mesh.positions);
     assert!(painting.faults()[0].contains("plate.pc2, at frame 2"), "{:?}", painting.faults());
+}
+
+/// A copy of the shot of the parade, changed; returns what reading it says.
+fn changed_parade(change: impl FnOnce(&mut serde_json::Value, &mut Vec<u8>)) -> (bool, String) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("parade.glb");
+    let shot = impasto_tests::command::root().join("scenes/meshes/parade.glb");
+    std::fs::copy(shot, &path).expect("copied");
+    impasto_tests::glb::edit(&path, change);
+    match load(&path, &LoadOptions::default()) {
+        Ok(loaded) => {
+            let painting = prepare(Arc::new(loaded)).expect("prepared");
+            painting.at(13.0, &FrameOptions::new([64, 36]));
+            let warnings: Vec<String> =
+                painting.loaded().warnings.iter().map(|warning| warning.to_string()).collect();
+            (true, warnings.join("\n"))
+        }
+        Err(report) => (false, report.to_string()),
+    }
+}
+
+/// The bytes of an attribute of the skinned mesh.
+fn bytes_of<'a>(root: &serde_json::Value, bin: &'a mut [u8], accessor: &serde_json::Value) -> &'a mut [u8] {
+    let accessor = &root["accessors"][accessor.as_u64().expect("an index") as usize];
+    let view = &root["bufferViews"][accessor["bufferView"].as_u64().expect("a view") as usize];
+    let number = |value: &serde_json::Value| value.as_u64().unwrap_or(0) as usize;
+    let start = number(&view["byteOffset"]) + number(&accessor["byteOffset"]);
+    &mut bin[start..start + number(&view["byteLength"])]
+}
+
+#[test]
+fn bad_skins_are_told_and_never_hang() {
+    let skinned = |root: &serde_json::Value, attribute: &str| {
+        let meshes = root["meshes"].as_array().expect("meshes");
+        let mut primitives =
+            meshes.iter().flat_map(|mesh| mesh["primitives"].as_array().expect("primitives"));
+        primitives
+            .find_map(|primitive| primitive["attributes"].get(attribute))
+            .expect("a skinned primitive")
+            .clone()
+    };
+    let (is_read, said) = changed_parade(|root, bin| {
+        let joints = skinned(root, "JOINTS_0");
+        bytes_of(root, bin, &joints).fill(200);
+    });
+    assert!(
+        !is_read && said.contains("/skins/") | said.contains("JOINTS_0") | said.contains("joint"),
+        "{said}"
+    );
+    let (is_read, said) = changed_parade(|root, bin| {
+        let weights = skinned(root, "WEIGHTS_0");
+        bytes_of(root, bin, &weights).fill(0);
+    });
+    assert!(is_read && said.contains("no joint weights"), "{said}");
+    let (is_read, said) = changed_parade(|root, bin| {
+        let matrices = root["skins"][0]["inverseBindMatrices"].clone();
+        bytes_of(root, bin, &matrices)[..64].fill(0xff);
+    });
+    assert!(!is_read && said.contains("not finite"), "{said}");
+    let (is_read, said) = changed_parade(|root, _| {
+        // A joint becomes the parent of the one above it.
+        let nodes = root["nodes"].as_array_mut().expect("nodes");
+        let parent = nodes.iter().position(|node| node["children"].is_array()).expect("a parent");
+        let child = nodes[parent]["children"][0].as_u64().expect("an index") as usize;
+        nodes[child]["children"] = serde_json::json!([parent]);
+    });
+    assert!(!is_read && said.contains("/nodes/"), "{said}");
 }
 
 /// Frames of the parade, in any order, alone and with other numbers of threads, are the same to the bit.

@@ -172,8 +172,8 @@ impl SolveScene {
         for sample in 0..1000 {
             let particle = hash::scramble(sample) as usize % self.positions.len();
             let position = |index: usize| self.positions[index].as_dvec3();
-            let others = self.lists[K * particle..][..K].iter().map(|&other| position(other as usize));
-            let expected = horn_exact::turn_rad(position(particle), others, &reference, &now);
+            let others = self.lists[K * particle..][..K].iter().map(|&other| [position(other as usize); 2]);
+            let expected = horn_exact::turn_rad([position(particle); 2], others, &reference, &now);
             let apart = impasto_core::angle::wrap_pi(expected - f64::from(angles_rad[particle]));
             far += usize::from(apart.abs() > 0.02f64.to_radians());
         }

@@ -54,7 +54,15 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
         Destination::Animation(path) => plan.animation(arguments, &path, &interrupt),
         Destination::Movie(path, encoding) => plan.movie(arguments, &path, encoding, &interrupt),
         Destination::Stream => plan.stream(&interrupt),
+    }?;
+    let faults = plan.sequence.painting.faults();
+    if faults.is_empty() {
+        return Ok(());
     }
+    Err(Failure::Other(format!(
+        "a body stayed at rest in some frames, since its point cache could not be read: {}",
+        faults.join("; ")
+    )))
 }
 
 fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, Failure> {

@@ -14,7 +14,7 @@ use std::ops::Range;
 use glam::{DAffine3, Vec3};
 use rayon::prelude::*;
 
-pub use carry::{CarriedPlace, Carrier};
+pub use carry::{CarriedPlace, Carrier, SortedParticles};
 pub use gradient::Gradients;
 
 /// The vertices of a mesh in some shape, model space.

@@ -10,6 +10,7 @@ use crate::angle::atan2;
 use crate::lift::Lift;
 use crate::wide::{Wide, widest};
 
+pub(crate) use cull::WORD;
 pub use cull::{Bounds, ParticleView, SolvedParticle};
 
 /// How many particles one task handles.

@@ -122,9 +122,9 @@ impl Picker {
         self.trees.get(object)?.closest(position_in_model, max_distance, facing)
     }
 
-    /// Where a point near an object's surface at rest is now, and the direction of a normal there, in the object's own space.
-    pub fn carried(&self, object: usize, at_rest: DVec3, normal: DVec3) -> [DVec3; 2] {
-        self.trees.get(object).map_or([at_rest, normal], |tree| tree.carried(at_rest, normal))
+    /// Takes what is round a point near an object's surface at rest to where it is now, in the object's own space.
+    pub fn now_from_rest(&self, object: usize, at_rest: DVec3) -> DAffine3 {
+        self.trees.get(object).map_or(DAffine3::IDENTITY, |tree| tree.now_from_rest(at_rest))
     }
 
     /// Whether joints, shape keys or a point cache may bend an object.

@@ -228,10 +228,14 @@ impl<'a> Surroundings<'a> {
         self.poses.get(object).copied().unwrap_or(DAffine3::IDENTITY)
     }
 
+    /// Takes what is round a point of an object's own space, near its surface at rest, to where it is now in the world.
+    pub(crate) fn now_from_rest(&self, object: usize, position: DVec3) -> DAffine3 {
+        self.pose(object) * self.picker.now_from_rest(object, position)
+    }
+
     /// Takes a point of an object's own space, near its surface at rest, to where it is now in the world.
     pub(crate) fn world(&self, object: usize, position: DVec3) -> DVec3 {
-        let [now, _] = self.picker.carried(object, position, DVec3::Y);
-        self.pose(object).transform_point3(now)
+        self.now_from_rest(object, position).transform_point3(position)
     }
 
     /// The selected region, or that of the selected guide.

@@ -3,89 +3,17 @@
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use glam::{DAffine3, DMat3, Mat3, Vec3};
+use glam::{Mat3, Vec3};
 use impasto_core::TriangleMesh;
-use impasto_core::bending::{Bend, CarriedPlace, Carrier, Gradients, Target, Vertices};
+use impasto_core::bending::{CarriedPlace, Carrier, Gradients, Vertices};
 use impasto_core::sampling::PackedParticle;
 use impasto_core::shells::sides;
-use impasto_scene::mesh_file::{MeshFile, Points};
-use impasto_scene::morph;
-use impasto_scene::point_cache::PointCache;
 use rayon::prelude::*;
 
-use crate::body::{BodyShape, BodySurface};
-use crate::noise_displace;
-
-/// What bends a surface, model space.
-#[derive(Debug, Default)]
-pub(crate) struct BodyBend {
-    /// Morph targets and joints.
-    pub(crate) bend: Option<Bend>,
-    pub(crate) cache: Option<BodyCache>,
-    /// The shape in which the surface's mesh is; its noise is left out.
-    pub(crate) rest: BodyShape,
-    /// How the surface is strained; found when first asked for.
-    gradients: OnceLock<Gradients>,
-    /// What went wrong when a point cache was read.
-    fault: OnceLock<String>,
-}
-
-/// A point cache, and how a mesh goes with it.
-#[derive(Clone, Debug)]
-pub(crate) struct BodyCache {
-    pub(crate) cache: Arc<PointCache>,
-    pub(crate) points: Arc<Points>,
-    pub(crate) model_from_file: DMat3,
-}
-
-impl BodyBend {
-    /// Of a mesh file, with the mesh of the same topology that it may morph into.
-    pub(crate) fn new(
-        file: &MeshFile,
-        morph: Option<&MeshFile>,
-        cache: Option<BodyCache>,
-        model_from_file: DMat3,
-    ) -> Self {
-        let bound =
-            || Vertices { positions: file.mesh.positions.clone(), normals: file.mesh.normals.clone() };
-        let mut bend = file.bend.as_deref().cloned();
-        // The scene's check refuses morphs of another topology.
-        if let Some(target) = morph.and_then(|target| morph::target_of(file, target).ok()) {
-            let bend = bend.get_or_insert_with(|| Bend { bound: bound(), ..Bend::default() });
-            bend.targets.push(Target::between(&bound(), &target));
-            bend.rest.weights.resize(bend.targets.len(), 0.0);
-        }
-        let bend = bend.map(|bend| placed(bend, model_from_file));
-        Self { bend, cache, ..Self::default() }
-    }
-
-    /// The same at rest in another shape, of which nothing was measured yet.
-    pub(crate) fn resting(self, rest: BodyShape) -> Self {
-        Self { bend: self.bend, cache: self.cache, rest, ..Self::default() }
-    }
-}
-
-/// A bend in model space: joints take vertices there; without joints, the vertices themselves are placed.
-fn placed(mut bend: Bend, model_from_file: DMat3) -> Bend {
-    if bend.skin.is_some() {
-        let place = DAffine3::from_mat3(model_from_file);
-        bend.rest.joints.iter_mut().for_each(|joint| *joint = place * *joint);
-        return bend;
-    }
-    let position = model_from_file.as_mat3();
-    let normal = model_from_file.inverse().transpose().as_mat3();
-    bend.bound.positions.iter_mut().for_each(|at| *at = position * *at);
-    let lengths: Vec<f32> =
-        bend.bound.normals.iter().map(|own| (normal * *own).length().max(1e-30)).collect();
-    bend.bound.normals.iter_mut().zip(&lengths).for_each(|(own, length)| *own = normal * *own / *length);
-    for target in &mut bend.targets {
-        target.positions.iter_mut().for_each(|step| *step = position * *step);
-        for (step, vertex) in target.normals.iter_mut().zip(&target.vertices) {
-            *step = normal * *step / lengths[*vertex as usize];
-        }
-    }
-    bend
-}
+use crate::body::BodySurface;
+use crate::body_bend::BodyBend;
+use crate::body_shape::BodyShape;
+use crate::displaced::displaced;
 
 /// A surface that is not at rest.
 #[derive(Debug)]
@@ -143,7 +71,7 @@ impl BodySurface {
     pub fn vertices_at(&self, shape: &BodyShape) -> Vertices {
         let bent = self.unnoised(shape);
         match shape.displacing() {
-            Some((noise, lookup)) => noise_displace::displaced(&bent, noise, lookup),
+            Some((noise, lookup)) => displaced(&bent, noise, lookup),
             None => bent,
         }
     }
@@ -191,13 +119,6 @@ impl BodySurface {
     }
 }
 
-impl BodyCache {
-    fn positions(&self, frame: f64) -> std::io::Result<Vec<Vec3>> {
-        let (points, place) = (self.cache.at(frame)?, self.model_from_file.as_mat3());
-        Ok(self.points.of_vertex.par_iter().map(|&point| place * points[point as usize]).collect())
-    }
-}
-
 /// All bodies of a scene at one frame; `None` for those at rest.
 pub(crate) type BentBodies = Arc<Vec<Option<Arc<Bent>>>>;
 
@@ -211,8 +132,12 @@ struct Remembered {
     bodies: BentBodies,
 }
 
-/// How many frames are remembered.
-const REMEMBERED: usize = 3;
+/// At least and at most so many frames are remembered, between the two as many as take this many bytes.
+const REMEMBERED: [usize; 2] = [2, 8];
+const REMEMBERED_BYTES: usize = 32 << 20;
+
+/// What a vertex of a bent body takes, with what carries strokes.
+const VERTEX_BYTES: usize = size_of::<[Vec3; 2]>() + size_of::<[f32; 12]>();
 
 impl BentMemo {
     /// The bodies at a frame, which have these surfaces. `shapes_at` is asked where the frame is not known.
@@ -249,7 +174,10 @@ impl BentMemo {
         if let Some(known) = known(&memo) {
             return known;
         }
-        memo.truncate(REMEMBERED - 1);
+        let bytes: usize =
+            bodies.iter().flatten().map(|bent| bent.vertices.positions.len() * VERTEX_BYTES).sum();
+        let [least, most] = REMEMBERED;
+        memo.truncate((REMEMBERED_BYTES / bytes.max(1)).clamp(least, most) - 1);
         memo.push_front(Remembered { frame, shapes, bodies: Arc::clone(&bodies) });
         bodies
     }

@@ -91,7 +91,7 @@ impl PaintingView<'_> {
         let half_px = self.half_px.map(|half| half + most_reach_px);
         let bounds = Bounds { half_px, near_far: self.near_far, most_per_area };
         if coat.hidden || self.is_left_out(coat.coat.kind) || most_per_area <= 0.0 {
-            return vec![0; coat.baked.len().div_ceil(PaintingOrder::WORD)];
+            return vec![0; coat.len().div_ceil(PaintingOrder::WORD)];
         }
         coat.within(&bounds)
     }

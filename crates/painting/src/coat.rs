@@ -1,10 +1,13 @@
 //! A coat: the particles of one object that carry one layer of paint. Layers do not share particles: otherwise every
 //! large stroke would have a small one at its centre.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
+
+use glam::Vec3;
+use impasto_core::bending::SortedParticles;
 
 use impasto_core::sampling::{self, PackedParticle, ProgressiveState, Surface};
-use impasto_core::solve::BakedParticles;
+use impasto_core::solve::{BakedParticles, Bounds, ParticleView};
 use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
 
@@ -27,6 +30,8 @@ pub(crate) struct Coat {
     pub(crate) used: Arc<Vec<u16>>,
     pub(crate) traits: Arc<Traits>,
     pub(crate) baked: Arc<BakedBody>,
+    /// The particles in the order of their triangles; made when the body first bends.
+    pub(crate) sorted: OnceLock<SortedParticles>,
     /// The surface that the particles lie on.
     pub(crate) surface: Arc<BodySurface>,
     /// For each rule and each of its brushes: the index of the brush's first mark in the list of all brushes' marks.
@@ -36,11 +41,30 @@ pub(crate) struct Coat {
 impl Coat {
     /// The baked particles, carried by a body that is not at rest.
     pub(crate) fn carried(&self, bent: &Bent) -> BakedParticles {
+        let places = self.sampled.particles.places();
+        bent.carrier().carry(&self.surface.mesh, places, &self.baked.baked, self.heights())
+    }
+
+    /// One of them: position, normal and the columns of its lift.
+    pub(crate) fn carried_one(&self, bent: &Bent, index: usize) -> [Vec3; 4] {
+        let place = self.sampled.particles.places()[index];
+        let baked = (&self.baked.baked, index);
+        bent.carrier().particle(&self.surface.mesh, place, baked, self.heights()(index))
+    }
+
+    /// A bit for each particle: whether it faces the eye within the bounds, carried by a body that is not at rest.
+    pub(crate) fn carried_within(&self, bent: &Bent, view: &ParticleView, bounds: &Bounds) -> Vec<u64> {
+        let sorted = self.sorted.get_or_init(|| {
+            SortedParticles::new(self.sampled.particles.places(), &self.baked.baked, self.heights())
+        });
+        bent.carrier().within(&self.surface.mesh, sorted, view, bounds)
+    }
+
+    /// How far each particle is lifted off its surface.
+    fn heights(&self) -> impl Fn(usize) -> f32 + Sync + '_ {
         let offset = |rule: u16| self.lift_sources.rules[usize::from(rule)].strokes.offset;
         let is_lifted = self.used.iter().any(|&rule| offset(rule) != 0.0);
-        let height = |index: usize| if is_lifted { offset(self.traits.region(index)) } else { 0.0 };
-        let places = self.sampled.particles.places();
-        bent.carrier().carry(&self.surface.mesh, places, &self.baked.baked, height)
+        move |index| if is_lifted { offset(self.traits.region(index)) } else { 0.0 }
     }
 
     /// sRGB albedo at a particle, 8 bits a channel, as 0xAABBGGRR; A is 0 for an unlit material, else 255.

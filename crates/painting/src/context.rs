@@ -7,7 +7,7 @@ use impasto_core::hash;
 use impasto_scene::document::{Scene, Solver};
 use impasto_scene::presets::LayerKind;
 
-use crate::body::BodyShape;
+use crate::body_shape::BodyShape;
 use crate::frame::Brushes;
 use crate::parts::Cap;
 use crate::references::BodyReferences;

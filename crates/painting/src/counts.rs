@@ -7,7 +7,8 @@ use glam::DVec2;
 use impasto_core::sampling::Surface;
 use impasto_scene::presets::LayerKind;
 
-use crate::body::{BodyShape, BodySurface};
+use crate::body::BodySurface;
+use crate::body_shape::BodyShape;
 use crate::context::{Context, ObjectInputs};
 use crate::particle_count::{self, Sighting};
 use crate::parts::{BodyParts, Cap, fit_of, wanted_where_small};

@@ -9,7 +9,8 @@ use impasto_scene::limits::MAX_PIXELS;
 mod stroke;
 
 pub use crate::bent::Bent;
-pub use crate::body::{BodyMaterial, BodySurface, FrameNoise};
+pub use crate::body::{BodyMaterial, BodySurface};
+pub use crate::body_shape::FrameNoise;
 pub use impasto_core::bending::Vertices;
 pub use impasto_scene::document::{InkDrawing, InkLight, InkRule, Style, SumiE};
 pub use impasto_scene::mesh_file::{Sampler, Wrap};

@@ -1,9 +1,8 @@
-//! Noise-displaced materials: makes the noise of a body from what the document states, and moves vertices by it.
+//! Noise-displaced materials: makes the noise of a body from what the document states.
 
 use std::sync::Arc;
 
-use glam::{DAffine3, DVec2, Vec3};
-use impasto_core::bending::Vertices;
+use glam::{DAffine3, DVec2};
 use impasto_core::noise_displace::{
     Along, Lookup, Tile, VertexNoise, gaussian, perlin, travelled, vertex_shift,
 };
@@ -13,9 +12,8 @@ use impasto_scene::document::{
 };
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::mesh_file::Texture;
-use rayon::prelude::*;
 
-use crate::body::{BodyNoise, FrameNoise, NoiseLayers};
+use crate::body_shape::{BodyNoise, FrameNoise, NoiseLayers};
 use crate::lights::linear;
 
 impl BodyNoise {
@@ -125,19 +123,4 @@ fn layers(surface: &SurfaceNoise, tile: Arc<Tile>) -> NoiseLayers {
         bloom: surface.bloom as f32,
         threshold: surface.threshold as f32,
     }
-}
-
-/// Vertices after noise has moved them, with the normals with which they are drawn.
-pub(crate) fn displaced(vertices: &Vertices, noise: &VertexNoise, lookup: &Lookup) -> Vertices {
-    let moved = |(position, normal): (&Vec3, &Vec3)| {
-        let (position, normal) = (position.as_dvec3(), normal.as_dvec3());
-        let turned = match noise.moves_normals {
-            true => noise.displaced_normal(position, normal, lookup),
-            false => normal,
-        };
-        (noise.displaced(position, normal, lookup).as_vec3(), turned.as_vec3())
-    };
-    let all = vertices.positions.par_iter().zip(&vertices.normals).with_min_len(1024);
-    let (positions, normals) = all.map(moved).unzip();
-    Vertices { positions, normals }
 }

@@ -11,7 +11,8 @@ use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
 
 use crate::bake::{BakeInputs, BakedBody, Combed, LiftSources};
-use crate::body::{BodyNoise, BodyShape, BodySurface};
+use crate::body::BodySurface;
+use crate::body_shape::{BodyNoise, BodyShape};
 use crate::cached::Cached;
 use crate::coat::{Coat, SampleInputs, Sampled};
 use crate::context::{Context, ObjectInputs};
@@ -345,6 +346,7 @@ impl CoatCache {
             used: Arc::clone(object.used),
             traits,
             baked,
+            sorted: OnceLock::new(),
             surface: Arc::clone(&surface.body),
             first_marks,
         }

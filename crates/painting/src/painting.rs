@@ -11,7 +11,8 @@ use impasto_scene::loaded::LoadedScene;
 use impasto_scene::presets::LayerKind;
 
 use crate::bent::{Bent, BentMemo};
-use crate::body::{BodyNoise, BodyShape, BodySurface};
+use crate::body::BodySurface;
+use crate::body_shape::{BodyNoise, BodyShape};
 use crate::coat::Coat;
 use crate::field::BodyField;
 use crate::finish::FinishRule;
@@ -140,6 +141,20 @@ impl Painting {
     /// Every object as it stands at a frame, in the order of the scene; `None` for those at rest. The last few frames are remembered.
     pub fn bent_at(&self, frame: f64) -> Arc<Vec<Option<Arc<Bent>>>> {
         self.bent.at(frame, self.bodies.iter().map(|body| &body.surface), || self.shapes_at(frame))
+    }
+
+    /// Begins to bend bodies for a frame that will be asked for soon, while other work goes on. It changes no picture.
+    pub fn foresee(&self, frame: f64) {
+        let moves = |body: &PreparedBody| body.surface.bends();
+        if self.bodies.iter().any(moves) {
+            let painting = self.clone();
+            rayon::spawn(move || {
+                let strained = |bent: &Arc<Bent>| {
+                    bent.carrier();
+                };
+                painting.bent_at(frame).iter().flatten().for_each(strained);
+            });
+        }
     }
 
     /// What went wrong since it was prepared: point caches that could not be read any more. Such bodies stay at rest.

@@ -48,8 +48,6 @@ pub(crate) struct CoatView<'a> {
     pub(crate) coat: &'a Coat,
     /// Whether its body is hidden at this frame.
     pub(crate) hidden: bool,
-    /// The baked particles, moved with the surface where it has changed its shape.
-    pub(crate) baked: Cow<'a, BakedParticles>,
     /// How its body stands; `None` at rest.
     bent: Option<Arc<Bent>>,
     pub(crate) map: ScreenMap,
@@ -61,6 +59,16 @@ pub(crate) struct CoatView<'a> {
     clip_views: Option<(ClipView, ClipView)>,
     /// The presence bound of each rule; `None` for a rule that paints nothing on this coat.
     pub(crate) presence_bounds: Vec<Option<PresenceBound>>,
+}
+
+/// A particle where it is at a frame.
+pub(crate) struct PlacedParticle {
+    /// Model space.
+    pub(crate) position: DVec3,
+    /// Unit, model space; zero where its surface has collapsed.
+    pub(crate) normal: DVec3,
+    /// N'.
+    pub(crate) lift: Lift,
 }
 
 /// One body at a frame, shared by its coats.
@@ -126,10 +134,6 @@ impl<'a> PaintingView<'a> {
     fn coat_view(&self, coat: &'a Coat, view: &PictureView, body: &PosedBody) -> CoatView<'a> {
         let world_from_model = body.world_from_model;
         let map = view.screen_map(world_from_model);
-        let baked = match &body.bent {
-            Some(bent) => Cow::Owned(coat.carried(bent)),
-            None => Cow::Borrowed(&coat.baked.baked),
-        };
         let wanted_per_px =
             self.strokes_of_rule.last().map_or(0.0, |strokes| f64::from(strokes.body().wanted_per_px()));
         let shown = coat.sampled.polygons.as_ref().map(|polygons| {
@@ -147,7 +151,6 @@ impl<'a> PaintingView<'a> {
         CoatView {
             coat,
             hidden,
-            baked,
             bent: body.bent.clone(),
             map,
             particle_view,
@@ -188,21 +191,58 @@ impl PaintingView<'_> {
 }
 
 impl CoatView<'_> {
+    /// The baked particles at rest.
+    fn baked(&self) -> &BakedParticles {
+        &self.coat.baked.baked
+    }
+
+    /// How many particles there are.
+    pub(crate) fn len(&self) -> usize {
+        self.baked().len()
+    }
+
     /// A bit for each particle of the coat: whether it faces the eye within these bounds.
     pub(crate) fn within(&self, bounds: &Bounds) -> Vec<u64> {
-        self.particle_view.within(&self.baked, bounds)
+        match &self.bent {
+            Some(bent) => self.coat.carried_within(bent, &self.particle_view, bounds),
+            None => self.particle_view.within(self.baked(), bounds),
+        }
     }
 
     /// A particle in this view.
     pub(crate) fn solved(&self, index: usize) -> SolvedParticle {
-        self.particle_view.solved(&self.baked, index)
+        match &self.bent {
+            Some(bent) => {
+                let vectors = self.coat.carried_one(bent, index).map(|vector| vector.to_array());
+                self.particle_view.solved_at(vectors, self.baked().flatness.get(index).copied())
+            }
+            None => self.particle_view.solved(self.baked(), index),
+        }
     }
 
     /// All particles in this view.
     pub(crate) fn all_solved(&self) -> SolvedParticles {
         let mut solved = SolvedParticles::default();
-        solve(&self.baked, &self.map, &mut solved);
+        match &self.bent {
+            Some(bent) => solve(&self.coat.carried(bent), &self.map, &mut solved),
+            None => solve(self.baked(), &self.map, &mut solved),
+        }
         solved
+    }
+
+    /// A particle where it is now.
+    pub(crate) fn placed(&self, index: usize) -> PlacedParticle {
+        let Some(bent) = &self.bent else {
+            let baked = self.baked();
+            return PlacedParticle {
+                position: baked.position_of(index),
+                normal: baked.normal_of(index),
+                lift: baked.lift_of(index),
+            };
+        };
+        let [position, normal, along, across] =
+            self.coat.carried_one(bent, index).map(|vector| vector.as_dvec3());
+        PlacedParticle { position, normal: normal.normalize_or_zero(), lift: Lift { along, across } }
     }
 
     fn angle_rad(&self, index: usize, solved: &SolvedParticle) -> f32 {
@@ -235,12 +275,6 @@ impl CoatView<'_> {
     /// Where a particle is at rest, model space.
     pub(crate) fn at_rest(&self, index: usize) -> DVec3 {
         self.coat.baked.baked.position_of(index)
-    }
-
-    /// The unit normal of a particle, model space; zero where its surface has collapsed.
-    pub(crate) fn normal(&self, index: usize) -> DVec3 {
-        let normal = self.baked.normal_of(index);
-        if self.bent.is_some() { normal.normalize_or_zero() } else { normal }
     }
 
     /// N without a stroke's direction, of the tangent plane, as the surface carries it now: κ is measured with it where the solver has no
@@ -283,7 +317,7 @@ impl CoatView<'_> {
         };
         let before = scale(&reference.map, was_at, reference.near) * self.stretch(bent, index);
         let now =
-            scale(&self.map, self.baked.position_of(index), 1e-9) * self.stretch(self.bent.as_ref(), index);
+            scale(&self.map, self.placed(index).position, 1e-9) * self.stretch(self.bent.as_ref(), index);
         let grown = (now / before / f64::from(view.px_scale)).powf(f64::from(follow));
         if grown.is_finite() {
             grown.clamp(1.0 / f64::from(MOST_GROWTH), f64::from(MOST_GROWTH)) as f32

@@ -6,7 +6,7 @@ use impasto_core::screen_map::{area_px, facing};
 use impasto_core::{ScreenMap, TriangleMesh};
 use rayon::prelude::*;
 
-use crate::body::BodyShape;
+use crate::body_shape::BodyShape;
 
 /// The least and the greatest number that is found.
 const LEAST: f64 = 64.0;

@@ -11,7 +11,7 @@ use impasto_scene::loaded::LoadedScene;
 use impasto_scene::{motion, presets};
 use rayon::prelude::*;
 
-use crate::body::{BodyNoise, BodyShape};
+use crate::body_shape::{BodyNoise, BodyShape};
 use crate::brushes;
 use crate::cached::Cached;
 use crate::coat::Coat;

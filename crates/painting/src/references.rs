@@ -14,7 +14,7 @@ use impasto_scene::document::{Reference, Scene};
 use impasto_scene::motion;
 
 use crate::bent::Bent;
-use crate::body::BodyShape;
+use crate::body_shape::BodyShape;
 use crate::view::PictureView;
 
 /// Cosines of the angle between the normal and the direction to the eye. A reference states nothing about surfaces

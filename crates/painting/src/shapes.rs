@@ -8,7 +8,7 @@ use impasto_scene::document::Object;
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion;
 
-use crate::body::{BodyNoise, BodyShape};
+use crate::body_shape::{BodyNoise, BodyShape};
 
 /// What moves the vertices of all objects at one frame, noise left out.
 pub(crate) struct BodyShapes<'a> {

@@ -15,7 +15,7 @@ use crate::counts::most_wanted;
 use crate::frame::{Mixing, Paint, Stroke, StrokeSource};
 use crate::frame_options::{Rotation, StrokeColors};
 use crate::order::OrderEntry;
-use crate::painting_view::{CoatView, PaintingView};
+use crate::painting_view::{CoatView, PaintingView, PlacedParticle};
 use crate::parts::{fit_of, wanted_where_small};
 use crate::presence_bound::LEAST_COUNTED_FADE;
 use crate::traits::{
@@ -90,8 +90,7 @@ impl PaintingView<'_> {
         if supply_ln + most_wanted(coat.kind).ln() - LEAST_COUNTED_FADE.ln() <= presence::ABSENT_LN {
             return None;
         }
-        let position = coat_view.baked.position_of(index);
-        let normal = coat_view.normal(index);
+        let PlacedParticle { position, normal, lift } = coat_view.placed(index);
         let jacobian = coat_view.map.jacobian(position);
         let facing = coat_view.map.facing(jacobian, normal) as f32;
         if facing <= 0.0 {
@@ -104,7 +103,7 @@ impl PaintingView<'_> {
             return None;
         }
         let lift = match self.painting.solver {
-            Solver::Tangent => coat_view.baked.lift_of(index),
+            Solver::Tangent => lift,
             Solver::Horn | Solver::HornExact => coat_view.surface_lift(index),
         };
         let map: PixelMap2 = lift.map(jacobian);

@@ -9,7 +9,7 @@ use impasto_scene::presets::LayerKind;
 use crate::coat::Coat;
 use crate::frame_options::FrameOptions;
 use crate::painting::Painting;
-use crate::painting_view::{CoatView, PaintingView};
+use crate::painting_view::{CoatView, PaintingView, PlacedParticle};
 use crate::stroke::along_contour;
 
 /// The direction of one stroke of the body layer, and where it is in the picture.
@@ -111,7 +111,7 @@ impl Painting {
         let view = self.view(camera, frame, &options, |coat| place.is_on(coat));
         let coat = view.coats.first()?;
         let (mut nearest, mut least_sq) = (None, place.radius * place.radius);
-        for index in 0..coat.baked.len() {
+        for index in 0..coat.len() {
             let distance_sq = coat.at_rest(index).distance_squared(place.position);
             if distance_sq <= least_sq
                 && coat.coat.baked.baked.normal_of(index).dot(place.normal) > LEAST_COSINE
@@ -174,7 +174,8 @@ impl PaintingView<'_> {
 
     /// The direction of a particle's stroke, with angle and κ left at 0.
     fn without_angle(&self, coat: &CoatView<'_>, solved: &SolvedParticles, index: usize) -> StrokeDirection {
-        let jacobian = coat.map.jacobian(coat.baked.position_of(index));
+        let PlacedParticle { position, normal, .. } = coat.placed(index);
+        let jacobian = coat.map.jacobian(position);
         StrokeDirection {
             object: coat.coat.object,
             region: usize::from(coat.coat.traits.region(index)),
@@ -184,7 +185,7 @@ impl PaintingView<'_> {
             angle_rad: 0.0,
             kappa: 0.0,
             depth: solved.depth[index],
-            facing: coat.map.facing(jacobian, coat.normal(index)) as f32,
+            facing: coat.map.facing(jacobian, normal) as f32,
         }
     }
 
@@ -194,13 +195,13 @@ impl PaintingView<'_> {
     }
 
     fn shown_direction(&self, coat: &CoatView<'_>, index: usize) -> ShownDirection {
-        let (position, normal) = (coat.baked.position_of(index), coat.normal(index));
+        let PlacedParticle { position, normal, lift } = coat.placed(index);
         let jacobian = coat.map.jacobian(position);
         let region = coat.coat.traits.region(index);
         let contour = self.strokes_of(region).contour;
         let facing = coat.map.facing(jacobian, normal) as f32;
         let lift = match self.painting.solver {
-            Solver::Tangent => coat.baked.lift_of(index),
+            Solver::Tangent => lift,
             Solver::Horn | Solver::HornExact => coat.surface_lift(index),
         };
         let angle_rad = self.angle_rad(coat, index, &coat.solved(index));

@@ -16,8 +16,9 @@ use impasto_scene::mesh_file::{MeshFile, Sampler, Texture};
 use impasto_scene::point_cache::PointCache;
 use rayon::prelude::*;
 
-use crate::bent::{BodyBend, BodyCache};
-use crate::body::{BodyMaterial, BodyShape, BodySurface};
+use crate::body::{BodyMaterial, BodySurface};
+use crate::body_bend::{BodyBend, BodyCache};
+use crate::body_shape::BodyShape;
 use crate::lights::linear;
 use crate::shapes::{BodyShapes, file_bend};
 

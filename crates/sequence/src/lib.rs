@@ -144,13 +144,13 @@ impl Sequence {
     ) -> Result<Ending, E> {
         let driver = renderer.report().renderer.clone();
         let mut stopped = false;
-        let jobs = frames
-            .iter()
-            .take_while(|_| {
-                stopped = stop();
-                !stopped
-            })
-            .map(|frame_number| Job { frame_number, must_draw: must_draw(frame_number) });
+        let mut numbers = frames.iter().peekable();
+        let jobs = std::iter::from_fn(|| {
+            let frame_number = numbers.next()?;
+            stopped = stop();
+            let next = numbers.peek().copied();
+            (!stopped).then(|| Job { frame_number, must_draw: must_draw(frame_number), next })
+        });
         let mut painter = Painter::new(self, renderer);
         let workers = Workers {
             own: Box::new(move |job| painter.paint(job, stop)),

@@ -47,6 +47,10 @@ impl<'a> Painter<'a> {
         let begun = Instant::now();
         let sequence = self.sequence;
         let frame = sequence.painting.at(job.frame_number as f64, &sequence.options);
+        // Bodies bend for the next frame while this one is drawn.
+        if let Some(next) = job.next {
+            sequence.painting.foresee(next as f64);
+        }
         let (picture, cost) = if sequence.timed {
             let seconds = begun.elapsed().as_secs_f64();
             let (picture, mut cost) = self.renderer.render_timed(&frame)?;

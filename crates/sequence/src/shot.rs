@@ -74,6 +74,8 @@ pub(crate) struct Job {
     pub(crate) frame_number: i64,
     /// False where its file exists and is left as it is.
     pub(crate) must_draw: bool,
+    /// The frame that comes after it.
+    pub(crate) next: Option<i64>,
 }
 
 /// What a painter makes of a job; `None` if the frame need not be drawn, or drawing it was given up.

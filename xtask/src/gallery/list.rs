@@ -80,6 +80,13 @@ pub(super) const PICTURES: &[Picture] = &[
     whole("falling_log", "falling_log", 12),
     whole("meadow", "meadow", 0),
     whole("lane", "lane", 24),
+    Picture {
+        name: "bending",
+        view: View::Scene { scene: "parade", frame: 0, crop: None },
+        own_size: false,
+        columns: 2,
+        panels: &[&[("--frames", "0")], &[("--frames", "12")], &[("--frames", "24")], &[("--frames", "36")]],
+    },
     meadow(
         "stroke_taper",
         [100, 550, 300, 150],

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
 
-use super::face::{MIDDLE, Mood, skin};
+use super::skin::{MIDDLE, Mood, skin};
 use crate::curve::smoothstep;
 use crate::poly_mesh::{Look, PolyMesh};
 

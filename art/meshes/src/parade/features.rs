@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
 
-use super::face::{EYE, MIDDLE, Mood, skin};
+use super::skin::{EYE, MIDDLE, Mood, skin};
 use crate::curve::smoothstep;
 use crate::poly_mesh::{Look, PolyMesh};
 

@@ -6,6 +6,7 @@ mod face;
 mod features;
 mod flag;
 mod rig;
+mod skin;
 mod square;
 mod walk;
 
@@ -19,7 +20,7 @@ use crate::poly_mesh::PolyMesh;
 pub use flag::{cache, flag};
 
 use body::Form;
-use face::Mood;
+use skin::Mood;
 
 const FPS: f64 = 24.0;
 /// Frames of the shot: two strides.
@@ -111,7 +112,7 @@ fn giant(shot: &mut Glb) -> anyhow::Result<()> {
 /// The face's mesh with its targets.
 fn face(shot: &mut Glb) -> anyhow::Result<usize> {
     let rest = face::face(Mood::default());
-    let targets: Vec<Target<'_>> = face::MOODS
+    let targets: Vec<Target<'_>> = skin::MOODS
         .iter()
         .enumerate()
         .map(|(index, name)| {

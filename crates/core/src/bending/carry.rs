@@ -1,21 +1,69 @@
 //! Carries particles along with a bent surface.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use glam::{DMat3, DVec3, Mat3, Vec3};
 use rayon::prelude::*;
 
 use super::gradient::cofactors;
 use crate::TriangleMesh;
 use crate::sampling::PackedParticle;
-use crate::solve::BakedParticles;
+use crate::solve::{BakedParticles, Bounds, ParticleView, WORD};
+use crate::wide::{Wide, widest};
 
 /// How many particles one task carries.
 const CHUNK: usize = 4096;
 
+/// How many particles are looked up at a time, before any of them is computed: their vertices lie far apart in memory, and reading many of
+/// them at once lets the processor fetch them in parallel.
+const BATCH: usize = 32;
+
+/// A vertex: its position and the columns of F. It fills a line of the processor's cache.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+struct Vertex([f32; 16]);
+
+/// What is looked up of one vertex.
+type Record = [f32; 12];
+
 /// A bent surface, ready to carry what lies on it.
 #[derive(Clone, Debug)]
 pub struct Carrier {
-    /// For each vertex its position and the columns of F.
-    vertices: Vec<[f32; 12]>,
+    vertices: Vec<Vertex>,
+}
+
+/// What culling needs of particles, in the order of their triangles: particles follow each other as they lie on the surface, so that their
+/// vertices are near in memory.
+#[derive(Clone, Debug, Default)]
+pub struct SortedParticles(Vec<SortedParticle>);
+
+#[derive(Clone, Copy, Debug)]
+struct SortedParticle {
+    place: PackedParticle,
+    number: u32,
+    /// At rest.
+    normal: Vec3,
+    height: f32,
+}
+
+impl SortedParticles {
+    /// Sorts particles; `height` is how far each is lifted off the surface.
+    pub fn new(
+        places: &[PackedParticle],
+        baked: &BakedParticles,
+        height: impl Fn(usize) -> f32 + Sync,
+    ) -> Self {
+        let entry = |(index, &place): (usize, &PackedParticle)| SortedParticle {
+            place,
+            number: index as u32,
+            normal: baked.normal_of(index).as_vec3(),
+            height: height(index),
+        };
+        let mut entries: Vec<SortedParticle> =
+            places[..baked.len()].par_iter().enumerate().map(entry).collect();
+        entries.par_sort_unstable_by_key(|entry| (entry.place.triangle(), entry.number));
+        Self(entries)
+    }
 }
 
 /// A place on a surface at rest, carried to where it is now.
@@ -46,23 +94,52 @@ impl Carrier {
         let record = |(position, gradient): (&Vec3, &Mat3)| {
             let [x, y, z] = position.to_array();
             let [a, b, c, d, e, f, g, h, i] = gradient.to_cols_array();
-            [x, y, z, a, b, c, d, e, f, g, h, i]
+            Vertex([x, y, z, a, b, c, d, e, f, g, h, i, 0.0, 0.0, 0.0, 0.0])
         };
         Self { vertices: positions.par_iter().zip(gradients).with_min_len(CHUNK).map(record).collect() }
     }
 
-    /// Position and F at a place.
+    /// Position and F of a vertex.
     #[inline(always)]
-    fn blended(&self, mesh: &TriangleMesh, place: PackedParticle) -> [f32; 12] {
-        let [a, b, c] = mesh.triangles[place.triangle()].map(|vertex| &self.vertices[vertex as usize]);
-        let [u, v, w] = place.weights();
-        std::array::from_fn(|index| a[index] * u + b[index] * v + c[index] * w)
+    fn record(&self, vertex: u32) -> Record {
+        let Vertex([record @ .., _, _, _, _]) = self.vertices[vertex as usize];
+        record
     }
 
     /// Where a place is now.
     pub fn place(&self, mesh: &TriangleMesh, place: PackedParticle) -> CarriedPlace {
-        let [x, y, z, gradient @ ..] = self.blended(mesh, place).map(f64::from);
+        let corners = mesh.triangles[place.triangle()].map(|vertex| self.record(vertex));
+        let [x, y, z, gradient @ ..] = blended(&corners, place.weights()).map(f64::from);
         CarriedPlace { position: DVec3::new(x, y, z), gradient: DMat3::from_cols_array(&gradient) }
+    }
+
+    /// A particle that was baked at rest, carried to where it is now, as [`Carrier::carry`] does: its position, normal and the columns of
+    /// its lift.
+    pub fn particle(
+        &self,
+        mesh: &TriangleMesh,
+        place: PackedParticle,
+        (baked, index): (&BakedParticles, usize),
+        height: f32,
+    ) -> [Vec3; 4] {
+        let corners = mesh.triangles[place.triangle()].map(|vertex| self.record(vertex));
+        moved(baked, index, &blended(&corners, place.weights()), height)
+    }
+
+    /// Of particles in the order of their triangles: one bit for each, by its number, set where it faces the eye and is within the bounds;
+    /// 64 to a word, the first in the lowest bit.
+    pub fn within(
+        &self,
+        mesh: &TriangleMesh,
+        sorted: &SortedParticles,
+        view: &ParticleView,
+        bounds: &Bounds,
+    ) -> Vec<u64> {
+        let words: Vec<AtomicU64> = (0..sorted.0.len().div_ceil(WORD)).map(|_| AtomicU64::new(0)).collect();
+        sorted.0.par_chunks(CHUNK).for_each(|entries| {
+            widest(Culling { carrier: self, mesh, entries, view, bounds, words: &words });
+        });
+        words.into_iter().map(AtomicU64::into_inner).collect()
     }
 
     /// Particles that were baked at rest, carried to where they are now: N'' = F N'. **The length of a normal is then the area of the
@@ -79,23 +156,106 @@ impl Carrier {
         carried.resize(baked.len());
         carried.chunks_mut(0, CHUNK).into_par_iter().enumerate().for_each(|(chunk, mut chunk_out)| {
             let first = chunk * CHUNK;
-            for (offset, &place) in places[first..baked.len().min(first + CHUNK)].iter().enumerate() {
-                let index = first + offset;
-                let [x, y, z, columns @ ..] = self.blended(mesh, place);
-                let gradient = Mat3::from_cols_array(&columns);
-                let of =
-                    |arrays: &[Vec<f32>; 3]| Vec3::new(arrays[0][index], arrays[1][index], arrays[2][index]);
-                let normal = cofactors(&gradient) * of(&baked.normal);
-                let mut position = Vec3::new(x, y, z);
-                let height = height(index);
-                if height != 0.0 {
-                    position += normal.normalize_or_zero() * height;
+            let mut corners = [[0u32; 3]; BATCH];
+            let mut records = [[[0.0f32; 12]; 3]; BATCH];
+            for (batch, places) in places[first..baked.len().min(first + CHUNK)].chunks(BATCH).enumerate() {
+                for (corners, place) in corners.iter_mut().zip(places) {
+                    *corners = mesh.triangles[place.triangle()];
                 }
-                let (along, across) = (gradient * of(&baked.along), gradient * of(&baked.across));
-                chunk_out.set_f32(offset, [position, normal, along, across]);
+                for (records, corners) in records.iter_mut().zip(&corners[..places.len()]) {
+                    *records = corners.map(|vertex| self.record(vertex));
+                }
+                for (offset, (records, place)) in records.iter().zip(places).enumerate() {
+                    let offset = batch * BATCH + offset;
+                    let index = first + offset;
+                    let moved = moved(baked, index, &blended(records, place.weights()), height(index));
+                    chunk_out.set_f32(offset, moved);
+                }
             }
         });
         carried.flatness.clone_from(&baked.flatness);
         carried
     }
+}
+
+/// The mean of three vertices.
+#[inline(always)]
+fn blended([a, b, c]: &[Record; 3], [u, v, w]: [f32; 3]) -> Record {
+    std::array::from_fn(|index| a[index] * u + b[index] * v + c[index] * w)
+}
+
+/// Position, normal and the columns of the lift of a particle where the surface has these position and F.
+#[inline(always)]
+fn moved(baked: &BakedParticles, index: usize, record: &Record, height: f32) -> [Vec3; 4] {
+    let [x, y, z, columns @ ..] = *record;
+    let gradient = Mat3::from_cols_array(&columns);
+    let of = |arrays: &[Vec<f32>; 3]| Vec3::new(arrays[0][index], arrays[1][index], arrays[2][index]);
+    let normal = cofactors(&gradient) * of(&baked.normal);
+    let position = lifted(Vec3::new(x, y, z), normal, height);
+    [position, normal, gradient * of(&baked.along), gradient * of(&baked.across)]
+}
+
+/// Culls a run of sorted particles, and sets the bits of those that show.
+struct Culling<'a> {
+    carrier: &'a Carrier,
+    mesh: &'a TriangleMesh,
+    entries: &'a [SortedParticle],
+    view: &'a ParticleView,
+    bounds: &'a Bounds,
+    words: &'a [AtomicU64],
+}
+
+impl Wide for Culling<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let mut records = [[0.0f32; WORD]; 12];
+        let mut normals = [[0.0f32; WORD]; 3];
+        let mut heights = [0.0f32; WORD];
+        let mut numbers = [0u32; WORD];
+        let mut shows = [0u8; WORD];
+        for entries in self.entries.chunks(WORD) {
+            // First each particle is looked up, then all are computed, in arrays, so that the compiler vectorises.
+            for (lane, entry) in entries.iter().enumerate() {
+                let corners =
+                    self.mesh.triangles[entry.place.triangle()].map(|vertex| self.carrier.record(vertex));
+                let record = blended(&corners, entry.place.weights());
+                for (array, value) in records.iter_mut().zip(record) {
+                    array[lane] = value;
+                }
+                for (array, value) in normals.iter_mut().zip(entry.normal.to_array()) {
+                    array[lane] = value;
+                }
+                heights[lane] = entry.height;
+                numbers[lane] = entry.number;
+            }
+            let is_lifted = heights[..entries.len()].iter().any(|height| *height != 0.0);
+            for lane in 0..WORD {
+                let at = |index: usize| records[index][lane];
+                let columns = [3, 6, 9].map(|first| Vec3::new(at(first), at(first + 1), at(first + 2)));
+                let gradient = Mat3::from_cols(columns[0], columns[1], columns[2]);
+                let normal =
+                    cofactors(&gradient) * Vec3::new(normals[0][lane], normals[1][lane], normals[2][lane]);
+                let mut position = Vec3::new(at(0), at(1), at(2));
+                if is_lifted {
+                    position = lifted(position, normal, heights[lane]);
+                }
+                let vectors = [position.to_array(), normal.to_array()];
+                shows[lane] = u8::from(self.view.shows(vectors, numbers[lane], self.bounds));
+            }
+            for (shows, number) in shows.iter().zip(&numbers[..entries.len()]) {
+                if *shows != 0 {
+                    let number = *number as usize;
+                    self.words[number / WORD].fetch_or(1 << (number % WORD), Ordering::Relaxed);
+                }
+            }
+        }
+    }
+}
+
+/// A place lifted off the surface along its normal.
+#[inline(always)]
+fn lifted(position: Vec3, normal: Vec3, height: f32) -> Vec3 {
+    if height == 0.0 { position } else { position + normal.normalize_or_zero() * height }
 }

@@ -7,7 +7,7 @@ use crate::ScreenMap;
 use crate::wide::{Wide, widest};
 
 /// Particles per word of bits.
-const WORD: usize = u64::BITS as usize;
+pub(crate) const WORD: usize = u64::BITS as usize;
 
 /// A screen map in single precision, to cull and solve particles with.
 #[derive(Clone, Copy)]
@@ -51,18 +51,42 @@ impl ParticleView {
     #[inline]
     pub fn solved(&self, particles: &BakedParticles, particle: usize) -> SolvedParticle {
         let of = |arrays: &[Vec<f32>; 3]| [0, 1, 2].map(|axis| arrays[axis][particle]);
-        let seen = project(&self.rows, of(&particles.position), of(&particles.normal));
-        let lift = [of(&particles.along), of(&particles.across)];
+        let vectors =
+            [of(&particles.position), of(&particles.normal), of(&particles.along), of(&particles.across)];
+        self.solved_at(vectors, particles.flatness.get(particle).copied())
+    }
+
+    /// Solves a particle with this position, normal and columns of N', and this flatness; without one, 1.
+    #[inline]
+    pub fn solved_at(
+        &self,
+        [position, normal, along, across]: [[f32; 3]; 4],
+        flatness: Option<f32>,
+    ) -> SolvedParticle {
+        let seen = project(&self.rows, position, normal);
+        let lift = [along, across];
         SolvedParticle {
             x_px: seen.x_px,
             y_px: seen.y_px,
             depth: seen.depth,
-            angle_rad: match particles.flatness.get(particle) {
-                Some(&flatness) => seen.angle_rad::<true>(lift, flatness),
+            angle_rad: match flatness {
+                Some(flatness) => seen.angle_rad::<true>(lift, flatness),
                 None => seen.angle_rad::<false>(lift, 1.0),
             },
             area_px: seen.area_px,
         }
+    }
+
+    /// Whether a particle with this number faces the eye within the bounds.
+    #[inline(always)]
+    pub(crate) fn shows(&self, [position, normal]: [[f32; 3]; 2], number: u32, bounds: &Bounds) -> bool {
+        let seen = project(&self.rows, position, normal);
+        (seen.area_px > 0.0)
+            & (seen.area_px * bounds.most_per_area > number as f32)
+            & (seen.depth > bounds.near_far[0])
+            & (seen.depth < bounds.near_far[1])
+            & (seen.x_px.abs() < bounds.half_px[0])
+            & (seen.y_px.abs() < bounds.half_px[1])
     }
 
     /// One bit per particle, set where it faces the eye and is within the bounds; 64 particles per word, the first in

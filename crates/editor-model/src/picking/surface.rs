@@ -3,7 +3,7 @@
 use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
-use glam::{DMat3, DVec3, Vec3, Vec3A};
+use glam::{DAffine3, DMat3, DVec3, Vec3, Vec3A};
 use impasto_core::TriangleMesh;
 use impasto_core::nearest::nearest_point;
 use impasto_core::shells::Side;
@@ -110,23 +110,22 @@ impl SurfaceTree {
         self.rest.get_or_init(|| Placed::new(self.mesh(), self.mesh().positions.clone()))
     }
 
-    /// Where a point near the surface at rest is now, and the direction that a normal there has.
-    pub(super) fn carried(&self, at_rest: DVec3, normal: DVec3) -> [DVec3; 2] {
+    /// Takes what is round a point near the surface at rest to where it is now: as the nearest triangle moves.
+    pub(super) fn now_from_rest(&self, at_rest: DVec3) -> DAffine3 {
         if self.surface.is_at_rest(&self.shape) {
-            return [at_rest, normal];
+            return DAffine3::IDENTITY;
         }
         let Some((triangle, weights)) = self.nearest(at_rest, f64::INFINITY, |_, _| true) else {
-            return [at_rest, normal];
+            return DAffine3::IDENTITY;
         };
         let (then, now) = (self.rest().corners(self.mesh(), triangle), self.corners(triangle));
         let frame = |[a, b, c]: [DVec3; 3]| {
             DMat3::from_cols(b - a, c - a, (b - a).cross(c - a).normalize_or(DVec3::Y))
         };
         let gradient = frame(now) * frame(then).inverse();
-        let off = gradient * (at_rest - blend(then, weights));
-        let turned = gradient.inverse().transpose() * normal;
-        let off = if off.is_finite() { off } else { DVec3::ZERO };
-        [blend(now, weights) + off, if turned.is_finite() { turned.normalize_or(normal) } else { normal }]
+        let gradient = if gradient.is_finite() { gradient } else { DMat3::IDENTITY };
+        let moved = blend(now, weights) - gradient * blend(then, weights);
+        DAffine3 { matrix3: gradient, translation: moved }
     }
 
     /// Whether it was built for this surface in this shape.

@@ -68,16 +68,17 @@ impl Ring {
 
     fn lying(object: usize, position: DVec3, normal: DVec3, radius: f64, around: &Surroundings) -> Self {
         let (right, up) = normal.any_orthonormal_pair();
+        let now = around.now_from_rest(object, position);
         let circle = |radius: f64| -> Vec<DVec2> {
             let at = |piece: usize| {
                 let way = angle(piece);
-                around.view.project(around.world(object, position + (right * way.x + up * way.y) * radius))
+                around.view.project(now.transform_point3(position + (right * way.x + up * way.y) * radius))
             };
             (0..=PIECES).filter_map(at).collect()
         };
         // Where the falloff (1 − (r/R)²)² is one half.
         let half = (1.0 - 0.5f64.sqrt()).sqrt();
-        let at_px = around.view.project(around.world(object, position)).unwrap_or_default();
+        let at_px = around.view.project(now.transform_point3(position)).unwrap_or_default();
         let (points_px, half_px) = (circle(radius), circle(radius * half));
         Self { points_px, half_px, at_px, hollow: false, mirrored: false }
     }

@@ -282,8 +282,8 @@ fn guides(editor: &Editor, scene: &Scene, sight: &Sight<'_>) -> Vec<GuideCurve> 
         let object = scene.objects.iter().position(|object| object.name == name)?;
         let pose = sight.poses.get(object)?;
         let place = |at: [f64; 3], normal: [f64; 3]| {
-            let [at, normal] = sight.picker.carried(object, DVec3::from(at), DVec3::from(normal));
-            lifted(pose, at, normal)
+            let at = DVec3::from(at);
+            lifted(&(*pose * sight.picker.now_from_rest(object, at)), at, DVec3::from(normal))
         };
         let points: Vec<[DVec3; 2]> =
             guide.points.iter().map(|point| place(point.at, point.normal)).collect();
@@ -308,8 +308,8 @@ fn singular(editor: &Editor, poses: &[DAffine3], view: &View) -> Vec<SingularPoi
     objects
         .flat_map(|object| painting.singularities(object).iter().map(move |point| (object, point)))
         .map(|(object, point)| {
-            let [now, _] = editor.picker().carried(object, point.position, DVec3::Y);
-            let position_in_world = poses[object].transform_point3(now);
+            let now = poses[object] * editor.picker().now_from_rest(object, point.position);
+            let position_in_world = now.transform_point3(point.position);
             // Its normal points to the eye, so that only surfaces in front of it can hide it.
             let normal_in_world = (view.camera.eye - position_in_world).normalize_or(DVec3::Z);
             SingularPoint { position_in_world, normal_in_world, index: point.index as f32 }

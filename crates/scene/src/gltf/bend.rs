@@ -6,7 +6,7 @@ use impasto_core::bending::{Bend, BendPose, SkinWeights, Target};
 use impasto_gltf::{Mesh, Posed, Primitive};
 
 use super::GltfFile;
-use super::surface::{blended, cofactors};
+use super::joints::{blended, cofactors};
 
 /// Consecutive vertices of a joined mesh that come from one primitive.
 #[derive(Debug)]

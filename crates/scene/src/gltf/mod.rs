@@ -5,6 +5,7 @@
 //! place are left to the scene. Each primitive is a group; materials keep their names.
 
 mod bend;
+mod joints;
 mod materials;
 mod stretch;
 mod surface;

@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
-use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
+use glam::{DAffine3, DVec3, Vec2, Vec3};
 use impasto_core::color::srgb_from_linear;
-use impasto_gltf::{Influences, Mesh, Node, Primitive};
+use impasto_gltf::{Mesh, Node, Primitive};
 
 use super::GltfFile;
 use super::bend::{self, Run};
+use super::joints::{blended, cofactors};
 use crate::mesh_file::{MeshFile, Points};
 use crate::surface::{Builder, Built, Geometry};
 
@@ -153,27 +154,6 @@ impl Vertices {
         let placed = |corners: &[u32; 3]| corners.map(|vertex| place[vertex as usize]);
         self.triangles = Arc::new(self.triangles.iter().map(placed).collect());
     }
-}
-
-/// The mean of the joints that move a vertex.
-pub(super) fn blended(joints: &[DAffine3], influences: &Influences, vertex: usize) -> DAffine3 {
-    let of_vertex = vertex * influences.per_vertex..(vertex + 1) * influences.per_vertex;
-    let mut sum = DAffine3::ZERO;
-    for at in of_vertex {
-        let weight = f64::from(influences.weights[at]);
-        let Some(joint) = joints.get(usize::from(influences.joints[at])).filter(|_| weight > 0.0) else {
-            continue;
-        };
-        sum.matrix3 += joint.matrix3 * weight;
-        sum.translation += joint.translation * weight;
-    }
-    sum
-}
-
-/// Takes normals where a matrix takes surfaces: the inverse transpose times the determinant, also of mirrored and flat matrices.
-pub(super) fn cofactors(matrix: DMat3) -> DMat3 {
-    let DMat3 { x_axis: x, y_axis: y, z_axis: z } = matrix;
-    DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y))
 }
 
 /// Texture coordinates of the picture that shows, V up, moved as the material says.

@@ -1,0 +1,88 @@
+//! The shape of a body at one time, as numbers: what bends it, and its noise.
+
+use std::sync::Arc;
+
+use glam::Vec2;
+use impasto_core::bending::BendPose;
+use impasto_core::noise_displace::{Lookup, Tile, VertexNoise};
+use impasto_scene::document::NoiseDisplace;
+
+/// The noise of one body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyNoise {
+    /// What moves its vertices.
+    pub vertex: Option<VertexNoise>,
+    /// What colours it.
+    pub layers: Option<NoiseLayers>,
+    /// As the scene states it.
+    pub(crate) stated: NoiseDisplace,
+}
+
+/// Layers of one texture that move against each other, multiplied.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NoiseLayers {
+    /// The texture.
+    pub tile: Arc<Tile>,
+    /// How many layers, at least 1.
+    pub count: u32,
+    /// How fast layers move, and how far apart they begin.
+    pub speed: f32,
+    /// Texture coordinates times this, plus `offset`.
+    pub tiling: Vec2,
+    /// See `tiling`.
+    pub offset: Vec2,
+    /// Which way the first layer goes, 1 or −1; each one goes against the one before.
+    pub first_way: f32,
+    /// The power that the product is raised to.
+    pub exponent: f32,
+    /// Linear Rec. 709, intensity multiplied in: may be brighter than 1.
+    pub tint: [f32; 3],
+    /// Multiplies alpha.
+    pub opacity: f32,
+    /// Whether the first channel is the alpha too.
+    pub alpha_is_grey: bool,
+    /// How much of what is brighter than `threshold` is spread as a glow.
+    pub bloom: f32,
+    /// See `bloom`.
+    pub threshold: f32,
+}
+
+/// The noise of a body at one time.
+#[derive(Clone, Debug)]
+pub struct FrameNoise {
+    /// Shared between frames.
+    pub noise: Arc<BodyNoise>,
+    /// Where its vertices look their noise up.
+    pub lookup: Lookup,
+    /// How far the layers have moved, speed multiplied in, in lengths of the texture.
+    pub travelled: Vec2,
+}
+
+/// Equal where the vertices are moved alike; colours are not compared.
+impl PartialEq for FrameNoise {
+    fn eq(&self, other: &Self) -> bool {
+        match (&self.noise.vertex, &other.noise.vertex) {
+            (Some(here), Some(there)) => self.lookup == other.lookup && here == there,
+            (here, there) => here.is_none() && there.is_none(),
+        }
+    }
+}
+
+/// The shape of a surface at one time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BodyShape {
+    /// How far targets and joints have moved, model space; `None`: as the mesh file rests.
+    pub pose: Option<Arc<BendPose>>,
+    /// The frame at which its point cache is read.
+    pub cache_frame: Option<f64>,
+    /// The noise that displaces it.
+    pub noise: Option<FrameNoise>,
+}
+
+impl BodyShape {
+    /// The noise that moves vertices, and where they look it up.
+    pub(crate) fn displacing(&self) -> Option<(&VertexNoise, &Lookup)> {
+        let noise = self.noise.as_ref()?;
+        Some((noise.noise.vertex.as_ref()?, &noise.lookup))
+    }
+}

@@ -1,0 +1,25 @@
+//! Where joints take vertices and normals.
+
+use glam::{DAffine3, DMat3};
+use impasto_gltf::Influences;
+
+/// The mean of the joints that move a vertex.
+pub(super) fn blended(joints: &[DAffine3], influences: &Influences, vertex: usize) -> DAffine3 {
+    let of_vertex = vertex * influences.per_vertex..(vertex + 1) * influences.per_vertex;
+    let mut sum = DAffine3::ZERO;
+    for at in of_vertex {
+        let weight = f64::from(influences.weights[at]);
+        let Some(joint) = joints.get(usize::from(influences.joints[at])).filter(|_| weight > 0.0) else {
+            continue;
+        };
+        sum.matrix3 += joint.matrix3 * weight;
+        sum.translation += joint.translation * weight;
+    }
+    sum
+}
+
+/// Takes normals where a matrix takes surfaces: the inverse transpose times the determinant, also of mirrored and flat matrices.
+pub(super) fn cofactors(matrix: DMat3) -> DMat3 {
+    let DMat3 { x_axis: x, y_axis: y, z_axis: z } = matrix;
+    DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y))
+}
