@@ -1,7 +1,7 @@
 //! Bodies that have left their rest: where their vertices are at a frame, and what carries strokes there.
 
 use std::collections::VecDeque;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, Weak};
 
 use glam::{Mat3, Vec3};
 use impasto_core::TriangleMesh;
@@ -58,8 +58,10 @@ impl BodySurface {
 
     /// The surface in a shape; `None` at rest.
     pub fn bent(self: &Arc<Self>, shape: &BodyShape) -> Option<Arc<Bent>> {
-        let vertices = (!self.is_at_rest(shape)).then(|| self.vertices_at(shape))?;
-        Some(Arc::new(Bent { surface: Arc::clone(self), vertices, carrier: OnceLock::new() }))
+        let Strained { vertices, gradients } = (!self.is_at_rest(shape)).then(|| self.strained(shape))?;
+        let carrier = gradients.map(|gradients| Carrier::new(&vertices.positions, &gradients));
+        let carrier = carrier.map_or_else(OnceLock::new, OnceLock::from);
+        Some(Arc::new(Bent { surface: Arc::clone(self), vertices, carrier }))
     }
 
     /// Positions of the vertices of the surface in this shape.
@@ -69,9 +71,13 @@ impl BodySurface {
 
     /// The vertices of the surface in this shape.
     pub fn vertices_at(&self, shape: &BodyShape) -> Vertices {
+        self.strained(shape).vertices
+    }
+
+    fn strained(&self, shape: &BodyShape) -> Strained {
         let bent = self.unnoised(shape);
         match shape.displacing() {
-            Some((noise, lookup)) => displaced(&bent, noise, lookup),
+            Some((noise, lookup)) => Strained::from(displaced(&bent.vertices, noise, lookup)),
             None => bent,
         }
     }
@@ -86,7 +92,7 @@ impl BodySurface {
     }
 
     /// The vertices as targets, joints or a cache put them.
-    fn unnoised(&self, shape: &BodyShape) -> Vertices {
+    fn unnoised(&self, shape: &BodyShape) -> Strained {
         let BodyBend { bend, cache, rest, .. } = &self.bending;
         if let Some((cache, frame)) = cache.as_ref().zip(shape.cache_frame) {
             return match cache.positions(frame) {
@@ -101,21 +107,33 @@ impl BodySurface {
         match bend {
             Some(bend) if shape.pose != rest.pose => {
                 let bent = bend.at(shape.pose.as_deref().unwrap_or(&bend.rest));
-                if bend.turns_normals { self.with_own_normals(bent.positions) } else { bent }
+                if bend.turns_normals { self.with_own_normals(bent.positions) } else { bent.into() }
             }
             _ => self.at_rest(),
         }
     }
 
-    fn at_rest(&self) -> Vertices {
-        Vertices { positions: self.mesh.positions.clone(), normals: self.mesh.normals.clone() }
+    fn at_rest(&self) -> Strained {
+        Vertices { positions: self.mesh.positions.clone(), normals: self.mesh.normals.clone() }.into()
     }
 
     /// Vertices whose normals turn as the surface round them does.
-    fn with_own_normals(&self, positions: Vec<Vec3>) -> Vertices {
+    fn with_own_normals(&self, positions: Vec<Vec3>) -> Strained {
         let gradients: Vec<Mat3> = self.gradients().at(&positions);
         let normals = self.gradients().normals(&self.mesh.normals, &gradients);
-        Vertices { positions, normals }
+        Strained { vertices: Vertices { positions, normals }, gradients: Some(gradients) }
+    }
+}
+
+/// Vertices, and F at each where it was needed for them.
+struct Strained {
+    vertices: Vertices,
+    gradients: Option<Vec<Mat3>>,
+}
+
+impl From<Vertices> for Strained {
+    fn from(vertices: Vertices) -> Self {
+        Self { vertices, gradients: None }
     }
 }
 
@@ -129,15 +147,36 @@ pub(crate) struct BentMemo(Mutex<VecDeque<Remembered>>);
 struct Remembered {
     frame: f64,
     shapes: Vec<BodyShape>,
-    bodies: BentBodies,
+    /// Found again as long as anyone has them; `None` for a body at rest.
+    bodies: Vec<Option<Weak<Bent>>>,
+    /// Had here.
+    kept: Option<BentBodies>,
 }
 
-/// At least and at most so many frames are remembered, between the two as many as take this many bytes.
-const REMEMBERED: [usize; 2] = [2, 8];
-const REMEMBERED_BYTES: usize = 32 << 20;
+/// So many frames are remembered.
+const REMEMBERED: usize = 8;
+
+/// As many of them as take this many bytes are kept, and at least the last.
+const KEPT_BYTES: usize = 16 << 20;
 
 /// What a vertex of a bent body takes, with what carries strokes.
-const VERTEX_BYTES: usize = size_of::<[Vec3; 2]>() + size_of::<[f32; 12]>();
+const VERTEX_BYTES: usize = size_of::<[Vec3; 2]>() + size_of::<[f32; 16]>();
+
+impl Remembered {
+    /// The body, unless nobody has it any more.
+    fn body(&self, object: usize) -> Option<Option<Arc<Bent>>> {
+        match &self.bodies[object] {
+            Some(body) => body.upgrade().map(Some),
+            None => Some(None),
+        }
+    }
+
+    /// All bodies, unless nobody has some of them any more.
+    fn all(&self) -> Option<BentBodies> {
+        let found = || (0..self.bodies.len()).map(|object| self.body(object)).collect::<Option<_>>();
+        self.kept.clone().or_else(|| found().map(Arc::new))
+    }
+}
 
 impl BentMemo {
     /// The bodies at a frame, which have these surfaces. `shapes_at` is asked where the frame is not known.
@@ -148,19 +187,18 @@ impl BentMemo {
         shapes_at: impl FnOnce() -> Vec<BodyShape>,
     ) -> BentBodies {
         let known = |memo: &VecDeque<Remembered>| {
-            let same = |entry: &&Remembered| entry.frame.to_bits() == frame.to_bits();
-            memo.iter().find(same).map(|entry| Arc::clone(&entry.bodies))
+            memo.iter().find(|entry| entry.frame.to_bits() == frame.to_bits()).and_then(Remembered::all)
         };
-        if let Some(bodies) = known(&self.0.lock().unwrap_or_else(PoisonError::into_inner)) {
+        if let Some(bodies) = known(&self.lock()) {
             return bodies;
         }
         let shapes = shapes_at();
         // A body in the shape of a frame before is the same one: what was drawn or uploaded for it holds.
         let before: Vec<Option<Arc<Bent>>> = {
-            let memo = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+            let memo = self.lock();
             let of_shape = |(object, shape): (usize, &BodyShape)| {
-                let same = memo.iter().find(|entry| entry.shapes[object] == *shape)?;
-                same.bodies[object].clone()
+                let mut same = memo.iter().filter(|entry| entry.shapes[object] == *shape);
+                same.find_map(|entry| entry.body(object).flatten())
             };
             shapes.iter().enumerate().map(of_shape).collect()
         };
@@ -170,15 +208,22 @@ impl BentMemo {
         };
         let bodies: Vec<_> = surfaces.par_iter().zip(&shapes).zip(before).map(bend).collect();
         let bodies = Arc::new(bodies);
-        let mut memo = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut memo = self.lock();
         if let Some(known) = known(&memo) {
             return known;
         }
         let bytes: usize =
             bodies.iter().flatten().map(|bent| bent.vertices.positions.len() * VERTEX_BYTES).sum();
-        let [least, most] = REMEMBERED;
-        memo.truncate((REMEMBERED_BYTES / bytes.max(1)).clamp(least, most) - 1);
-        memo.push_front(Remembered { frame, shapes, bodies: Arc::clone(&bodies) });
+        memo.retain(|entry| entry.frame.to_bits() != frame.to_bits());
+        memo.truncate(REMEMBERED - 1);
+        let weak = bodies.iter().map(|body| body.as_ref().map(Arc::downgrade)).collect();
+        memo.push_front(Remembered { frame, shapes, bodies: weak, kept: Some(Arc::clone(&bodies)) });
+        let kept = (KEPT_BYTES / bytes.max(1)).max(1);
+        memo.iter_mut().skip(kept).for_each(|entry| entry.kept = None);
         bodies
+    }
+
+    fn lock(&self) -> MutexGuard<'_, VecDeque<Remembered>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

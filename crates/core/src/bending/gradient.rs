@@ -1,11 +1,8 @@
 //! The deformation gradient F at each vertex of a bent surface.
 
-use std::collections::HashMap;
-
 use glam::{DMat2, DMat3, DVec2, DVec3, Mat3, Vec3};
 use rayon::prelude::*;
 
-use super::Vertices;
 use crate::TriangleMesh;
 
 /// How many places one task measures.
@@ -46,24 +43,36 @@ struct Edge {
 impl Gradients {
     /// The weights for a mesh at rest.
     pub fn new(mesh: &TriangleMesh) -> Self {
-        let rest = Vertices { positions: mesh.positions.clone(), normals: mesh.normals.clone() };
-        let (place_of_vertex, vertex_of_place) = places(&rest);
-        let mut corners: Vec<(u32, [u32; 2])> = Vec::with_capacity(mesh.triangles.len() * 3);
-        for &[a, b, c] in &mesh.triangles {
-            let place = |vertex: u32| place_of_vertex[vertex as usize];
-            corners.extend([(place(a), [b, c]), (place(b), [c, a]), (place(c), [a, b])]);
+        let (place_of_vertex, vertex_of_place) = places(&mesh.positions, &mesh.normals);
+        // The corners at each place: three times the triangle's number, plus which of its corners.
+        let place_of = |corner: u32| {
+            let vertex = mesh.triangles[corner as usize / 3][corner as usize % 3];
+            place_of_vertex[vertex as usize] as usize
+        };
+        let corners = 0..mesh.triangles.len() as u32 * 3;
+        let mut first = vec![0u32; vertex_of_place.len() + 2];
+        corners.clone().for_each(|corner| first[place_of(corner) + 2] += 1);
+        for place in 1..first.len() {
+            first[place] += first[place - 1];
         }
-        corners.sort_unstable_by_key(|(place, _)| *place);
+        let mut list = vec![0; corners.len()];
+        for corner in corners {
+            let slot = &mut first[place_of(corner) + 1];
+            list[*slot as usize] = corner;
+            *slot += 1;
+        }
         let (mut places, mut edges) = (Vec::with_capacity(vertex_of_place.len()), Vec::new());
-        let mut rest_of = corners.as_slice();
+        let mut own = Vec::new();
         for (place, &vertex) in vertex_of_place.iter().enumerate() {
-            let count = rest_of.iter().take_while(|(other, _)| *other as usize == place).count();
-            let (own, others) = rest_of.split_at(count);
-            rest_of = others;
-            let own: Vec<[u32; 2]> = own.iter().map(|(_, others)| *others).collect();
-            let from_rest = fit(&rest.positions, vertex, &own, &mut edges);
+            own.clear();
+            own.extend(list[first[place] as usize..first[place + 1] as usize].iter().map(|&corner| {
+                let [a, b, c] = mesh.triangles[corner as usize / 3];
+                [[b, c], [c, a], [a, b]][corner as usize % 3]
+            }));
+            let from_rest = fit(&mesh.positions, vertex, &own, &mut edges);
             places.push(Place { vertex, end: edges.len() as u32, from_rest });
         }
+        edges.shrink_to_fit();
         Self { place_of_vertex, places, edges }
     }
 
@@ -111,19 +120,27 @@ pub(super) fn cofactors(matrix: &Mat3) -> Mat3 {
     Mat3::from_cols(y.cross(z), z.cross(x), x.cross(y))
 }
 
-/// The place of each vertex, and for each place one vertex.
-fn places(rest: &Vertices) -> (Vec<u32>, Vec<u32>) {
+/// The place of each vertex, and for each place its first vertex.
+fn places(positions: &[Vec3], normals: &[Vec3]) -> (Vec<u32>, Vec<u32>) {
     let bits = |v: Vec3| v.to_array().map(f32::to_bits);
-    let mut known = HashMap::with_capacity(rest.positions.len());
-    let mut vertex_of_place = Vec::new();
-    let of_vertex = rest.positions.iter().zip(&rest.normals).enumerate();
-    let place_of_vertex = of_vertex.map(|(vertex, (&position, &normal))| {
-        *known.entry((bits(position), bits(normal))).or_insert_with(|| {
+    let key = |vertex: u32| (bits(positions[vertex as usize]), bits(normals[vertex as usize]));
+    let mut sorted: Vec<u32> = (0..positions.len() as u32).collect();
+    sorted.par_sort_unstable_by_key(|&vertex| (key(vertex), vertex));
+    let mut first_of_vertex = vec![0; positions.len()];
+    for alike in sorted.chunk_by(|&a, &b| key(a) == key(b)) {
+        alike.iter().for_each(|&vertex| first_of_vertex[vertex as usize] = alike[0]);
+    }
+    let mut vertex_of_place = Vec::with_capacity(positions.len());
+    let mut place_of_vertex = vec![0; positions.len()];
+    for vertex in 0..positions.len() {
+        let first = first_of_vertex[vertex] as usize;
+        if first == vertex {
+            place_of_vertex[vertex] = vertex_of_place.len() as u32;
             vertex_of_place.push(vertex as u32);
-            vertex_of_place.len() as u32 - 1
-        })
-    });
-    let place_of_vertex = place_of_vertex.collect();
+        } else {
+            place_of_vertex[vertex] = place_of_vertex[first];
+        }
+    }
     (place_of_vertex, vertex_of_place)
 }
 
