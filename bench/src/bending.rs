@@ -1,7 +1,11 @@
 //! Measures what a body that bends costs in a frame: its vertices by joints, how it is strained, and its particles carried and solved.
 //! Each beside the floor that memory sets.
 
-use anyhow::ensure;
+use std::fmt::Write as _;
+use std::path::Path;
+use std::sync::Arc;
+
+use anyhow::{anyhow, ensure};
 use glam::{DAffine3, DVec3, Vec3};
 use impasto_core::TriangleMesh;
 use impasto_core::bending::{Bend, BendPose, Carrier, Gradients, SkinWeights, SortedParticles, Vertices};
@@ -9,6 +13,8 @@ use impasto_core::lift::Lift;
 use impasto_core::sampling::{PackedParticle, Particle};
 use impasto_core::solve::{BakedParticles, Bounds, ParticleView, SolvedParticles, solve};
 use impasto_core::{ScreenMap, screen_map::PixelLens};
+use impasto_painting::{Painting, Preparer};
+use impasto_scene::load::{LoadOptions, load};
 
 use crate::bench::Bench;
 use crate::floor::Streams;
@@ -98,7 +104,71 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
     ];
     let figures = race(&bench.pace(false), contenders)?;
     bench.push(Row::of_race("carry, project and solve all", &input, figures, true));
+    point_cache(bench)
+}
+
+/// Columns and rows of points of a cloth: 160,801 points.
+const SIDE: usize = 401;
+
+const SAMPLES: usize = 32;
+
+/// Measures a frame of a point cache: its samples read, vertices, normals and F at each.
+fn point_cache(bench: &mut Bench) -> anyhow::Result<()> {
+    let folder = std::env::temp_dir().join(format!("impasto-bench-{}", std::process::id()));
+    std::fs::create_dir_all(&folder)?;
+    let outcome = cloth_of(&folder).and_then(|painting| {
+        let mut frame = 0.0;
+        let contenders = vec![
+            Contender::here("Impasto", "", || {
+                frame = (frame + 7.0) % SAMPLES as f64;
+                painting.bent_at(frame)
+            }),
+            // The sample in bytes and in points; position, normal, and F with the position again.
+            Streams::new(SIDE * SIDE, 3 + 3 + 6 * 3, 6 + 16).contender(),
+        ];
+        race(&bench.pace(false), contenders)
+    });
+    std::fs::remove_dir_all(&folder)?;
+    let input = format!("{} points, a sample of {} kB", SIDE * SIDE, SIDE * SIDE * 12 / 1000);
+    bench.push(Row::of_race("a frame of a point cache", &input, outcome?, true));
     Ok(())
+}
+
+/// A cloth with a cache, written and prepared without strokes.
+fn cloth_of(folder: &Path) -> anyhow::Result<Painting> {
+    let place =
+        |index: usize| [index % SIDE, index / SIDE].map(|at| at as f32 * 4.0 / (SIDE - 1) as f32 - 2.0);
+    let mut obj = String::new();
+    for index in 0..SIDE * SIDE {
+        let [x, y] = place(index);
+        writeln!(obj, "v {x} {y} 0")?;
+    }
+    for corner in (0..SIDE * (SIDE - 1)).filter(|corner| corner % SIDE != SIDE - 1) {
+        writeln!(obj, "f {} {} {} {}", corner + 1, corner + 2, corner + SIDE + 2, corner + SIDE + 1)?;
+    }
+    let mut cache = b"POINTCACHE2\0".to_vec();
+    cache.extend(1i32.to_le_bytes().into_iter().chain(((SIDE * SIDE) as i32).to_le_bytes()));
+    cache.extend(0f32.to_le_bytes().into_iter().chain(1f32.to_le_bytes()));
+    cache.extend((SAMPLES as i32).to_le_bytes());
+    for sample in 0..SAMPLES {
+        for [x, y] in (0..SIDE * SIDE).map(place) {
+            let z = 0.2 * (3.0 * x + sample as f32 * 0.1).sin() * (2.0 * y).cos();
+            cache.extend([x, y, z].into_iter().flat_map(f32::to_le_bytes));
+        }
+    }
+    std::fs::write(folder.join("cloth.obj"), obj)?;
+    std::fs::write(folder.join("cloth.pc2"), cache)?;
+    let scene = folder.join("cloth.ron");
+    std::fs::write(
+        &scene,
+        "(version: 1, size: (640, 360), camera: (keys: [(frame: 0, eye: (0, 0, 8), target: (0, 0, 0))]), \
+         objects: [(name: \"cloth\", mesh: \"cloth.obj\", cache: \"cloth.pc2\")])",
+    )?;
+    let loaded = load(&scene, &LoadOptions::default()).map_err(|report| anyhow!("{report}"))?;
+    let painting = Preparer::default().prepare_plain(&Arc::new(loaded))?;
+    // What is measured once for a surface does not count.
+    painting.bent_at(1.0);
+    Ok(painting)
 }
 
 fn bar() -> (TriangleMesh, Bend) {

@@ -27,13 +27,15 @@ pub fn is_mesh(path: &Path) -> bool {
     ending.is_some_and(|ending| ENDINGS.contains(&ending.as_str()))
 }
 
-/// The largest file of this kind that is read, in bytes: a mesh file, or one that a mesh file names.
+/// The largest file of this kind that is read, in bytes: a mesh file, one that a mesh file names, or a point cache.
 pub fn max_bytes(path: &Path) -> u64 {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
     match ending.as_deref() {
         Some("obj") => obj::MAX_FILE_BYTES,
         Some("mtl") => obj::MAX_MTL_BYTES,
         Some("gltf" | "glb" | "bin") => gltf::MAX_FILE_BYTES,
+        // A point cache is never read whole.
+        Some("pc2") => u64::MAX,
         _ => texture::MAX_FILE_BYTES,
     }
 }

@@ -176,6 +176,9 @@ pub fn bends_at(scene: &Scene, frame: f64) -> Vec<Option<BendPose>> {
     let Some(shot) = &scene.stage.shot else { return vec![None; scene.objects.len()] };
     let mut at_frames: Vec<(f64, Posed)> = Vec::new();
     let bend = |object: &Object| {
+        if !shot.bends(&object.name, &object.mesh) {
+            return None;
+        }
         let held = held_frame(scene, object, frame);
         if !at_frames.iter().any(|(known, _)| *known == held) {
             at_frames.push((held, shot.at(held / scene.timeline.fps)));

@@ -159,9 +159,10 @@ impl Document {
 
     /// The files that the scene names, without built-in meshes.
     pub fn files_named(&self) -> impl Iterator<Item = &str> {
-        let LoadedScene { scene, meshes, textures, brushes, .. } = &*self.loaded;
+        let LoadedScene { scene, meshes, caches, textures, brushes, .. } = &*self.loaded;
         let of_meshes = meshes.keys().map(|name| mesh_format::file_and_node(name).0);
-        let others = textures.keys().chain(brushes.keys()).chain(&scene.shot).map(String::as_str);
+        let others = textures.keys().chain(brushes.keys()).chain(caches.keys()).chain(&scene.shot);
+        let others = others.map(String::as_str);
         let names: BTreeSet<&str> = of_meshes.chain(others).collect();
         names.into_iter().filter(|name| !name.starts_with(impasto_scene::built_in_mesh::PREFIX))
     }

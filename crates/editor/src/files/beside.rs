@@ -1,10 +1,11 @@
 //! Copies a scene's files along when it is saved into another folder.
 
 use std::collections::BTreeMap;
-use std::io::{self, Write as _};
+use std::fs::File;
+use std::io::{self, BufRead as _, BufReader};
 use std::path::{Path, PathBuf};
 
-use impasto_scene::assets::{self, AssetFolders, AssetRequest};
+use impasto_scene::assets::{AssetFolders, AssetRequest};
 use impasto_scene::mesh_format;
 use impasto_scene::whole_file::WholeFile;
 
@@ -102,13 +103,35 @@ impl Copies {
     }
 }
 
-fn bytes(file: &Path) -> io::Result<Vec<u8>> {
-    assets::read_regular_file(file, mesh_format::max_bytes(file))
-        .map_err(|error| io::Error::other(error.to_string()))
+/// A regular file, to be read piece by piece: a point cache may be larger than the memory.
+fn opened(file: &Path) -> io::Result<BufReader<File>> {
+    let metadata = std::fs::metadata(file)?;
+    if !metadata.is_file() || metadata.len() > mesh_format::max_bytes(file) {
+        return Err(io::Error::other("it is no regular file, or too large"));
+    }
+    File::open(file).map(|file| BufReader::with_capacity(1 << 16, file))
 }
 
 fn is_same(a: &Path, b: &Path) -> bool {
-    matches!((bytes(a), bytes(b)), (Ok(a), Ok(b)) if a == b)
+    let equal = || -> io::Result<bool> {
+        let (mut a, mut b) = (opened(a)?, opened(b)?);
+        loop {
+            let count = {
+                let (here, there) = (a.fill_buf()?, b.fill_buf()?);
+                let count = here.len().min(there.len());
+                if here.is_empty() || there.is_empty() {
+                    return Ok(here.is_empty() && there.is_empty());
+                }
+                if here[..count] != there[..count] {
+                    return Ok(false);
+                }
+                count
+            };
+            a.consume(count);
+            b.consume(count);
+        }
+    };
+    equal().unwrap_or(false)
 }
 
 /// Copies one file. Fails if `target` has appeared in the meantime.
@@ -117,7 +140,7 @@ fn copy(file: &Path, target: &Path) -> io::Result<()> {
         std::fs::create_dir_all(folder)?;
     }
     let mut copy = WholeFile::create(target)?;
-    copy.write_all(&bytes(file)?)?;
+    io::copy(&mut opened(file)?, &mut copy)?;
     copy.finish_new()
 }
 
@@ -127,6 +150,23 @@ mod tests {
     use impasto_scene::load::LoadOptions;
 
     use super::*;
+
+    #[test]
+    fn files_are_the_same_only_to_their_last_byte() {
+        let folder = tempfile::tempdir().unwrap();
+        let write = |name: &str, bytes: &[u8]| {
+            let path = folder.path().join(name);
+            std::fs::write(&path, bytes).unwrap();
+            path
+        };
+        let long = vec![7u8; 200_000];
+        let mut other = long.clone();
+        other[199_999] = 8;
+        let [a, b, c, d] = [("a", &long[..]), ("b", &long), ("c", &other), ("d", &long[1..])]
+            .map(|(name, bytes)| write(name, bytes));
+        assert!(is_same(&a, &b) && !is_same(&a, &c) && !is_same(&a, &d) && !is_same(&d, &a));
+        assert!(!is_same(&a, folder.path()));
+    }
 
     const OBJ: &str = "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     const SCENE: &str = r#"(version: 1, size: (64, 36),
