@@ -42,11 +42,19 @@ struct LitPoint {
     float gloss;                 // 0 matt .. 1 glazed
 };
 
-// Display-linear colour; `glint` is how much of a highlight there is, 0..1.
-vec3 lit(vec3 albedo, LitPoint at, out float glint) {
+// The light on a point.
+struct Light {
+    vec3 diffuse;                // what arrives, from everywhere; times the albedo it is what a matt surface sends back
+    vec3 highlight;              // what a glazed surface sends back beside that
+    float glint;                 // how much of a highlight there is, 0..1
+    float shadowed;              // how much arrives of the light that casts shadows, 0..1
+};
+
+Light light_on(LitPoint at) {
     vec3 light = mix(ambient_below, ambient_above, 0.5 + 0.5 * at.normal.y) * at.openness;
     vec3 highlight = vec3(0.0);
-    glint = 0.0;
+    float glint = 0.0;
+    float shadowed = shadowed_light < 0 ? 1.0 : 0.0;
     float sharpness = mix(12.0, 220.0, at.gloss);
     for (int index = 0; index < light_count; index++) {
         vec4 place = texelFetch(lights, ivec2(index, 0), 0);
@@ -60,7 +68,10 @@ vec3 lit(vec3 albedo, LitPoint at, out float glint) {
         if (facing <= 0.0) continue;
         float within = clamp(radiance_and_slope.w * dot(cone.xyz, -direction) + cone.w, 0.0, 1.0);
         float arriving = within * within / squared;
-        if (index == shadowed_light) arriving *= sunlit(at.position, at.normal);
+        if (index == shadowed_light) {
+            shadowed = sunlit(at.position, at.normal);
+            arriving *= shadowed;
+        }
         // Enclosed places get a little less direct light too.
         light += radiance * facing * arriving * mix(0.7, 1.0, at.openness);
         if (at.gloss > 0.0) {
@@ -71,5 +82,12 @@ vec3 lit(vec3 albedo, LitPoint at, out float glint) {
             glint += strength * min(dot(radiance, vec3(0.2126, 0.7152, 0.0722)), 1.0);
         }
     }
-    return exposed(albedo * light + highlight);
+    return Light(light, highlight, glint, shadowed);
+}
+
+// Display-linear colour; `glint` is how much of a highlight there is, 0..1.
+vec3 lit(vec3 albedo, LitPoint at, out float glint) {
+    Light light = light_on(at);
+    glint = light.glint;
+    return exposed(albedo * light.diffuse + light.highlight);
 }

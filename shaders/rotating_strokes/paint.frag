@@ -26,6 +26,28 @@ layout(location = 0) out vec4 over;
 layout(location = 1) out vec4 height; // and how wet the paint is
 #endif
 
+#ifdef STORES
+// Every fragment is noted: pixel, counted from the lower left; stroke and alpha; colour. `fragments.rs` reads it.
+flat in uint number;
+layout(std430, binding = 0) buffer Fragments {
+    uint count;
+    uint notes[];
+};
+
+void note(vec3 color, float alpha) {
+    const float BRIGHTEST = 2.0;
+    uint alpha_bits = uint(alpha * 1023.0 + 0.5);
+    if (alpha_bits == 0u) return;
+    uint slot = 3u * atomicAdd(count, 1u);
+    if (slot + 2u >= uint(notes.length())) return;
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    vec3 root = sqrt(clamp(color / BRIGHTEST, 0.0, 1.0)) * vec3(2047.0, 2047.0, 1023.0) + 0.5;
+    notes[slot] = uint(at.y * textureSize(surface, 0).x + at.x);
+    notes[slot + 1u] = number << 10 | alpha_bits;
+    notes[slot + 2u] = uint(root.r) | uint(root.g) << 11 | uint(root.b) << 22;
+}
+#endif
+
 // As in `core::brush`.
 const float FILL = 0.84;
 const float HEIGHT_SCALE = 1.5;
@@ -102,6 +124,9 @@ void main() {
     color *= 1.0 - 0.10 * (1.0 - alpha);
     alpha *= body.x;
     over = vec4(color * alpha, alpha);
+#ifdef STORES
+    note(color, alpha);
+#endif
 #ifndef DRAFT
     height = vec4(texel.g * HEIGHT_SCALE * body.y, 0.8 * own.w, 0.0, 0.8) * alpha;
 #endif

@@ -28,6 +28,11 @@ uniform sampler2D below;         // the picture before this layer, premultiplied
 uniform sampler2D depth_and_id;
 #endif
 
+#ifdef STORES
+uniform int first_stroke;        // number of the first of these strokes in the picture
+flat out uint number;
+#endif
+
 out vec2 mark_at;                // of the mark; of a shaped stroke px along and across it
 out vec2 from_center_px;
 flat out vec4 paint;             // colour and the height at which the mark is cut off
@@ -105,6 +110,9 @@ vec4 plane_of_stroke(vec2 center_px) {
 }
 
 void main() {
+#ifdef STORES
+    number = uint(first_stroke + gl_InstanceID);
+#endif
     float there = resolved.a;
     if (there <= 0.004) {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);

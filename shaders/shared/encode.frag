@@ -1,10 +1,11 @@
-// A finished picture over the background, encoded.
+// The last pass: what a style has painted, as a display shows it.
 #include "shared/encode.glsl"
-uniform sampler2D picture;     // premultiplied, display-linear
-uniform vec4 background;       // premultiplied, display-linear
+uniform sampler2D picture;     // straight alpha, display-linear
+uniform float exposure;        // a factor
 
-out vec4 encoded;
+out vec4 encoded;              // straight alpha, sRGB
 
 void main() {
-    encoded = encode_over(texelFetch(picture, ivec2(gl_FragCoord.xy), 0), background);
+    vec4 painted = texelFetch(picture, ivec2(gl_FragCoord.xy), 0);
+    encoded = vec4(srgb_from_linear(clamp(painted.rgb * exposure, 0.0, 1.0)), painted.a);
 }

@@ -1,5 +1,6 @@
-// Ink on the paper: the blurred wash, the strokes over it, and the effect of the paper on both. Values are display
+// Ink on the paper: the blurred wash, the strokes over it, and the effect of the paper on both. It reckons in sRGB
 // values: ink is subtracted from the paper, as in the source's mix.
+#include "shared/encode.glsl"
 #include "sumi_e/paper.glsl"
 uniform sampler2D soft;          // silhouette, interior, seal red, body
 uniform sampler2D wide;          // the same, blurred far
@@ -11,7 +12,7 @@ uniform vec4 amounts;            // of the wash, of strokes, density, silhouette
 uniform vec4 wetness;            // bleed, how far ink bleeds in px, dryness, pixels per pixel of the scene's own size
 uniform vec2 size_px;
 
-out vec4 laid;
+out vec4 laid;                   // straight alpha, display-linear
 
 const float MOST_INK = 0.97;
 
@@ -65,11 +66,11 @@ void main() {
     vec3 drawn = amounts.y > 0.0 ? amounts.y * strokes_at(here) : vec3(0.0);
     vec3 through = (1.0 - washed) * (1.0 - drawn);
     if (background.a > 0.0) {
-        laid = vec4(bare_paper(here) * through, 1.0);
+        laid = vec4(linear_from_srgb(clamp(bare_paper(here) * through, 0.0, 1.0)), 1.0);
         return;
     }
     // Without paper: the ink alone, straight.
     vec3 taken = 1.0 - through;
     float most = max(max(taken.r, taken.g), taken.b);
-    laid = vec4(most > 0.0 ? 1.0 - taken / most : ink, most);
+    laid = vec4(linear_from_srgb(most > 0.0 ? 1.0 - taken / most : ink), most);
 }

@@ -1,10 +1,11 @@
-// Pass 4 of the source: adds up how much each picture darkens. Values are display values, as they are stored.
+// Pass 4 of the source: adds up how much each picture darkens. It reckons in sRGB values, as they are stored.
+#include "shared/encode.glsl"
 #include "sumi_e/paper.glsl"
 uniform sampler2D interior;
 uniform sampler2D silhouette;
 uniform vec4 background;         // alpha 0 where the paper is left out
 
-out vec4 mixed;
+out vec4 mixed;                  // straight alpha, display-linear
 
 // In Direct3D 9 a pixel's centre lies where four texels meet, so a pixel is the mean of the texels at it, to its left and above.
 // At the left and upper edge of the picture the interior is clamped, and the silhouette wraps around.
@@ -25,5 +26,5 @@ void main() {
     vec3 c2 = vec3(at_corner(silhouette, true));
     vec3 c3 = background.a > 0.0 ? bare_paper(felt(paper_at(gl_FragCoord.xy))) : vec3(1.0);
     vec3 laid = 1.0 - clamp((1.0 - c1) + (1.0 - c2) + (1.0 - c3), 0.0, 1.0);
-    mixed = background.a > 0.0 ? vec4(laid, 1.0) : vec4(vec3(0.0), 1.0 - laid.r);
+    mixed = background.a > 0.0 ? vec4(linear_from_srgb(laid), 1.0) : vec4(vec3(0.0), 1.0 - laid.r);
 }

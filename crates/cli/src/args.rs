@@ -9,6 +9,7 @@ use impasto_scene::document::{Style, Up};
 use impasto_scene::new_scene::{Ground, Placing, ViewFrom};
 
 use crate::failure::Failure;
+use crate::picture_args::PictureArguments;
 
 /// Paints 3D scenes with brush strokes that turn with what they lie on.
 #[derive(Debug, Parser)]
@@ -234,8 +235,8 @@ pub(crate) struct EditArguments {
 pub(crate) struct RenderArguments {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
-    /// Where frames go: #### or %04d or $F4 stands for the frame number, - for standard output (one frame); a name that
-    /// ends in .mp4, .mov, .mkv or .webm is one movie, made by ffmpeg.
+    /// Where frames go: #### or %04d or $F4 stands for the frame number, - for standard output (one frame). A name that
+    /// ends in .exr gives linear pictures for compositing; one that ends in .mp4, .mov, .mkv or .webm is one movie, made by ffmpeg.
     #[arg(short, long, default_value = "out/frame_####.png")]
     pub(crate) output: String,
     /// Which frames: a-b, a..b, a-bxN and a-b:N (every Nth), commas; left out, the scene's own.
@@ -278,6 +279,8 @@ pub(crate) struct RenderArguments {
     /// Write one animated PNG instead of single frames.
     #[arg(long, conflicts_with_all = ["contact_sheet", "skip_existing"])]
     pub(crate) apng: bool,
+    #[command(flatten)]
+    pub(crate) picture: PictureArguments,
     /// Print a line of JSON per frame.
     #[arg(long)]
     pub(crate) json: bool,

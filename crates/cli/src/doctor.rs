@@ -152,12 +152,13 @@ fn test_frame() -> Frame {
         bodies: Vec::new(),
         strokes: vec![stroke],
         sources: vec![source],
-        layers: vec![LayerRun { kind: LayerKind::Body, first: 0, count: 1 }],
+        layers: vec![LayerRun { order: 0, kind: LayerKind::Body, first: 0, count: 1 }],
         brushes: Arc::new(Brushes::of_names(&["flat"])),
         palettes: Arc::default(),
         finish: Finish::default(),
         style: Style::default(),
         quality: Quality::Exact,
+        exposure: 1.0,
     }
 }
 

@@ -12,6 +12,7 @@ mod interrupt;
 mod measure;
 mod movie;
 mod new;
+mod picture_args;
 mod render;
 mod session;
 mod sheet;

@@ -10,7 +10,7 @@ use impasto_frame_files::{FrameList, Pattern, not_an_input, ready_folder};
 use impasto_gl_render::shader_folder::ShaderFolder;
 use impasto_gl_render::{Cost, PassTime, Renderer, ShaderTexts};
 use impasto_painting::{FrameOptions, Rotation, StrokeColors};
-use impasto_scene::document::Style;
+use impasto_scene::document::{Scene, Style};
 use impasto_scene::memory;
 use impasto_scene::whole_file::WholeFile;
 use impasto_sequence::{Drawn, Ending, FileOutcome, FrameFiles, Sequence, Wanted};
@@ -82,10 +82,13 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
     let inputs = loaded.inputs();
     not_an_input(Path::new(&arguments.output), &inputs)?;
     let destination = destination(arguments, &frames)?;
+    let wanted = wanted(arguments, &destination, &loaded.scene)?;
     match &destination {
         Destination::Files(pattern) => {
             for frame in frames.iter() {
-                not_an_input(&pattern.path(frame), &inputs)?;
+                for ending in ["png", "exr"] {
+                    not_an_input(&pattern.path(frame).with_extension(ending), &inputs)?;
+                }
             }
             ready_folder(&pattern.path(frames.iter().next().unwrap_or(0)))?;
         }
@@ -107,6 +110,7 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
     let options = FrameOptions {
         keep_stroke_px: arguments.keep_stroke_px,
         transparent: arguments.alpha,
+        exposure_stops: arguments.picture.exposure,
         rotation: match arguments.rotation {
             RotationChoice::On => Rotation::On,
             RotationChoice::Off => Rotation::Off,
@@ -125,15 +129,37 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
         scene_name,
         driver: session::driver(arguments.driver),
         shaders,
-        wanted: match destination {
-            Destination::Files(_) if arguments.contact_sheet => Wanted::PngAndPicture,
-            Destination::Files(_) | Destination::Stream => Wanted::Png,
-            Destination::Animation(_) | Destination::Movie(..) => Wanted::Picture,
-        },
+        wanted,
         timed: verbose,
         counted: verbose || arguments.json,
     };
     Ok(Plan { sequence, renderer, frames, destination })
+}
+
+/// What is made of each frame.
+fn wanted(arguments: &RenderArguments, destination: &Destination, scene: &Scene) -> Result<Wanted, Failure> {
+    let picture = &arguments.picture;
+    let only_exr = has_ending(&arguments.output, ".exr");
+    let exr = match destination {
+        Destination::Files(_) if only_exr || picture.exr => {
+            Some(picture.aovs_of(scene, arguments.talk.quiet)?)
+        }
+        _ if !picture.aovs.is_empty() || picture.exr => {
+            let words = "--aov and --exr are for EXR files: let -o end in .exr, or add --exr to frames in .png";
+            return Err(Failure::Usage(words.to_owned()));
+        }
+        _ => None,
+    };
+    let png = Some(picture.bits).filter(|_| !only_exr);
+    Ok(match destination {
+        Destination::Files(_) => Wanted { picture: arguments.contact_sheet, png, exr },
+        Destination::Stream => Wanted { png, ..Wanted::default() },
+        Destination::Animation(_) | Destination::Movie(..) => Wanted::PICTURE,
+    })
+}
+
+fn has_ending(output: &str, ending: &str) -> bool {
+    output.to_lowercase().ends_with(ending)
 }
 
 fn destination(arguments: &RenderArguments, frames: &FrameList) -> Result<Destination, Failure> {
@@ -152,11 +178,15 @@ fn destination(arguments: &RenderArguments, frames: &FrameList) -> Result<Destin
         let encoding = encoding.map_err(Failure::Usage)?;
         return Ok(Destination::Movie(PathBuf::from(&arguments.output), encoding));
     }
-    if !arguments.output.to_lowercase().ends_with(".png") {
-        let words = format!("-o {}: let the name end in .png, or in .mp4 for a movie", arguments.output);
+    if !has_ending(&arguments.output, ".png") && !has_ending(&arguments.output, ".exr") {
+        let words =
+            format!("-o {}: let the name end in .png, in .exr, or in .mp4 for a movie", arguments.output);
         return Err(Failure::Usage(words));
     }
     if arguments.apng {
+        if has_ending(&arguments.output, ".exr") {
+            return Err(Failure::Usage("--apng writes a PNG file: let -o end in .png".to_owned()));
+        }
         let has_place = arguments.output.contains('#')
             || arguments.output.contains('%')
             || arguments.output.contains("$F");
@@ -237,7 +267,7 @@ impl Plan {
         }
         bar.finish_and_clear();
         if let Some(sheet) = sheet {
-            let path = pattern.beside("sheet");
+            let path = pattern.beside("sheet").with_extension("png");
             let picture = sheet.picture();
             let pixels = Pixels { size_px: picture.size_px, rgba8: &picture.rgba8 };
             picture_file::write(&path, pixels, &sheet_provenance)
@@ -297,7 +327,7 @@ impl Plan {
     fn stream(&mut self, interrupt: &Interrupt) -> Result<(), Failure> {
         let Self { sequence, renderer, frames, .. } = self;
         let ending = sequence.render(renderer, frames, &|| interrupt.came(), |drawn| {
-            Ok::<(), Failure>(std::io::stdout().write_all(&drawn.png)?)
+            Ok::<(), Failure>(drawn.files.iter().try_for_each(|(_, bytes)| std::io::stdout().write_all(bytes))?)
         })?;
         if ending == Ending::Done { Ok(()) } else { Err(Failure::Interrupted { done: 0 }) }
     }

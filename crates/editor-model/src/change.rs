@@ -120,6 +120,7 @@ pub(crate) fn head(scene: &Scene) -> Scene {
         strokes: scene.strokes.clone(),
         regions: Vec::new(),
         style: scene.style.clone(),
+        aovs: scene.aovs.clone(),
     }
 }
 

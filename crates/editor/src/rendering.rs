@@ -203,7 +203,7 @@ fn run(
         scene_name: plan.scene_name(),
         driver,
         shaders: shaders.clone(),
-        wanted: Wanted::PngAndPicture,
+        wanted: Wanted { picture: true, ..Wanted::PNG },
         timed: false,
         counted: false,
     };

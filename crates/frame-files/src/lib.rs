@@ -1,6 +1,8 @@
-//! Rendered frames as files: lists of frames, their file names, and PNG. The command line and the editor write the same
+//! Rendered frames as files: lists of frames, their file names, PNG and EXR. The command line and the editor write the same
 //! bytes because both write them here.
 
+pub mod exr_file;
+mod exr_header;
 mod frame_list;
 mod pattern;
 pub mod picture_file;
@@ -9,3 +11,11 @@ mod place;
 pub use frame_list::FrameList;
 pub use pattern::Pattern;
 pub use place::{PlaceError, not_an_input, ready_folder};
+
+/// Whether a frame's file is there and whole. A file that was cut, or that is none of its kind, is to be written again.
+pub fn is_whole(path: &std::path::Path) -> bool {
+    match path.extension() {
+        Some(extension) if extension.eq_ignore_ascii_case("exr") => exr_header::is_whole(path),
+        _ => picture_file::is_whole(path),
+    }
+}

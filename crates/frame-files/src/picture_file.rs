@@ -1,6 +1,7 @@
-//! PNG files: still and animated, each with a note of where it comes from.
+//! PNG files: still and animated, of 8 and of 16 bits, each with a note of where it comes from.
 
-use std::io::Write;
+use std::fs::File;
+use std::io::{self, Read as _, Seek as _, SeekFrom, Write};
 use std::path::Path;
 
 use impasto_scene::whole_file::WholeFile;
@@ -25,6 +26,15 @@ pub struct Pixels<'a> {
     pub rgba8: &'a [u8],
 }
 
+/// As [`Pixels`], of 16 bits.
+#[derive(Clone, Copy, Debug)]
+pub struct DeepPixels<'a> {
+    /// Width and height in pixels.
+    pub size_px: [u32; 2],
+    /// Four numbers a pixel, row by row from the top.
+    pub rgba16: &'a [u16],
+}
+
 /// Writes a picture to a PNG file, whole or not at all.
 ///
 /// # Errors
@@ -44,6 +54,36 @@ pub fn encode(file: &mut dyn Write, pixels: Pixels<'_>, provenance: &Provenance)
     writer.write_image_data(pixels.rgba8)?;
     writer.finish()?;
     Ok(())
+}
+
+/// Encodes a picture as PNG of 16 bits a channel.
+///
+/// # Errors
+/// What the disk or the encoder said.
+pub fn encode_deep(
+    file: &mut dyn Write,
+    pixels: DeepPixels<'_>,
+    provenance: &Provenance,
+) -> anyhow::Result<()> {
+    let mut encoder = encoder(file, pixels.size_px, provenance)?;
+    encoder.set_depth(png::BitDepth::Sixteen);
+    let bytes: Vec<u8> = pixels.rgba16.iter().flat_map(|value| value.to_be_bytes()).collect();
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&bytes)?;
+    writer.finish()?;
+    Ok(())
+}
+
+/// Whether a file ends as a PNG file does; one that was cut does not.
+pub(crate) fn is_whole(path: &Path) -> bool {
+    const END: &[u8] = b"\0\0\0\0IEND\xae\x42\x60\x82";
+    let last = || {
+        let mut file = File::open(path)?;
+        file.seek(SeekFrom::End(-(END.len() as i64)))?;
+        let mut bytes = [0; END.len()];
+        io::Result::Ok(file.read_exact(&mut bytes).is_ok() && bytes == END)
+    };
+    last().unwrap_or(false)
 }
 
 /// Begins an animated PNG of this many pictures, to be written to it one after the other.
@@ -85,4 +125,33 @@ fn encoder<'a>(
         encoder.add_itxt_chunk(keyword.to_owned(), text.to_owned())?;
     }
     Ok(encoder)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn provenance() -> Provenance {
+        Provenance { scene: "a.ron".to_owned(), frame: "1".to_owned(), driver: "a driver".to_owned() }
+    }
+
+    #[test]
+    fn sixteen_bits_come_back_and_a_cut_file_is_not_whole() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        let rgba16: Vec<u16> = (0..6 * 4).map(|index| index * 2731).collect();
+        let mut bytes = Vec::new();
+        encode_deep(&mut bytes, DeepPixels { size_px: [3, 2], rgba16: &rgba16 }, &provenance()).unwrap();
+        let mut reader = png::Decoder::new(io::Cursor::new(&bytes)).read_info().unwrap();
+        let mut read = vec![0; reader.output_buffer_size().unwrap()];
+        assert_eq!(reader.next_frame(&mut read).unwrap().bit_depth, png::BitDepth::Sixteen);
+        let read: Vec<u16> = read.chunks_exact(2).map(|pair| u16::from_be_bytes([pair[0], pair[1]])).collect();
+        assert_eq!(read, rgba16);
+        std::fs::write(&path, &bytes).unwrap();
+        assert!(is_whole(&path));
+        for kept in [0, 5, bytes.len() - 1] {
+            std::fs::write(&path, &bytes[..kept]).unwrap();
+            assert!(!is_whole(&path), "{kept}");
+        }
+    }
 }

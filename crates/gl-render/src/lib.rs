@@ -3,11 +3,14 @@
 //! ```text
 //! Frame ─▶ reference pass: shadow ─▶ surface ─▶ openness ─▶ light      (colour, normal, depth and id)
 //!                │
-//!                └─▶ a style: its targets and its passes in order ─▶ overlays of a window ─▶ sRGB bytes
+//!                └─▶ a style: its targets and its passes in order ─▶ encode: sRGB bytes ─▶ overlays of a window
 //! ```
 
 mod body_program;
 pub mod context;
+mod drawn;
+mod encode;
+mod fragments;
 mod gl;
 #[cfg(test)]
 mod inverse_bilinear_twin;
@@ -31,7 +34,9 @@ mod style_renderer;
 mod styles;
 mod watch;
 
+pub use drawn::{Cost, PaintSurface, PassTime, Picture, ReferencePixels, ResolvedStroke, SurfacePixels};
+pub use fragments::{PaintedLayer, PixelShares, Share};
 pub use gl::{GlError, ShaderTexts};
 pub use motion::MotionPixels;
 pub use overlays::light_billboards::{BillboardIcon, BillboardSize, LightBillboard};
-pub use renderer::{Cost, PassTime, Picture, ReferencePixels, RenderError, Renderer, ResolvedStroke};
+pub use renderer::{RenderError, Renderer};

@@ -1,17 +1,23 @@
 //! The reference picture: a plain render with shadows, from which strokes take colour, depth and body.
 
+use std::rc::Rc;
+
 use glam::{Vec3, Vec4};
+use half::f16;
 use impasto_painting::frame::{FrameBody, FrameView};
 use impasto_painting::{Frame, Quality};
 
 use crate::body_program::BodyProgram;
-use crate::gl::{DrawState, GlError, Gpu, Halt, Program, ProgramSource, VertexArray, Vertices};
+use crate::gl::{
+    DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program, ProgramSource, Texture, VertexArray,
+    Vertices,
+};
 use crate::lens::{LENS_UNIFORMS, LensSetup, VIEW_LENS_UNIFORMS};
 use crate::lighting::{LIGHT_UNIFORMS, LightSetup};
 use crate::materials::noise_displace::{self, NoiseDisplace};
 use crate::meshes::{DrawnBody, MeshCache};
 use crate::noise_tiles::NoiseTiles;
-use crate::reference_targets::ReferenceTargets;
+use crate::reference_targets::{ReferenceTargets, SURFACE_TEXTURES};
 use crate::shader_files::{REFERENCE, SHARED};
 use crate::shadow::ShadowMap;
 use crate::watch::Watch;
@@ -25,6 +31,8 @@ pub(crate) struct ReferencePass {
     light: Program,
     /// Created when the first draft is drawn.
     draft_light: Option<Program>,
+    /// Created when it is first wanted.
+    light_parts: Option<Program>,
     screen: VertexArray,
     meshes: MeshCache,
     tiles: NoiseTiles,
@@ -40,6 +48,7 @@ impl ReferencePass {
             openness: Program::new(gpu, FILES, &OPENNESS)?,
             light: Program::new(gpu, FILES, &LIGHT)?,
             draft_light: None,
+            light_parts: None,
             screen: VertexArray::empty(gpu)?,
             meshes: MeshCache::new(gpu)?,
             tiles: NoiseTiles::new(gpu),
@@ -84,16 +93,33 @@ impl ReferencePass {
             (Quality::Draft, Some(light)) => light,
             _ => &self.light,
         };
-        let bound = lights
-            .set(lens.set(light.bind(), &LENS_UNIFORMS))
-            .texture("albedo_and_lit", &targets.albedo)
-            .texture("normal", &targets.normal)
-            .texture("depth_and_id", &targets.depth_and_id)
-            .texture("openness", &targets.openness);
+        let bound = targets.set(lights.set(lens.set(light.bind(), &LENS_UNIFORMS)));
         self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
         watch.passed("light")?;
         self.noise.draw(frame, &bodies, &self.tiles, targets, watch)?;
         Ok(lights)
+    }
+
+    /// Draws the light on the surfaces of the last picture, apart from their colours: what arrives and how much of the sun; how open
+    /// each place is. Bottom row first.
+    pub(crate) fn draw_light_parts(
+        &mut self,
+        frame: &Frame,
+        lights: &LightSetup,
+        targets: &ReferenceTargets,
+    ) -> Result<[Vec<[f16; 4]>; 2], GlError> {
+        let program = match self.light_parts.take() {
+            Some(program) => program,
+            None => Program::new(&self.gpu, FILES, &LIGHT_PARTS)?,
+        };
+        let target = || Texture::target(&self.gpu, Format::Rgba16F, frame.size_px, Filter::Nearest).map(Rc::new);
+        let pass = Framebuffer::new(&self.gpu, &[&target()?, &target()?], None)?;
+        self.gpu.begin_pass(&pass, DrawState::default());
+        let lens = LensSetup::new(&frame.view, frame.size_px);
+        let bound = targets.set(lights.set(lens.set(program.bind(), &LENS_UNIFORMS)));
+        self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
+        self.light_parts = Some(program);
+        Ok([pass.read_halves(0), pass.read_halves(1)])
     }
 
     /// Creates at once every program that is otherwise created when it is first needed.
@@ -111,6 +137,11 @@ impl ReferencePass {
             self.draft_light = Some(Program::new(&self.gpu, FILES, &source)?);
         }
         Ok(())
+    }
+
+    /// The map of shadows, as it was drawn last.
+    pub(crate) fn shadow(&self) -> &ShadowMap {
+        &self.shadow
     }
 
     /// The bodies of a frame with their surfaces on the GPU.
@@ -212,5 +243,8 @@ const OPENNESS: ProgramSource<'static> = ProgramSource::screen(
 
 const LIGHT: ProgramSource<'static> = ProgramSource::screen(
     "reference/light.frag",
-    &[&LENS_UNIFORMS, &LIGHT_UNIFORMS, &["albedo_and_lit", "normal", "depth_and_id", "openness"]],
+    &[&LENS_UNIFORMS, &LIGHT_UNIFORMS, &SURFACE_TEXTURES],
 );
+
+const LIGHT_PARTS: ProgramSource<'static> =
+    ProgramSource { fragment: Some("reference/light_parts.frag"), ..LIGHT };

@@ -2,7 +2,12 @@
 
 use std::rc::Rc;
 
-use crate::gl::{Filter, Format, Framebuffer, GlError, Gpu, Texture};
+use half::f16;
+
+use crate::gl::{Bound, Filter, Format, Framebuffer, GlError, Gpu, Texture};
+
+/// The textures that light is found from, as shaders name them.
+pub(crate) const SURFACE_TEXTURES: [&str; 4] = ["albedo_and_lit", "normal", "depth_and_id", "openness"];
 
 /// The textures of the reference pass, all of the picture's size but for `openness`.
 pub(crate) struct ReferenceTargets {
@@ -58,6 +63,20 @@ impl ReferenceTargets {
             Some(targets) if targets.size_px == size_px => Ok(targets),
             _ => Self::new(gpu, size_px),
         }
+    }
+
+    /// Sets the textures that light is found from.
+    pub(crate) fn set<'a>(&self, bound: Bound<'a>) -> Bound<'a> {
+        bound
+            .texture("albedo_and_lit", &self.albedo)
+            .texture("normal", &self.normal)
+            .texture("depth_and_id", &self.depth_and_id)
+            .texture("openness", &self.openness)
+    }
+
+    /// Unlit colour, and normal, of every pixel, bottom row first.
+    pub(crate) fn read_albedo_and_normal(&self) -> [Vec<[f16; 4]>; 2] {
+        [self.surface_pass.read_halves(0), self.surface_pass.read_halves(1)]
     }
 
     /// Depth along the gaze and body id of every pixel, bottom row first.

@@ -1,71 +1,25 @@
 //! The renderer: created once, then given one frame after the other.
 
+mod data;
+
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
-use std::rc::Rc;
 
 use impasto_painting::Frame;
 use impasto_painting::frame::{FrameView, Strokes, Style};
 
 use crate::context::{Context, ContextReport};
-use crate::gl::{Filter, Format, Framebuffer, GlError, Gpu, Halt, ShaderTexts, Texture};
+use crate::drawn::{Cost, PassTime, Picture};
+use crate::encode::{Encoder, Painted, byte_target};
+use crate::gl::{Framebuffer, GlError, Halt, ShaderTexts};
 use crate::lighting::LightSetup;
-use crate::motion::{MotionPass, MotionPixels};
+use crate::motion::MotionPass;
 use crate::overlays::light_billboards::{LightBillboard, LightBillboards};
 use crate::reference::ReferencePass;
 use crate::reference_targets::ReferenceTargets;
 use crate::style_renderer::{StyleInput, StyleRenderer};
 use crate::styles;
 use crate::watch::Watch;
-
-/// A finished picture.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Picture {
-    /// Width and height in pixels.
-    pub size_px: [u32; 2],
-    /// sRGB bytes with straight alpha, four a pixel, top row first.
-    pub rgba8: Vec<u8>,
-}
-
-/// A stroke as it was painted.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ResolvedStroke {
-    /// Display-linear colour.
-    pub color_linear: [f32; 3],
-    /// Presence times the visible share of the stroke's centre, 0..=1.
-    pub alpha: f32,
-    /// Centre in pixels, origin at the lower left, moved along the stroke so that it lies on its body.
-    pub center_px: [f32; 2],
-    /// What was added to its angle so that a line lies along the end of its body, radians.
-    pub turned_rad: f32,
-}
-
-/// What a picture cost to draw.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Cost {
-    /// The passes, in order. A layer of paint that is laid in several runs is listed several times.
-    pub passes: Vec<PassTime>,
-    /// How many strokes laid paint on a pixel, on average.
-    pub overdraw: f64,
-}
-
-/// How long a pass took.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PassTime {
-    /// The pass, or the layer of paint.
-    pub name: &'static str,
-    /// Wall clock seconds.
-    pub seconds: f64,
-}
-
-/// The reference picture as numbers, top row first.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ReferencePixels {
-    /// Depth along the gaze in world units; 0 where nothing is.
-    pub depth: Vec<f32>,
-    /// Index of the body plus 1; 0 where nothing is.
-    pub body_id: Vec<u32>,
-}
 
 /// Why a frame was not drawn.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -86,6 +40,13 @@ pub enum RenderError {
     Gl(#[from] GlError),
 }
 
+/// The camera of a picture, and its exposure.
+#[derive(Clone, Copy)]
+struct Seen {
+    view: FrameView,
+    exposure: f32,
+}
+
 /// Draws frames. Belongs to the thread that made it.
 pub struct Renderer {
     // Fields are dropped in this order: whatever was created in the context goes before the context.
@@ -94,14 +55,18 @@ pub struct Renderer {
     reference: ReferencePass,
     motion: Option<MotionPass>,
     targets: Option<ReferenceTargets>,
-    output: Option<Framebuffer>,
-    /// The camera of the picture in `output`; `None` while that is unfinished.
-    last_view: Option<FrameView>,
+    encoder: Encoder,
+    /// The last picture before it was encoded.
+    painted: Option<Painted>,
+    /// How the picture in `painted` is seen; `None` while that is unfinished.
+    last: Option<Seen>,
     billboards: Vec<LightBillboard>,
     /// Created when the first billboard is drawn.
     billboards_pass: Option<LightBillboards>,
     /// The picture with billboards over it.
     with_billboards: Option<Framebuffer>,
+    /// Whether paint is gathered too: see [`Renderer::gather_paint`].
+    gathers: bool,
     /// Name of the style of the last frame.
     last_style: Option<&'static str>,
     context: Context,
@@ -120,11 +85,13 @@ impl Renderer {
             reference: ReferencePass::new(gpu)?,
             motion: None,
             targets: None,
-            output: None,
-            last_view: None,
+            encoder: Encoder::new(gpu)?,
+            painted: None,
+            last: None,
             billboards: Vec::new(),
             billboards_pass: None,
             with_billboards: None,
+            gathers: false,
             last_style: None,
             context,
         })
@@ -150,12 +117,13 @@ impl Renderer {
                 renderer.ready_all()?;
                 renderers.insert(style.info().name, renderer);
             }
-            Ok::<_, GlError>((reference, motion, renderers, LightBillboards::new(&gpu)?))
+            let last = (Encoder::new(&gpu)?, LightBillboards::new(&gpu)?);
+            Ok::<_, GlError>((reference, motion, renderers, last))
         })();
         match made {
-            Ok((reference, motion, renderers, billboards)) => {
+            Ok((reference, motion, renderers, (encoder, billboards))) => {
                 (self.reference, self.styles, self.motion) = (reference, renderers, Some(motion));
-                (self.billboards_pass, self.last_view) = (Some(billboards), None);
+                (self.encoder, self.billboards_pass, self.last) = (encoder, Some(billboards), None);
                 Ok(())
             }
             Err(error) => {
@@ -243,20 +211,21 @@ impl Renderer {
     /// As [`Renderer::render`].
     pub fn with_other_billboards(&mut self) -> Result<Option<Picture>, RenderError> {
         self.context.gpu().make_current()?;
-        let Some(view) = self.last_view else { return Ok(None) };
-        Ok(Some(self.read_output(&view)?))
+        let Some(last) = self.last else { return Ok(None) };
+        Ok(Some(self.read_output(last)?))
     }
 
-    /// Reads the finished picture, with billboards over it.
-    fn read_output(&mut self, view: &FrameView) -> Result<Picture, GlError> {
+    /// Encodes the finished picture and reads it, with billboards over it.
+    fn read_output(&mut self, seen: Seen) -> Result<Picture, GlError> {
         let gpu = self.context.gpu().clone();
-        let output = self.output.as_ref().expect("a picture was drawn before");
+        let painted = self.painted.as_ref().expect("a picture was drawn before");
+        let output = self.encoder.encode(painted, seen.exposure)?;
         let size_px = output.size_px();
         let mut shown = output;
         if !self.billboards.is_empty() {
             let over = match self.with_billboards.take() {
                 Some(over) if over.size_px() == size_px => over,
-                _ => output_target(&gpu, size_px)?,
+                _ => byte_target(&gpu, size_px)?,
             };
             let over = self.with_billboards.insert(over);
             output.copy_to(over);
@@ -266,7 +235,7 @@ impl Renderer {
             };
             let pass = self.billboards_pass.insert(pass);
             let reference = self.targets.as_ref().expect("the reference picture was drawn before");
-            pass.draw(&self.billboards, view, over, &reference.depth_and_id)?;
+            pass.draw(&self.billboards, &seen.view, over, &reference.depth_and_id)?;
             gpu.lap("billboards");
             shown = over;
         }
@@ -277,7 +246,7 @@ impl Renderer {
     }
 
     fn draw_reference(&mut self, frame: &Frame, watch: &mut Watch<'_>) -> Result<LightSetup, Halt> {
-        self.last_view = None;
+        self.last = None;
         let targets = ReferenceTargets::of_size(self.context.gpu(), self.targets.take(), frame.size_px)?;
         let targets = self.targets.insert(targets);
         self.reference.draw(frame, targets, watch)
@@ -293,20 +262,19 @@ impl Renderer {
         let gpu = &self.context.gpu().clone();
         let bodies = self.reference.bodies(frame)?;
         let reference = self.targets.as_ref().expect("the reference picture was drawn before");
-        let output = match self.output.take() {
-            Some(output) if output.size_px() == frame.size_px => output,
-            _ => output_target(gpu, frame.size_px)?,
-        };
-        let output = self.output.insert(output);
+        let painted = Painted::of_size(gpu, self.painted.take(), frame.size_px)?;
+        let painted = self.painted.insert(painted);
         let name = frame.style.info().name;
         self.last_style = Some(name);
         let style = match self.styles.entry(name) {
             Entry::Occupied(entry) => entry.into_mut(),
             Entry::Vacant(entry) => entry.insert(styles::open(gpu, &frame.style)?),
         };
-        style.draw(&StyleInput { frame, reference, lights, bodies: &bodies }, output, watch)?;
-        self.last_view = Some(frame.view);
-        Ok(self.read_output(&frame.view)?)
+        let input = StyleInput { frame, reference, lights, bodies: &bodies, gathers: self.gathers };
+        style.draw(&input, &painted.pass, watch)?;
+        let seen = Seen { view: frame.view, exposure: frame.exposure };
+        self.last = Some(seen);
+        Ok(self.read_output(seen)?)
     }
 
     /// As [`Renderer::render`], with the time of each pass. Waits for the driver after every pass, so it is slower.
@@ -322,25 +290,6 @@ impl Renderer {
         Ok((picture?, Cost { passes, overdraw: fragments as f64 / (pixels[0] * pixels[1]) }))
     }
 
-    /// For every pixel of `now` where a body shows, where the same surface point is in `then`. Both frames have the
-    /// same size, and the same bodies in the same order. The last picture stays as it is.
-    ///
-    /// # Errors
-    /// As [`Renderer::render`].
-    pub fn motion(&mut self, now: &Frame, then: &Frame) -> Result<MotionPixels, RenderError> {
-        self.check_size(now.size_px)?;
-        let gpu = self.context.gpu().clone();
-        gpu.make_current()?;
-        let mut pass = match self.motion.take() {
-            Some(pass) => pass,
-            None => MotionPass::new(&gpu)?,
-        };
-        let motion = pass.draw(&mut self.reference, now, then)?;
-        self.motion = Some(pass);
-        gpu.complaints()?;
-        Ok(motion)
-    }
-
     fn check_size(&self, size_px: [u32; 2]) -> Result<(), RenderError> {
         if size_px.contains(&0) {
             return Err(RenderError::Empty);
@@ -352,49 +301,11 @@ impl Renderer {
         Ok(())
     }
 
-    /// The strokes of the last frame as they were painted, in its order; read back from the GPU.
-    pub fn resolved_strokes(&self) -> Vec<ResolvedStroke> {
-        let resolved = self.last_renderer().map_or_else(Vec::new, |style| style.read_resolved());
-        resolved
-            .into_iter()
-            .map(|[r, g, b, alpha, x, y, _, turned_rad]| ResolvedStroke {
-                color_linear: [r, g, b],
-                alpha,
-                center_px: [x, y],
-                turned_rad,
-            })
-            .collect()
-    }
-
-    /// Depth and body of every pixel of the last frame.
-    pub fn read_reference(&self) -> ReferencePixels {
-        let Some(targets) = &self.targets else {
-            return ReferencePixels { depth: Vec::new(), body_id: Vec::new() };
-        };
-        let values = targets.read_depth_and_id();
-        let width = targets.depth_and_id.size_px()[0] as usize;
-        let rows = top_row_first(&values, width * 2);
-        let (depth, body_id) = rows.chunks_exact(2).map(|pixel| (pixel[0], pixel[1] as u32)).unzip();
-        ReferencePixels { depth, body_id }
-    }
-
-    /// The paint of the last frame without background: premultiplied, display-linear, top row first.
-    pub fn read_paint(&self) -> Vec<[f32; 4]> {
-        let (Some(style), Some(output)) = (self.last_renderer(), &self.output) else { return Vec::new() };
-        top_row_first(&style.read_paint(), output.size_px()[0] as usize)
-    }
-
     /// The renderer of the last frame's style, ready to be read from.
     fn last_renderer(&self) -> Option<&dyn StyleRenderer> {
         self.context.gpu().make_current().ok()?;
         self.styles.get(self.last_style?).map(Box::as_ref)
     }
-}
-
-/// A target for finished pictures.
-fn output_target(gpu: &Gpu, size_px: [u32; 2]) -> Result<Framebuffer, GlError> {
-    let color = Rc::new(Texture::target(gpu, Format::Rgba8, size_px, Filter::Nearest)?);
-    Framebuffer::new(gpu, &[&color], None)
 }
 
 /// The result of a drawing that had no `stop`, and so cannot have been given up.

@@ -34,6 +34,7 @@ pub(crate) const SHARED: &[ShaderFile] = shader_files![
     "shared/place.frag",
     "shared/encode.glsl",
     "shared/encode.frag",
+    "shared/lay_over.frag",
     "shared/lens.glsl",
     "shared/oklab.glsl",
     "shared/inverse_bilinear.glsl",
@@ -61,6 +62,7 @@ pub(crate) const REFERENCE: &[ShaderFile] = shader_files![
     "reference/shadow.frag",
     "reference/openness.frag",
     "reference/light.frag",
+    "reference/light_parts.frag",
     "reference/motion.vert",
     "reference/motion.frag",
 ];
@@ -82,7 +84,7 @@ pub(crate) const ROTATING_STROKES: &[ShaderFile] = shader_files![
     "rotating_strokes/soften.frag",
     "rotating_strokes/detail.frag",
     "rotating_strokes/spread.frag",
-    "rotating_strokes/encode.frag",
+    "rotating_strokes/finish.frag",
 ];
 
 /// Ink on paper.

@@ -2,6 +2,8 @@
 
 use impasto_painting::Frame;
 
+use crate::drawn::PaintSurface;
+use crate::fragments::PaintedLayer;
 use crate::gl::{Framebuffer, GlError, Halt};
 use crate::lighting::LightSetup;
 use crate::meshes::DrawnBody;
@@ -15,11 +17,13 @@ pub(crate) struct StyleInput<'a> {
     pub(crate) lights: &'a LightSetup,
     /// The bodies of the frame, in its order.
     pub(crate) bodies: &'a [DrawnBody<'a>],
+    /// Whether the paint's layers and its surface are wanted too, where the style has them.
+    pub(crate) gathers: bool,
 }
 
 /// Draws frames in one style.
 pub(crate) trait StyleRenderer {
-    /// Runs the style's passes. The last one writes sRGB bytes with straight alpha into `output`.
+    /// Runs the style's passes. The last one writes the picture into `output`: display-linear, straight alpha.
     fn draw(
         &mut self,
         input: &StyleInput<'_>,
@@ -42,5 +46,15 @@ pub(crate) trait StyleRenderer {
     /// styles that keep none.
     fn read_paint(&self) -> Vec<[f32; 4]> {
         Vec::new()
+    }
+
+    /// The layers of paint of the last frame, if they were gathered; they can be taken once.
+    fn take_layers(&mut self) -> Vec<PaintedLayer> {
+        Vec::new()
+    }
+
+    /// The surface of the paint of the last frame, if it was gathered; bottom row first.
+    fn read_paint_surface(&self) -> Option<PaintSurface> {
+        None
     }
 }

@@ -61,6 +61,7 @@ impl Painting {
             finish: self.finish.at(&view, f64::from(options.shot_height_px())),
             style: self.style.clone(),
             quality: options.quality,
+            exposure: options.exposure_stops.exp2(),
         }
     }
 

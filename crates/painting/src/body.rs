@@ -24,6 +24,8 @@ pub struct BodySurface {
 /// A resolved material.
 #[derive(Clone, Debug)]
 pub struct BodyMaterial {
+    /// Its name in the mesh file; may be empty.
+    pub name: String,
     /// Linear Rec. 709 albedo.
     pub albedo: [f32; 3],
     /// Multiplies `albedo`; sRGB bytes.

@@ -42,7 +42,7 @@ impl Found {
             Some((last, run)) if *last == layer => run.count += 1,
             _ => {
                 let first = self.strokes.len() as u32;
-                self.layers.push((layer, LayerRun { kind, first, count: 1 }));
+                self.layers.push((layer, LayerRun { order: rule.strokes.layer, kind, first, count: 1 }));
             }
         }
         self.strokes.push(stroke);

@@ -50,6 +50,8 @@ pub struct Frame {
     pub style: Style,
     /// Exact, or a quick draft.
     pub quality: Quality,
+    /// A factor on the finished picture as a display shows it; 1 leaves it as it is.
+    pub exposure: f32,
 }
 
 /// The pigments that strokes are mixed from.

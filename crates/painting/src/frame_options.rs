@@ -20,6 +20,8 @@ pub struct FrameOptions {
     pub colors: StrokeColors,
     /// How much care to take.
     pub quality: Quality,
+    /// How much brighter a display shows the finished picture, in stops: 1 is twice the light.
+    pub exposure_stops: f32,
 }
 
 /// What strokes are coloured by.
@@ -65,6 +67,7 @@ impl FrameOptions {
             rotation: Rotation::On,
             colors: StrokeColors::Scene,
             quality: Quality::Exact,
+            exposure_stops: 0.0,
         }
     }
 }

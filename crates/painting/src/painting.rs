@@ -1,5 +1,6 @@
 //! A prepared scene.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use glam::Vec3;
@@ -173,6 +174,25 @@ impl Painting {
     /// Where a place of an object is at a frame; `None` where the object is at rest.
     pub fn carried(&self, object: usize, place: &Particle, frame: f64) -> Option<CarriedPlace> {
         self.bent_at(frame)[object].as_ref().map(|bent| bent.place(PackedParticle::of(place)))
+    }
+
+    /// The material that a stroke lies on: its name, or that of its object where it has none.
+    pub fn material_of(&self, object: usize, kind: LayerKind, particle: usize) -> &str {
+        let body = &self.bodies[object].surface;
+        let material = self.coat(object, kind).map(|coat| coat.sampled.particles.triangle(particle)).and_then(|triangle| {
+            body.materials.get(body.mesh.material_of_triangle.get(triangle).copied().unwrap_or(0) as usize)
+        });
+        match material {
+            Some(material) if !material.name.is_empty() => &material.name,
+            _ => &self.scene().objects[object].name,
+        }
+    }
+
+    /// The layers of paint that its frames may have, from the lowest: the `layer` of their regions, and which layer of paint.
+    pub fn paint_layers(&self) -> Vec<(i32, LayerKind)> {
+        let orders: BTreeSet<i32> = self.rules.iter().map(|rule| rule.strokes.layer).collect();
+        let kinds: BTreeSet<LayerKind> = self.coats.iter().map(|coat| coat.kind).collect();
+        orders.iter().flat_map(|&order| kinds.iter().map(move |&kind| (order, kind))).collect()
     }
 
     /// Area of the visible sides of one object, model units squared.

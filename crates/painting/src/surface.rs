@@ -151,6 +151,7 @@ impl SurfaceInputs {
         let is_unlit = over.is_some_and(|over| over.unlit);
         match over {
             Some(over) if over.color.is_some() || self.texture.is_some() => BodyMaterial {
+                name: from_file.name.clone(),
                 albedo: linear(over.color.unwrap_or(Color::white())),
                 texture: self.texture.clone(),
                 sampler: Sampler::default(),
@@ -159,6 +160,7 @@ impl SurfaceInputs {
                 gloss,
             },
             _ => BodyMaterial {
+                name: from_file.name.clone(),
                 albedo: linear(Color(from_file.color)),
                 texture: from_file.texture.clone(),
                 sampler: from_file.sampler,

@@ -1,6 +1,7 @@
 //! The scene document: every field of a scene file, with its default. Angles are in degrees, times in
 //! frames and colours in sRGB, as a person writes them; nothing here is solved or resolved.
 
+mod aovs;
 mod color;
 mod keys;
 mod light;
@@ -19,6 +20,7 @@ use serde::{Deserialize, Serialize};
 
 use self::numbers::usual_fields;
 
+pub use aovs::{AOVS, Aov, AovRow, AovSet};
 pub use color::Color;
 pub use keys::{BackgroundKey, Key, LightKey, StrokesKey};
 pub use light::{Light, LightKind};
@@ -95,6 +97,9 @@ pub struct Scene {
     /// How the scene is drawn.
     #[serde(default)]
     pub style: Style,
+    /// What EXR files hold beside the colour, such as `["depth", "motion"]` or `["all"]`; `docs/compositing.md` lists them.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub aovs: Vec<String>,
 }
 
 impl Scene {

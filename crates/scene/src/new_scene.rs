@@ -162,6 +162,7 @@ fn bare() -> Scene {
         strokes: StrokeSettings::default(),
         regions: Vec::new(),
         style: Default::default(),
+        aovs: Vec::new(),
     }
 }
 

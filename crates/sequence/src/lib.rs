@@ -8,6 +8,7 @@
 //!
 //! The bytes do not depend on how many painters there are.
 
+mod exr;
 mod in_order;
 mod painter;
 mod shot;
@@ -15,7 +16,7 @@ mod shot;
 use std::collections::HashSet;
 use std::path::PathBuf;
 
-use impasto_frame_files::FrameList;
+use impasto_frame_files::{FrameList, is_whole};
 use impasto_gl_render::Renderer;
 use impasto_scene::whole_file;
 
@@ -23,7 +24,7 @@ use in_order::{Workers, in_order};
 use painter::Painter;
 use shot::{Job, Painted};
 
-pub use shot::{Drawn, FrameError, Sequence, Wanted};
+pub use shot::{Drawn, FrameError, PngDepth, Sequence, Wanted};
 
 /// More painters than this would only wait for each other in the driver.
 const MAX_PAINTERS: u64 = 4;
@@ -32,7 +33,10 @@ const MAX_PAINTERS: u64 = 4;
 const FRAMES_PER_PAINTER: u64 = 4;
 
 /// What the render targets of one painter take per pixel.
-const TARGET_BYTES_PER_PIXEL: u64 = 128;
+const TARGET_BYTES_PER_PIXEL: u64 = 144;
+
+/// What else a painter takes per pixel while it makes a file with everything that a picture knows.
+const DATA_BYTES_PER_PIXEL: u64 = 700;
 
 /// What the render targets of all painters may take together.
 const MAX_TARGET_BYTES: u64 = 1 << 30;
@@ -51,9 +55,9 @@ pub enum FileOutcome {
 pub struct FrameFiles<'a> {
     /// Which frames, in their order.
     pub frames: &'a FrameList,
-    /// The file of each.
+    /// The file of each; a frame that has files of several kinds has them under this name with other endings.
     pub path: &'a (dyn Fn(i64) -> PathBuf + Sync),
-    /// Files that exist already are left as they are.
+    /// Frames whose files exist already, and are whole, are left as they are.
     pub keep_existing: bool,
 }
 
@@ -114,12 +118,14 @@ impl Sequence {
         // A frame that the list names twice is drawn once: the second time, its file counts as existing.
         let mut seen = HashSet::new();
         let must_draw = |frame_number: i64| {
-            !files.keep_existing || (seen.insert(frame_number) && !(files.path)(frame_number).exists())
+            let path = (files.path)(frame_number);
+            let mut all = self.wanted.endings().map(|ending| path.with_extension(ending));
+            !files.keep_existing || (seen.insert(frame_number) && !all.all(|path| is_whole(&path)))
         };
         self.each(renderer, files.frames, must_draw, stop, |job, painted| {
             let written = painted.and_then(|drawn| {
-                if let Some(drawn) = &drawn {
-                    whole_file::write(&(files.path)(job.frame_number), &drawn.png)?;
+                for (ending, bytes) in drawn.iter().flat_map(|drawn| &drawn.files) {
+                    whole_file::write(&(files.path)(job.frame_number).with_extension(ending), bytes)?;
                 }
                 Ok(drawn)
             });
@@ -171,10 +177,11 @@ impl Sequence {
             return 0;
         }
         let [width, height] = self.options.size_px.map(u64::from);
+        let of_data = self.wanted.exr.map_or(0, |_| DATA_BYTES_PER_PIXEL);
         let painters = (rayon::current_num_threads() as u64)
             .min(MAX_PAINTERS)
             .min(frames / FRAMES_PER_PAINTER)
-            .min(MAX_TARGET_BYTES / (width * height * TARGET_BYTES_PER_PIXEL).max(1));
+            .min(MAX_TARGET_BYTES / (width * height * (TARGET_BYTES_PER_PIXEL + of_data)).max(1));
         painters.saturating_sub(1) as usize
     }
 }

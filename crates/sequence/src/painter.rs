@@ -2,12 +2,16 @@
 
 use std::time::Instant;
 
-use impasto_frame_files::picture_file::{self, Pixels};
+use impasto_core::color::srgb_from_linear;
+use impasto_frame_files::picture_file::{self, DeepPixels, Pixels};
 use impasto_gl_render::context::{OpenOptions, open};
-use impasto_gl_render::{PassTime, Renderer};
+use impasto_gl_render::{PassTime, Picture, Renderer};
+use impasto_painting::Frame;
+use rayon::prelude::*;
 
+use crate::exr;
 use crate::in_order::Worker;
-use crate::shot::{Drawn, FrameError, Job, Painted, Sequence, Wanted};
+use crate::shot::{Drawn, FrameError, Job, Painted, PngDepth, Sequence};
 
 /// A stroke with less alpha than this is not counted as painted.
 const MIN_PAINTED_ALPHA: f32 = 0.004;
@@ -46,6 +50,9 @@ impl<'a> Painter<'a> {
         }
         let begun = Instant::now();
         let sequence = self.sequence;
+        let has = sequence.painting.scene().style.settings().aovs();
+        let wanted = sequence.wanted.exr.unwrap_or_default().shared(has);
+        self.renderer.gather_paint(wanted.has_any(impasto_aovs::GATHERED));
         let frame = sequence.painting.at(job.frame_number as f64, &sequence.options);
         // Bodies bend for the next frame while this one is drawn.
         if let Some(next) = job.next {
@@ -62,16 +69,11 @@ impl<'a> Painter<'a> {
                 None => return Ok(None),
             }
         };
-        let mut png = Vec::new();
-        if sequence.wanted != Wanted::Picture {
-            let provenance = sequence.provenance(&job.frame_number.to_string(), self.renderer);
-            let pixels = Pixels { size_px: picture.size_px, rgba8: &picture.rgba8 };
-            picture_file::encode(&mut png, pixels, &provenance).map_err(FrameError::Encode)?;
-        }
+        let files = self.files(job, &frame, &picture)?;
         let seconds = begun.elapsed().as_secs_f64();
         Ok(Some(Drawn {
-            picture: (sequence.wanted != Wanted::Png).then_some(picture),
-            png,
+            picture: sequence.wanted.picture.then_some(picture),
+            files,
             strokes: frame.strokes.len(),
             painted_strokes: sequence.counted.then(|| self.painted_strokes()),
             cost,
@@ -79,8 +81,57 @@ impl<'a> Painter<'a> {
         }))
     }
 
+    /// The files of the frame that was drawn last.
+    fn files(
+        &mut self,
+        job: Job,
+        frame: &Frame,
+        picture: &Picture,
+    ) -> Result<Vec<(&'static str, Vec<u8>)>, FrameError> {
+        let sequence = self.sequence;
+        let provenance = sequence.provenance(&job.frame_number.to_string(), self.renderer);
+        let mut files = Vec::new();
+        if let Some(depth) = sequence.wanted.png {
+            let mut png = Vec::new();
+            match depth {
+                PngDepth::Eight => {
+                    let pixels = Pixels { size_px: picture.size_px, rgba8: &picture.rgba8 };
+                    picture_file::encode(&mut png, pixels, &provenance)
+                }
+                PngDepth::Sixteen => {
+                    let rgba16 = deep(&self.renderer.read_linear(), frame.exposure);
+                    let pixels = DeepPixels { size_px: picture.size_px, rgba16: &rgba16 };
+                    picture_file::encode_deep(&mut png, pixels, &provenance)
+                }
+            }
+            .map_err(FrameError::Encode)?;
+            files.push(("png", png));
+        }
+        if let Some(wanted) = sequence.wanted.exr {
+            let drawn = impasto_aovs::Drawn {
+                painting: &sequence.painting,
+                frame,
+                number: job.frame_number as f64,
+                options: &sequence.options,
+                wanted,
+            };
+            files.push(("exr", exr::encode(self.renderer, &drawn, &provenance)?));
+        }
+        Ok(files)
+    }
+
     /// How many strokes of the last frame were painted.
     fn painted_strokes(&self) -> usize {
         self.renderer.resolved_strokes().iter().filter(|stroke| stroke.alpha > MIN_PAINTED_ALPHA).count()
     }
+}
+
+/// Encodes a picture for a display, with 16 bits a channel.
+fn deep(linear: &[[f32; 4]], exposure: f32) -> Vec<u16> {
+    let word = |value: f32| (value.clamp(0.0, 1.0) * 65535.0).round() as u16;
+    let encoded = |&[r, g, b, a]: &[f32; 4]| {
+        let [r, g, b] = [r, g, b].map(|value| word(srgb_from_linear((value * exposure).clamp(0.0, 1.0))));
+        [r, g, b, word(a)]
+    };
+    linear.par_iter().flat_map_iter(encoded).collect()
 }

@@ -6,16 +6,40 @@ use impasto_frame_files::picture_file::Provenance;
 use impasto_gl_render::context::Driver;
 use impasto_gl_render::{Cost, Picture, RenderError, Renderer, ShaderTexts};
 use impasto_painting::{FrameOptions, Painting};
+use impasto_scene::document::AovSet;
 
 /// What is made of each frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Wanted {
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Wanted {
     /// Its pixels.
-    Picture,
-    /// Its PNG file.
-    Png,
-    /// Both.
-    PngAndPicture,
+    pub picture: bool,
+    /// A PNG file.
+    pub png: Option<PngDepth>,
+    /// An EXR file, with these beside the colour, where the style has them.
+    pub exr: Option<AovSet>,
+}
+
+impl Wanted {
+    /// A PNG file of 8 bits.
+    pub const PNG: Self = Self { picture: false, png: Some(PngDepth::Eight), exr: None };
+
+    /// The pixels alone.
+    pub const PICTURE: Self = Self { picture: true, png: None, exr: None };
+
+    /// The files, by the ending of their names.
+    pub(crate) fn endings(self) -> impl Iterator<Item = &'static str> {
+        [self.png.map(|_| "png"), self.exr.map(|_| "exr")].into_iter().flatten()
+    }
+}
+
+/// Bits of a channel of a PNG file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PngDepth {
+    /// 8, enough to look at.
+    #[default]
+    Eight,
+    /// 16, to be worked on.
+    Sixteen,
 }
 
 /// What is rendered, and how.
@@ -24,7 +48,7 @@ pub struct Sequence {
     pub painting: Painting,
     /// Size and variant of the frames.
     pub options: FrameOptions,
-    /// The scene's file name, which is noted in each PNG file.
+    /// The scene's file name, which is noted in each file.
     pub scene_name: String,
     /// The driver that further painters open.
     pub driver: Driver,
@@ -42,8 +66,8 @@ pub struct Sequence {
 pub struct Drawn {
     /// Its pixels, where they are wanted.
     pub picture: Option<Picture>,
-    /// The bytes of its PNG file, where that is wanted.
-    pub png: Vec<u8>,
+    /// The bytes of its files, with the ending of each name.
+    pub files: Vec<(&'static str, Vec<u8>)>,
     /// How many strokes the frame has, including those too faint to be painted.
     pub strokes: usize,
     /// How many strokes were painted, where they are counted.
@@ -60,8 +84,8 @@ pub enum FrameError {
     /// It was not drawn.
     #[error(transparent)]
     Render(#[from] RenderError),
-    /// Its PNG file could not be made.
-    #[error("the PNG file cannot be made: {0}")]
+    /// Its file could not be made.
+    #[error("the file cannot be made: {0}")]
     Encode(anyhow::Error),
     /// Its file was not written.
     #[error(transparent)]
@@ -82,7 +106,7 @@ pub(crate) struct Job {
 pub(crate) type Painted = Result<Option<Drawn>, FrameError>;
 
 impl Sequence {
-    /// The note for the PNG file of a frame, or of another picture of this sequence.
+    /// The note for the file of a frame, or of another picture of this sequence.
     pub fn provenance(&self, frame: &str, renderer: &Renderer) -> Provenance {
         let driver = renderer.report().renderer.clone();
         Provenance { scene: self.scene_name.clone(), frame: frame.to_owned(), driver }

@@ -297,7 +297,7 @@ fn other_shaders_draw_the_same_scene_anew_and_broken_ones_are_told() {
     let texts = |text: &str| {
         let mut texts = ShaderTexts::default();
         assert!(texts.put("shared/encode.frag", text.to_owned()));
-        assert!(texts.put("rotating_strokes/encode.frag", text.to_owned()));
+        assert!(texts.put("rotating_strokes/finish.frag", text.to_owned()));
         texts
     };
     worker.0.show(job());

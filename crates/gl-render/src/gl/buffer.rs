@@ -76,6 +76,27 @@ impl Buffer {
         Ok(())
     }
 
+    /// Lets shaders write into it as the storage buffer of binding 0, from now on; its first 4 bytes are set to 0.
+    pub(crate) fn begin_storing(&self) {
+        let gl = self.gpu.gl();
+        // SAFETY: the context is current and has storage buffers; the caller has reserved more than 4 bytes.
+        unsafe {
+            gl.bind_buffer(glow::COPY_WRITE_BUFFER, Some(self.id));
+            gl.buffer_sub_data_u8_slice(glow::COPY_WRITE_BUFFER, 0, &[0; 4]);
+            gl.bind_buffer_base(glow::SHADER_STORAGE_BUFFER, 0, Some(self.id));
+        }
+    }
+
+    /// Ends what [`Buffer::begin_storing`] began: what shaders have written can be read.
+    pub(crate) fn end_storing(&self) {
+        let gl = self.gpu.gl();
+        // SAFETY: the context is current and has storage buffers.
+        unsafe {
+            gl.memory_barrier(glow::BUFFER_UPDATE_BARRIER_BIT);
+            gl.bind_buffer_base(glow::SHADER_STORAGE_BUFFER, 0, None);
+        }
+    }
+
     /// Reads back the first `bytes` bytes, or the whole buffer if it is smaller.
     pub(crate) fn read(&self, bytes: usize) -> Vec<u8> {
         let mut contents = vec![0; bytes.min(self.capacity)];

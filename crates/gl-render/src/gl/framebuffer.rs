@@ -99,13 +99,20 @@ impl Framebuffer {
         values
     }
 
+    /// Reads one colour texture as floats of 16 bits, bottom row first, four channels a pixel.
+    pub(crate) fn read_halves(&self, color: usize) -> Vec<[half::f16; 4]> {
+        let mut values = vec![[half::f16::ZERO; 4]; self.pixels()];
+        self.read(color, glow::RGBA, glow::HALF_FLOAT, bytemuck::cast_slice_mut(&mut values));
+        values
+    }
+
     fn pixels(&self) -> usize {
         self.size_px[0] as usize * self.size_px[1] as usize
     }
 
     fn read(&self, color: usize, format: u32, kind: u32, bytes: &mut [u8]) {
         let gl = self.gpu.gl();
-        // SAFETY: the context is current; both callers pass as many bytes as the format takes, rows without padding.
+        // SAFETY: the context is current; all callers pass as many bytes as the format takes, rows without padding.
         unsafe {
             gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(self.id));
             gl.read_buffer(glow::COLOR_ATTACHMENT0 + color as u32);

@@ -42,6 +42,10 @@ pub(crate) struct Limits {
     pub max_side_px: u32,
     /// Layers of a texture array.
     pub max_array_layers: u32,
+    /// Whether fragment shaders can write into storage buffers (OpenGL 4.3).
+    pub has_storage: bool,
+    /// The largest storage buffer that a shader reaches, bytes.
+    pub max_storage_bytes: usize,
 }
 
 impl Limits {
@@ -56,6 +60,12 @@ impl Limits {
                 .min(gl.get_parameter_i32(glow::MAX_RENDERBUFFER_SIZE))
                 .min(viewport[0])
                 .min(viewport[1]);
+            let version = gl.version();
+            let is_new = (version.major, version.minor) >= (4, 3) && !version.is_embedded;
+            let has_storage =
+                is_new && gl.get_parameter_i32(glow::MAX_FRAGMENT_SHADER_STORAGE_BLOCKS) > 0;
+            let max_storage =
+                if has_storage { gl.get_parameter_i32(glow::MAX_SHADER_STORAGE_BLOCK_SIZE) } else { 0 };
             Self {
                 vendor: gl.get_parameter_string(glow::VENDOR),
                 renderer: gl.get_parameter_string(glow::RENDERER),
@@ -64,6 +74,9 @@ impl Limits {
                 max_side_px: u32::try_from(side).unwrap_or(0),
                 max_array_layers: u32::try_from(gl.get_parameter_i32(glow::MAX_ARRAY_TEXTURE_LAYERS))
                     .unwrap_or(0),
+                has_storage,
+                // A driver may state 2^31 bytes, which has no i32.
+                max_storage_bytes: if max_storage < 0 { i32::MAX as usize } else { max_storage as usize },
             }
         }
     }

@@ -43,10 +43,14 @@ pub(super) struct Sources<'a> {
     pub replaced: &'a ShaderTexts,
 }
 
+/// The name that is defined for shaders that write into a storage buffer. Those need a newer language than all others.
+pub(super) const STORES: &str = "STORES";
+
 /// `#define`s these names, then replaces every `#include "path"` by the text of that file; a file that is included
 /// again adds nothing. Paths start at `shaders/`.
 pub(super) fn expand(sources: Sources<'_>, path: &str, defined: &[&str]) -> Result<Expanded, String> {
-    let mut expanded = Expanded { text: "#version 330 core\n".to_owned(), paths: Vec::new() };
+    let version = if defined.contains(&STORES) { 430 } else { 330 };
+    let mut expanded = Expanded { text: format!("#version {version} core\n"), paths: Vec::new() };
     for name in defined {
         // Writing to a String cannot fail.
         let _ = writeln!(expanded.text, "#define {name}");

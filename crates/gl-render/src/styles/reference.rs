@@ -1,4 +1,4 @@
-//! The plain render: shows the reference picture as it is. Targets: none of its own. Passes: encode.
+//! The plain render: shows the reference picture as it is. Targets: none of its own. Passes: lay over.
 
 use crate::gl::{DrawState, Framebuffer, GlError, Gpu, Halt, Program, ProgramSource, VertexArray, Vertices};
 use crate::shader_files::SHARED;
@@ -8,16 +8,16 @@ use crate::watch::Watch;
 /// Draws the plain render.
 pub(crate) struct Reference {
     gpu: Gpu,
-    encode: Program,
+    lay_over: Program,
     screen: VertexArray,
 }
 
 impl Reference {
     pub(crate) fn new(gpu: &Gpu) -> Result<Self, GlError> {
-        let encode = ProgramSource::screen("shared/encode.frag", &[&["picture", "background"]]);
+        let lay_over = ProgramSource::screen("shared/lay_over.frag", &[&["picture", "background"]]);
         Ok(Self {
             gpu: gpu.clone(),
-            encode: Program::new(gpu, &[SHARED], &encode)?,
+            lay_over: Program::new(gpu, &[SHARED], &lay_over)?,
             screen: VertexArray::empty(gpu)?,
         })
     }
@@ -32,11 +32,11 @@ impl StyleRenderer for Reference {
     ) -> Result<(), Halt> {
         self.gpu.begin_pass(output, DrawState::default());
         let bound = self
-            .encode
+            .lay_over
             .bind()
             .texture("picture", &input.reference.color)
             .set("background", input.frame.background_premultiplied());
         self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
-        watch.passed("encode")
+        watch.passed("lay over")
     }
 }

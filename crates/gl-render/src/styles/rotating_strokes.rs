@@ -2,10 +2,11 @@
 //!
 //! Targets: `detail` (where small strokes are wanted), `paint` (premultiplied, linear), `height` (of the paint),
 //! `below` (the picture before a layer), `soft height`. Passes: detail, spread (twice), resolve (finds colour,
-//! presence and place of each stroke), paint (a billboard per stroke, one layer after the other), soften, encode.
+//! presence and place of each stroke), paint (a billboard per stroke, one layer after the other), soften, finish.
 
 mod canvas;
 mod coverage;
+mod data;
 mod programs;
 
 use std::rc::Rc;
@@ -16,8 +17,10 @@ use impasto_core::color::oklab_from_linear;
 use impasto_painting::Quality;
 use impasto_painting::frame::{LayerRun, Stroke};
 
+use crate::drawn::PaintSurface;
+use crate::fragments::PaintedLayer;
 use crate::gl::{
-    Blend, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program, Texture, VertexArray,
+    Blend, Bound, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program, Texture, VertexArray,
     Vertices,
 };
 use crate::lens::{LENS_UNIFORMS, LensSetup};
@@ -26,6 +29,7 @@ use crate::stroke_buffers::StrokeBuffers;
 use crate::style_renderer::{StyleInput, StyleRenderer};
 use crate::watch::Watch;
 use coverage::{Coverage, Covered};
+use data::PaintData;
 use programs::{DETAIL, FILES, SOFTEN, SPREAD, StrokePrograms};
 
 /// How much of a body's own colour shows in the toned ground under it.
@@ -54,6 +58,8 @@ pub(crate) struct RotatingStrokes {
     strokes: StrokeBuffers,
     screen: VertexArray,
     targets: Option<Targets>,
+    /// Created when layers and surface of the paint are first wanted.
+    data: Option<PaintData>,
 }
 
 struct Targets {
@@ -133,6 +139,7 @@ impl RotatingStrokes {
             strokes: StrokeBuffers::new(gpu)?,
             screen: VertexArray::empty(gpu)?,
             targets: None,
+            data: None,
         })
     }
 
@@ -216,7 +223,7 @@ impl RotatingStrokes {
 
     /// Lays a layer of paint; in several pieces if the caller may stop.
     fn paint(
-        &self,
+        &mut self,
         input: &StyleInput<'_>,
         covered: &Covered,
         layer: LayerRun,
@@ -226,16 +233,25 @@ impl RotatingStrokes {
         let shaped = strokes.iter().any(Stroke::is_shaped);
         let mut first = layer.first;
         let most_px = if watch.may_stop() { PIECE_PX } else { f32::INFINITY };
+        let most_px = self.data_of(input).map_or(most_px, |data| most_px.min(data.piece_px()));
         for count in pieces(strokes, most_px) {
             self.paint_piece(input, covered, LayerRun { first, count, ..layer }, shaped)?;
             watch.passed(layer.kind.name())?;
             first += count;
         }
+        if let Some(data) = self.data.as_mut().filter(|_| input.gathers) {
+            data.end_layer(layer, input.frame.size_px);
+        }
         Ok(())
     }
 
+    /// Where the paint's layers are gathered, if they are wanted.
+    fn data_of(&self, input: &StyleInput<'_>) -> Option<&PaintData> {
+        self.data.as_ref().filter(|_| input.gathers)
+    }
+
     fn paint_piece(
-        &self,
+        &mut self,
         input: &StyleInput<'_>,
         covered: &Covered,
         layer: LayerRun,
@@ -245,8 +261,10 @@ impl RotatingStrokes {
         let frame = input.frame;
         let programs = self.programs(frame.quality);
         // Layers without tapered or bent strokes use the cheaper program.
-        let (program, with_shape) = match &programs.shaped_paint {
-            Some(shaped) if has_shape => (shaped, true),
+        let data = self.data_of(input);
+        let (program, with_shape) = match (data, &programs.shaped_paint) {
+            (Some(data), _) => (data.paint(has_shape), has_shape),
+            (None, Some(shaped)) if has_shape => (shaped, true),
             _ => (&programs.paint, false),
         };
         let pass = targets.strokes_pass(frame.quality);
@@ -265,10 +283,15 @@ impl RotatingStrokes {
                 bound.texture("below", &targets.below).texture("depth_and_id", &input.reference.depth_and_id);
         }
         bound = covered.set_surface(bound);
-        self.strokes.draw(bound, layer, with_shape)
+        if let Some(data) = data {
+            bound = bound.set("first_stroke", layer.first as i32);
+            data.begin_noting();
+        }
+        self.strokes.draw(bound, layer, with_shape)?;
+        self.data.as_mut().filter(|_| input.gathers).map_or(Ok(()), PaintData::end_noting)
     }
 
-    fn encode(
+    fn finish(
         &self,
         input: &StyleInput<'_>,
         covered: &Covered,
@@ -277,7 +300,6 @@ impl RotatingStrokes {
     ) -> Result<(), Halt> {
         let Some(targets) = &self.targets else { return Ok(()) };
         let frame = input.frame;
-        let finish = &frame.finish;
         if frame.quality == Quality::Exact {
             self.gpu.begin_pass(&targets.soften_pass, DrawState::default());
             let bound =
@@ -287,6 +309,21 @@ impl RotatingStrokes {
         }
 
         self.gpu.begin_pass(output, DrawState::default());
+        let bound = self.bind_finish(self.programs(frame.quality).finish.bind(), input, covered);
+        self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
+        watch.passed("finish")
+    }
+
+    /// Sets the uniforms of `finish.frag`.
+    fn bind_finish<'a>(
+        &self,
+        bound: Bound<'a>,
+        input: &StyleInput<'_>,
+        covered: &Covered,
+    ) -> Bound<'a> {
+        let Some(targets) = &self.targets else { return bound };
+        let frame = input.frame;
+        let finish = &frame.finish;
         let (tone, wash) = match finish.ground {
             Some(ground) => (Vec4::from((glam::Vec3::from(ground.color), ground.hides)), WASH),
             None => (Vec4::ZERO, 0.0),
@@ -299,28 +336,38 @@ impl RotatingStrokes {
         let axes = finish.canvas_from_px.matrix2;
         let origin: Vec2 = finish.canvas_from_px.transform_point2(-half_px * scale) * tiles;
         let axes = Vec4::from((axes.x_axis, axes.y_axis)) * (scale * tiles);
-        let mut bound = self
-            .programs(frame.quality)
-            .encode
-            .bind()
+        let bound = bound
             .texture("picture", &targets.paint)
             .texture("reference_color", &input.reference.color)
             .set("background", frame.background_premultiplied())
             .set("wash", wash)
             .set("finish", Vec4::new(finish.relief, finish.weave, finish.varnish, frame.px_scale));
-        if frame.quality == Quality::Exact {
-            bound = covered
-                .set_surface(bound)
-                .set("tone", tone)
-                .texture("height", &targets.height)
-                .texture("soft_height", &targets.soft_height)
-                .texture("canvas", &self.canvas)
-                .set("to_light", glam::Vec3::from(finish.to_relief_light))
-                .set("canvas_axes", axes)
-                .set("canvas_origin", origin);
+        if frame.quality == Quality::Draft {
+            return bound;
         }
-        self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
-        watch.passed("encode")
+        covered
+            .set_surface(bound)
+            .set("tone", tone)
+            .texture("height", &targets.height)
+            .texture("soft_height", &targets.soft_height)
+            .texture("canvas", &self.canvas)
+            .set("to_light", glam::Vec3::from(finish.to_relief_light))
+            .set("canvas_axes", axes)
+            .set("canvas_origin", origin)
+    }
+
+    /// Draws the surface of the paint, where it is wanted.
+    fn draw_surface(&mut self, input: &StyleInput<'_>, covered: &Covered) -> Result<(), GlError> {
+        let Some(mut data) = self.data.take() else { return Ok(()) };
+        let drawn = if input.gathers {
+            data.draw_surface(input.frame.size_px, &self.screen, |program| {
+                self.bind_finish(program.bind(), input, covered)
+            })
+        } else {
+            Ok(())
+        };
+        self.data = Some(data);
+        drawn
     }
 }
 
@@ -353,6 +400,13 @@ impl StyleRenderer for RotatingStrokes {
         if frame.strokes.iter().any(Stroke::is_shaped) {
             programs.ready_shaped(&gpu, frame.quality)?;
         }
+        if input.gathers {
+            let data = match self.data.take() {
+                Some(data) => data,
+                None => PaintData::new(&gpu)?,
+            };
+            self.data.insert(data).begin(frame)?;
+        }
         self.strokes.upload_marks(frame)?;
         let covered = self.coverage.draw(input, frame.samples(self.gpu.limits().max_side_px), watch)?;
         self.find_detail(input, &covered, watch)?;
@@ -370,11 +424,20 @@ impl StyleRenderer for RotatingStrokes {
             }
             self.paint(input, &covered, layer, watch)?;
         }
-        self.encode(input, &covered, output, watch)
+        self.finish(input, &covered, output, watch)?;
+        Ok(self.draw_surface(input, &covered)?)
     }
 
     fn read_resolved(&self) -> Vec<[f32; 8]> {
         self.strokes.read_resolved()
+    }
+
+    fn take_layers(&mut self) -> Vec<PaintedLayer> {
+        self.data.as_mut().map_or_else(Vec::new, PaintData::take_layers)
+    }
+
+    fn read_paint_surface(&self) -> Option<PaintSurface> {
+        self.data.as_ref()?.read_surface()
     }
 
     fn read_paint(&self) -> Vec<[f32; 4]> {

@@ -166,6 +166,8 @@ pub struct Strokes {
 /// A run of strokes of one layer of paint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LayerRun {
+    /// The `layer` of the strokes' region: lower ones lie below.
+    pub order: i32,
     /// Which layer.
     pub kind: LayerKind,
     /// Index of the first stroke.

@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 
 use super::{Findings, did_you_mean, short, shown};
 use crate::document::{
-    BrushMix, Edges, LayerNumber, LayerSettings, STROKE_NUMBERS, Scene, SettingRule, Solver, StrokeNumber,
+    AOVS, AovSet, BrushMix, Edges, LayerNumber, LayerSettings, STROKE_NUMBERS, Scene, SettingRule, Solver, StrokeNumber,
     StrokeSettings, StrokesKey,
 };
 use crate::limits;
@@ -16,6 +16,13 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
     check_flatness("strokes", scene, None, findings);
     for rule in scene.style.settings().rules() {
         check_style(&rule, findings);
+    }
+    for (index, word) in scene.aovs.iter().enumerate() {
+        if AovSet::named(word).is_err() {
+            let message = format!("there is no AOV \"{}\"", shown(word));
+            let known = AOVS.iter().map(|row| row.name);
+            findings.error(format!("aovs[{index}]"), message, did_you_mean(word, known));
+        }
     }
     if let Some((_, field_path)) = brush_pictures(scene).get(limits::MAX_BRUSH_PICTURES) {
         let message = "too many pictures that serve as brushes".to_owned();

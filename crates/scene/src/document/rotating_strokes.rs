@@ -3,6 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::aovs::AovSet;
 use super::numbers::usual_fields;
 use super::style_settings::{CanvasFollows, Preparation, SettingRule, Solver, StyleInfo, StyleSettings};
 use crate::limits::MAX_STRENGTH;
@@ -66,6 +67,10 @@ impl StyleSettings for RotatingStrokes {
             relief: self.relief,
             varnish: self.varnish,
         }
+    }
+
+    fn aovs(&self) -> AovSet {
+        AovSet::ALL
     }
 
     fn rules(&self) -> Vec<SettingRule> {

@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 
 use serde::{Deserialize, Serialize};
 
+use super::aovs::AovSet;
 use super::numbers::Number;
 
 /// The settings of a style. Other code asks about a style only through this trait.
@@ -14,6 +15,11 @@ pub trait StyleSettings {
     /// How a scene is prepared for this style.
     fn preparation(&self) -> Preparation {
         Preparation::default()
+    }
+
+    /// What EXR files of this style can hold beside the colour.
+    fn aovs(&self) -> AovSet {
+        AovSet::OF_SCENE
     }
 
     /// The rules that the settings must meet, in the order in which they are reported.

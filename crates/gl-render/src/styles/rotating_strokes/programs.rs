@@ -13,21 +13,21 @@ pub(super) struct StrokePrograms {
     pub(super) paint: Program,
     /// For tapered and bent strokes; created when the first of them is painted.
     pub(super) shaped_paint: Option<Program>,
-    pub(super) encode: Program,
+    pub(super) finish: Program,
 }
 
 impl StrokePrograms {
     pub(super) fn new(gpu: &Gpu, quality: Quality) -> Result<Self, GlError> {
-        let [resolve, paint, encode] = match quality {
-            Quality::Exact => [RESOLVE, PAINT, ENCODE],
+        let [resolve, paint, finish] = match quality {
+            Quality::Exact => [RESOLVE, PAINT, FINISH],
             Quality::Draft => [
                 ProgramSource { defined: &["DRAFT"], ..RESOLVE },
                 ProgramSource { defined: &["DRAFT"], ..DRAFT_PAINT },
-                ProgramSource { defined: &["DRAFT"], ..DRAFT_ENCODE },
+                ProgramSource { defined: &["DRAFT"], ..DRAFT_FINISH },
             ],
         }
         .map(|source| Program::new(gpu, FILES, &source));
-        Ok(Self { resolve: resolve?, paint: paint?, shaped_paint: None, encode: encode? })
+        Ok(Self { resolve: resolve?, paint: paint?, shaped_paint: None, finish: finish? })
     }
 
     /// Creates the program for tapered and bent strokes, unless it is there.
@@ -40,6 +40,28 @@ impl StrokePrograms {
             self.shaped_paint = Some(Program::new(gpu, FILES, &source)?);
         }
         Ok(())
+    }
+}
+
+/// The programs of a picture of which more is wanted than its colour.
+pub(super) struct DataPrograms {
+    /// As [`StrokePrograms::paint`], and notes every fragment.
+    pub(super) paint: Program,
+    pub(super) shaped_paint: Program,
+    /// As [`StrokePrograms::finish`], and tells of the paint's surface.
+    pub(super) finish: Program,
+}
+
+impl DataPrograms {
+    pub(super) fn new(gpu: &Gpu) -> Result<Self, GlError> {
+        let paint = ProgramSource { uniforms: &[PAINT_UNIFORMS, OF_EXACT, &["first_stroke"]], ..PAINT };
+        let [paint, shaped_paint, finish] = [
+            ProgramSource { defined: &["STORES"], ..paint },
+            ProgramSource { defined: &["SHAPED", "STORES"], ..paint },
+            ProgramSource { defined: &["DATA"], ..FINISH },
+        ]
+        .map(|source| Program::new(gpu, FILES, &source));
+        Ok(Self { paint: paint?, shaped_paint: shaped_paint?, finish: finish? })
     }
 }
 
@@ -98,8 +120,10 @@ const PAINT_UNIFORMS: &[&str] = &[
     "orthographic",
 ];
 
+const OF_EXACT: &[&str] = &["below", "depth_and_id"];
+
 const PAINT: ProgramSource<'static> =
-    ProgramSource { uniforms: &[PAINT_UNIFORMS, &["below", "depth_and_id"]], ..DRAFT_PAINT };
+    ProgramSource { uniforms: &[PAINT_UNIFORMS, OF_EXACT], ..DRAFT_PAINT };
 
 /// Drafts pick up no paint.
 const DRAFT_PAINT: ProgramSource<'static> =
@@ -108,16 +132,16 @@ const DRAFT_PAINT: ProgramSource<'static> =
 pub(super) const SOFTEN: ProgramSource<'static> =
     ProgramSource::screen("rotating_strokes/soften.frag", &[&["height", "step_px"]]);
 
-const ENCODE_UNIFORMS: &[&str] = &["picture", "reference_color", "background", "wash", "finish"];
+const FINISH_UNIFORMS: &[&str] = &["picture", "reference_color", "background", "wash", "finish"];
 
-const ENCODE: ProgramSource<'static> = ProgramSource {
+const FINISH: ProgramSource<'static> = ProgramSource {
     uniforms: &[
-        ENCODE_UNIFORMS,
+        FINISH_UNIFORMS,
         &["surface", "height", "soft_height", "canvas", "tone", "to_light", "canvas_axes", "canvas_origin"],
     ],
-    ..DRAFT_ENCODE
+    ..DRAFT_FINISH
 };
 
 /// Drafts lay flat paint.
-const DRAFT_ENCODE: ProgramSource<'static> =
-    ProgramSource::screen("rotating_strokes/encode.frag", &[ENCODE_UNIFORMS]);
+const DRAFT_FINISH: ProgramSource<'static> =
+    ProgramSource::screen("rotating_strokes/finish.frag", &[FINISH_UNIFORMS]);

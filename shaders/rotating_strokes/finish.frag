@@ -1,5 +1,4 @@
 // Paint over its ground as a solid surface in the light of a room: relief, canvas where paint is thin, furrows, varnish.
-// Then encodes.
 #include "shared/encode.glsl"
 uniform sampler2D picture;           // premultiplied, display-linear
 uniform sampler2D reference_color;   // alpha 1 where a body is
@@ -19,7 +18,13 @@ uniform vec4 tone;                   // of the ground under paint, and how far i
 uniform float wash;                  // 0 bare ground .. 1 toned
 uniform vec4 finish;                 // relief, weave, varnish, output pixels per pixel of the scene's own size
 
-out vec4 encoded;
+layout(location = 0) out vec4 finished;          // straight alpha, display-linear
+#ifdef DATA
+layout(location = 1) out vec4 flat_paint;        // before the light of the room; premultiplied
+layout(location = 2) out vec4 normal_and_height; // of the paint, in the picture's space
+layout(location = 3) out vec2 wet_and_border;    // how wet it is; whether neighbours were mixed in
+layout(location = 4) out vec4 ground;            // premultiplied
+#endif
 
 const float THICKNESS_PX = 1.6;      // of paint of height 1
 const float WEAVE_PX = 0.09;
@@ -50,7 +55,7 @@ vec4 toned_ground(ivec2 at) {
 #ifndef DRAFT
 // The paint of a pixel. Where a body ends, of its neighbours too: the layers of paint, each of which ends a little elsewhere, leave
 // steps there.
-vec4 paint_at(ivec2 at) {
+vec4 paint_at(ivec2 at, out bool is_border) {
     ivec2 last = textureSize(surface, 0) - 1;
     float id = texelFetch(surface, at, 0).y;
     float border = fract(id);
@@ -58,7 +63,8 @@ vec4 paint_at(ivec2 at) {
         ivec2 offset = (index & 2) == 0 ? ivec2(2 * (index & 1) - 1, 0) : ivec2(0, 2 * (index & 1) - 1);
         border += abs(texelFetch(surface, clamp(at + offset, ivec2(0), last), 0).y - id);
     }
-    if (border == 0.0) return texelFetch(picture, at, 0);
+    is_border = border != 0.0;
+    if (!is_border) return texelFetch(picture, at, 0);
     vec4 sum = vec4(0.0);
     for (int index = 0; index < 9; index++) {
         ivec2 offset = ivec2(index % 3, index / 3) - 1;
@@ -95,8 +101,8 @@ vec4 melted(vec3 color, float wet) {
     return vec4(root * root, same);
 }
 
-// How the light of the room falls on the paint's surface.
-vec3 in_room_light(vec3 color, float relief) {
+// The surface of the paint: its normal, and how deep a furrow it has here.
+vec4 surface_of_paint(float relief) {
     vec2 texel = 1.0 / vec2(textureSize(height, 0));
     vec2 at = gl_FragCoord.xy * texel;
     float step_px = max(0.6 * finish.w, 0.5);
@@ -117,12 +123,17 @@ vec3 in_room_light(vec3 color, float relief) {
     slope += weave.yz * (4.0 * WEAVE_PX * bare * finish.y);
 
     const float STRENGTH = 2.2;
-    vec3 n = normalize(vec3(-STRENGTH * slope, 1.0));
+    float furrow = clamp(THICKNESS_PX * (wide - mean), 0.0, 1.0) * min(relief, 1.0);
+    return vec4(normalize(vec3(-STRENGTH * slope, 1.0)), furrow);
+}
+
+// How the light of the room falls on the paint's surface.
+vec3 in_room_light(vec3 color, vec4 surface_here, float relief) {
+    vec3 n = surface_here.xyz;
     float shade = clamp(dot(n, to_light) / to_light.z, 0.25, 1.9);
     vec3 halfway = normalize(to_light + vec3(0.0, 0.0, 1.0));
     float shine = max(pow(max(dot(n, halfway), 0.0), 42.0) - pow(halfway.z, 42.0), 0.0);
-    float furrow = clamp(THICKNESS_PX * (wide - mean), 0.0, 1.0) * min(relief, 1.0);
-    color *= (1.0 + 0.62 * (shade - 1.0)) * (1.0 - 0.28 * furrow);
+    color *= (1.0 + 0.62 * (shade - 1.0)) * (1.0 - 0.28 * surface_here.w);
     float value = clamp(dot(color, LUMINANCE), 0.0, 1.0);
     return color + 0.09 * min(relief, 2.0) * shine * (0.35 + 0.65 * sqrt(value));
 }
@@ -141,7 +152,8 @@ void main() {
 #ifdef DRAFT
     vec4 laid = texelFetch(picture, at, 0);
 #else
-    vec4 laid = paint_at(at);
+    bool is_border;
+    vec4 laid = paint_at(at, is_border);
 #endif
     vec4 below = toned_ground(at);
     vec4 both = laid + (1.0 - laid.a) * below;
@@ -154,9 +166,18 @@ void main() {
         straight = mixed.rgb;
         relief *= mix(1.0, MELTED_RELIEF, wet * smoothstep(0.3, 0.9, mixed.a));
     }
-    if (finish.x > 0.0 || finish.y > 0.0) straight = in_room_light(straight, relief);
+    vec4 surface_here = finish.x > 0.0 || finish.y > 0.0 ? surface_of_paint(relief) : vec4(0.0, 0.0, 1.0, 0.0);
+#ifdef DATA
+    flat_paint = vec4(straight * both.a, both.a);
+    normal_and_height = vec4(surface_here.xyz, texelFetch(height, at, 0).r);
+    wet_and_border = vec2(wet, float(is_border));
+    ground = below;
 #endif
-    vec3 display = srgb_from_linear(clamp(straight, 0.0, 1.0));
-    if (finish.z > 0.0) display = varnished(display);
-    encoded = vec4(clamp(display, 0.0, 1.0), both.a);
+    if (finish.x > 0.0 || finish.y > 0.0) straight = in_room_light(straight, surface_here, relief);
+#endif
+    if (finish.z > 0.0) {
+        vec3 encoded = varnished(srgb_from_linear(clamp(straight, 0.0, 1.0)));
+        straight = linear_from_srgb(clamp(encoded, 0.0, 1.0));
+    }
+    finished = vec4(straight, both.a);
 }

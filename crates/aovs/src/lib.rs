@@ -1,0 +1,105 @@
+//! What a picture knows beside its colour, as channels of a file: data of the scene, data of the paint, layers, mattes.
+//!
+//! ```text
+//! a renderer's last picture ─▶ of_scene: depth, normals, motion, light   (any style)
+//!                           └▶ covering: which strokes show in each pixel ─▶ of_strokes, cryptomatte
+//!                           └▶ layers: each layer of paint as a picture     (styles of strokes)
+//! ```
+
+mod covering;
+pub mod cryptomatte;
+mod layers;
+mod of_paint;
+mod of_scene;
+mod of_strokes;
+mod planes;
+
+use impasto_frame_files::exr_file::{Channel, Note, Samples};
+use impasto_gl_render::{RenderError, Renderer};
+use impasto_painting::{Frame, FrameOptions, Painting, Quality};
+use impasto_scene::document::{Aov, AovSet};
+
+use covering::Covering;
+
+/// A picture that was drawn, and what is wanted of it.
+pub struct Drawn<'a> {
+    /// The painting.
+    pub painting: &'a Painting,
+    /// The frame, with its strokes, as the renderer drew it last.
+    pub frame: &'a Frame,
+    /// Its number.
+    pub number: f64,
+    /// How it was made.
+    pub options: &'a FrameOptions,
+    /// What is wanted; what the style lacks is left out.
+    pub wanted: AovSet,
+}
+
+/// Those that need the fragments of the paint: a renderer must gather paint (`Renderer::gather_paint`) while it draws the picture.
+pub const GATHERED: &[Aov] = &[
+    Aov::StrokeId,
+    Aov::StrokeAngle,
+    Aov::StrokeKappa,
+    Aov::StrokeRank,
+    Aov::StrokeLayer,
+    Aov::PaintColor,
+    Aov::PaintHeight,
+    Aov::PaintNormal,
+    Aov::PaintWetness,
+    Aov::PaintAlpha,
+    Aov::Layers,
+    Aov::CryptoObject,
+    Aov::CryptoMaterial,
+    Aov::CryptoRegion,
+    Aov::CryptoStroke,
+];
+
+/// The channels of a picture, and the notes that belong to them.
+#[derive(Clone, Debug, Default)]
+pub struct Found {
+    /// R, G, B and A, then what was wanted.
+    pub channels: Vec<Channel>,
+    /// Notes by name.
+    pub notes: Vec<(String, Note)>,
+}
+
+/// Reads the colour of a renderer's last picture, which was of this frame, and all that is wanted beside it.
+///
+/// # Errors
+/// When the driver complains.
+pub fn read(renderer: &mut Renderer, drawn: &Drawn<'_>) -> Result<Found, RenderError> {
+    let has = drawn.painting.scene().style.settings().aovs();
+    let wanted = drawn.wanted.shared(has);
+    let mut found = Found::default();
+    let linear = renderer.read_linear();
+    color("", linear.iter().map(|&[r, g, b, a]| [r * a, g * a, b * a, a]), &mut found.channels);
+    if wanted.has_any(GATHERED) && drawn.frame.quality == Quality::Exact {
+        let layers = renderer.take_layers();
+        let surface = renderer.read_paint_surface();
+        if let Some(surface) = &surface {
+            of_paint::add(wanted, surface, &mut found);
+            if wanted.has(Aov::Layers) {
+                layers::add(drawn, &layers, surface, &linear, &mut found);
+            }
+            let covering = Covering::new(drawn, layers, surface, renderer.read_reference());
+            of_strokes::add(drawn, wanted, &covering, renderer, &mut found);
+            covering.add_mattes(drawn, wanted, &mut found);
+        }
+    }
+    drop(linear);
+    of_scene::add(renderer, drawn, wanted, &mut found)?;
+    Ok(found)
+}
+
+/// Adds R, G, B and A of a layer; the layer's name ends in a point, or is empty for the picture itself.
+fn color(layer: &str, pixels: impl Iterator<Item = [f32; 4]>, channels: &mut Vec<Channel>) {
+    let mut planes: [Vec<half::f16>; 4] = Default::default();
+    for pixel in pixels {
+        for (plane, value) in planes.iter_mut().zip(pixel) {
+            plane.push(half::f16::from_f32(value));
+        }
+    }
+    for (letter, plane) in ["R", "G", "B", "A"].iter().zip(planes) {
+        channels.push(Channel::new(format!("{layer}{letter}"), Samples::Half(plane)));
+    }
+}

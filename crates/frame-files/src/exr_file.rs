@@ -1,0 +1,239 @@
+//! EXR files: one part with all channels, compressed without loss, the same bytes for the same picture.
+
+use std::io::Cursor;
+
+use exr::meta::attribute::{AttributeValue, Chromaticities, Text};
+use exr::prelude::{
+    AnyChannel, AnyChannels, Compression, Encoding, FlatSamples, Image, IntegerBounds, Layer,
+    LayerAttributes, SmallVec, Vec2, WritableImage,
+};
+use half::f16;
+
+use crate::exr_header::sort_attributes;
+use crate::picture_file::Provenance;
+
+/// The values of a channel, row by row from the top.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Samples {
+    /// 16 bits, for colours and for what needs no more.
+    Half(Vec<f16>),
+    /// 32 bits, for measures.
+    Float(Vec<f32>),
+    /// Whole numbers.
+    Uint(Vec<u32>),
+}
+
+impl Samples {
+    /// Rounds values to 16 bits.
+    pub fn half(values: impl IntoIterator<Item = f32>) -> Self {
+        Self::Half(values.into_iter().map(f16::from_f32).collect())
+    }
+}
+
+/// A channel of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Channel {
+    /// Its name, as in `N.X`.
+    pub name: String,
+    /// Its values.
+    pub samples: Samples,
+}
+
+impl Channel {
+    /// A channel of this name.
+    pub fn new(name: impl Into<String>, samples: Samples) -> Self {
+        Self { name: name.into(), samples }
+    }
+}
+
+/// A note in the head of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Note {
+    /// Words, in UTF-8.
+    Text(String),
+    /// A whole number.
+    Number(i32),
+    /// A number.
+    Float(f32),
+    /// Three numbers.
+    Vector([f32; 3]),
+}
+
+/// A picture with everything that is known of it.
+#[derive(Clone, Debug)]
+pub struct ExrPicture {
+    /// Width and height in pixels.
+    pub size_px: [u32; 2],
+    /// Its channels; two never have one name.
+    pub channels: Vec<Channel>,
+    /// Frames per second.
+    pub fps: f64,
+    /// From the world to the camera, and from the world to the picture (−1..1 each way): for row vectors, row by row.
+    pub from_world: [[f32; 16]; 2],
+    /// Notes by name, beside those that every file has.
+    pub notes: Vec<(String, Note)>,
+}
+
+/// Rec. 709 with the white of D65.
+const REC_709: Chromaticities = Chromaticities {
+    red: Vec2(0.64, 0.33),
+    green: Vec2(0.30, 0.60),
+    blue: Vec2(0.15, 0.06),
+    white: Vec2(0.3127, 0.3290),
+};
+
+/// Encodes a picture. `parallel` compresses on all cores; the bytes are the same.
+///
+/// # Errors
+/// What the encoder said.
+pub fn encode(picture: ExrPicture, provenance: &Provenance, parallel: bool) -> anyhow::Result<Vec<u8>> {
+    let size = Vec2(picture.size_px[0] as usize, picture.size_px[1] as usize);
+    let channels: SmallVec<[AnyChannel<FlatSamples>; 4]> = picture
+        .channels
+        .into_iter()
+        .map(|Channel { name, samples }| {
+            let samples = match samples {
+                Samples::Half(values) => FlatSamples::F16(values),
+                Samples::Float(values) => FlatSamples::F32(values),
+                Samples::Uint(values) => FlatSamples::U32(values),
+            };
+            AnyChannel { quantize_linearly: true, ..AnyChannel::new(text(&name), samples) }
+        })
+        .collect();
+    let (numerator, denominator) = rate(picture.fps);
+    let attributes = LayerAttributes {
+        software_name: Some(text(concat!("Impasto ", env!("CARGO_PKG_VERSION")))),
+        frames_per_second: Some((numerator, denominator)),
+        world_to_camera: Some(picture.from_world[0]),
+        world_to_normalized_device: Some(picture.from_world[1]),
+        ..LayerAttributes::default()
+    };
+    let encoding = Encoding { compression: Compression::ZIP16, ..Encoding::SMALL_LOSSLESS };
+    let mut image =
+        Image::from_layer(Layer::new(size, attributes, encoding, AnyChannels::sort(channels)));
+    image.attributes.display_window = IntegerBounds::from_dimensions(size);
+    image.attributes.chromaticities = Some(REC_709);
+    let own = [
+        ("Scene", Note::Text(provenance.scene.clone())),
+        ("Driver", Note::Text(provenance.driver.clone())),
+        ("colorInteropID", Note::Text("lin_rec709_scene".to_owned())),
+    ];
+    let own = own.map(|(name, note)| (name.to_owned(), note));
+    for (name, note) in own.into_iter().chain(picture.notes) {
+        image.attributes.other.insert(text(&name), attribute(note));
+    }
+    let mut bytes = Cursor::new(Vec::new());
+    let writer = image.write();
+    if parallel { writer.to_buffered(&mut bytes)? } else { writer.non_parallel().to_buffered(&mut bytes)? };
+    let mut bytes = bytes.into_inner();
+    sort_attributes(&mut bytes);
+    Ok(bytes)
+}
+
+/// A text as UTF-8. The library would store Latin-1, which readers of the format refuse.
+fn text(words: &str) -> Text {
+    Text::from_slice_unchecked(words.as_bytes())
+}
+
+fn attribute(note: Note) -> AttributeValue {
+    match note {
+        Note::Text(words) => AttributeValue::Text(text(&words)),
+        Note::Number(number) => AttributeValue::I32(number),
+        Note::Float(number) => AttributeValue::F32(number),
+        Note::Vector([x, y, z]) => AttributeValue::FloatVec3((x, y, z)),
+    }
+}
+
+/// Frames per second as a fraction: 24000/1001 where that is meant.
+fn rate(fps: f64) -> (i32, u32) {
+    for under in [1u32, 1001, 1000] {
+        let over = fps * f64::from(under);
+        if (over - over.round()).abs() < 0.02 * f64::from(under.min(2) - 1) + 1e-6 && over < 2e9 {
+            return (over.round() as i32, under);
+        }
+    }
+    ((fps * 1000.0).round().min(2e9) as i32, 1000)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use exr::prelude::{ReadChannels as _, ReadLayers as _, read};
+
+    use super::*;
+
+    fn picture() -> ExrPicture {
+        let pixels = 7 * 5;
+        let ramp = (0..pixels).map(|index| index as f32 * 0.37 - 2.0);
+        ExrPicture {
+            size_px: [7, 5],
+            channels: vec![
+                Channel::new("Z", Samples::Float(ramp.clone().collect())),
+                Channel::new("R", Samples::half(ramp)),
+                Channel::new("stroke.id", Samples::Uint((0..pixels).map(|index| index * 99_999_999).collect())),
+            ],
+            fps: 23.976,
+            from_world: [std::array::from_fn(|index| index as f32), [0.5; 16]],
+            notes: (0..9)
+                .map(|index| (format!("note {index}"), Note::Text("Äpfel 日".to_owned())))
+                .chain([("Frame".to_owned(), Note::Number(-3))])
+                .collect(),
+        }
+    }
+
+    fn provenance() -> Provenance {
+        Provenance { scene: "Café.ron".to_owned(), frame: "1".to_owned(), driver: "a driver".to_owned() }
+    }
+
+    #[test]
+    fn what_is_written_is_read_back_with_its_names_and_types() {
+        let bytes = encode(picture(), &provenance(), true).unwrap();
+        let image = read()
+            .no_deep_data()
+            .largest_resolution_level()
+            .all_channels()
+            .first_valid_layer()
+            .all_attributes()
+            .from_buffered(Cursor::new(&bytes))
+            .unwrap();
+        let found: BTreeMap<String, FlatSamples> = image
+            .layer_data
+            .channel_data
+            .list
+            .iter()
+            .map(|channel| (channel.name.to_string(), channel.sample_data.clone()))
+            .collect();
+        assert_eq!(found.len(), 3);
+        for Channel { name, samples } in picture().channels {
+            match (samples, &found[&name]) {
+                (Samples::Half(values), FlatSamples::F16(read)) => assert_eq!(&values, read),
+                (Samples::Float(values), FlatSamples::F32(read)) => assert_eq!(&values, read),
+                (Samples::Uint(values), FlatSamples::U32(read)) => assert_eq!(&values, read),
+                _ => panic!("{name} has another type"),
+            }
+        }
+        let other = &image.attributes.other;
+        assert_eq!(other.get(&text("Scene")), Some(&AttributeValue::Text(text("Café.ron"))));
+        assert_eq!(other.get(&text("note 4")), Some(&AttributeValue::Text(text("Äpfel 日"))));
+        assert_eq!(other.get(&text("Frame")), Some(&AttributeValue::I32(-3)));
+        assert_eq!(image.layer_data.attributes.frames_per_second, Some((24000, 1001)));
+    }
+
+    #[test]
+    fn the_same_picture_gives_the_same_bytes_on_one_core_and_on_all() {
+        let once = encode(picture(), &provenance(), true).unwrap();
+        for parallel in [true, false, true] {
+            assert!(encode(picture(), &provenance(), parallel).unwrap() == once);
+        }
+    }
+
+    #[test]
+    fn rates_of_film_and_television_are_fractions() {
+        for (fps, fraction) in
+            [(24.0, (24, 1)), (23.976, (24000, 1001)), (29.97, (30000, 1001)), (12.5, (12500, 1000))]
+        {
+            assert_eq!(rate(fps), fraction, "{fps}");
+        }
+    }
+}

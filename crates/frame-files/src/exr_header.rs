@@ -1,0 +1,109 @@
+//! The head of an EXR file as bytes: its attributes in a fixed order, and where its picture ends.
+//!
+//! A file begins with a magic number and a version; then come attributes, each a name and a type that end in a zero, a size of 4
+//! bytes and a value, and a zero after the last. Then a table says at which byte of the file each block of rows begins; a block
+//! begins with its first row and its size.
+
+use std::fs::File;
+use std::io::{Read as _, Seek as _, SeekFrom};
+use std::ops::Range;
+use std::path::Path;
+
+const MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
+
+/// Where the first attribute begins.
+const FIRST: usize = 8;
+
+/// A head longer than this is not ours.
+const LONGEST: u64 = 64 << 20;
+
+/// The attributes and the end of the head; `None` where the bytes end before it does.
+fn attributes(bytes: &[u8]) -> Option<(Vec<Range<usize>>, usize)> {
+    let mut found = Vec::new();
+    let mut at = FIRST;
+    let after_zero = |from: usize| Some(from + bytes.get(from..)?.iter().position(|&byte| byte == 0)? + 1);
+    while *bytes.get(at)? != 0 {
+        let value = after_zero(after_zero(at)?)?;
+        let size = u32::from_le_bytes(bytes.get(value..value + 4)?.try_into().ok()?) as usize;
+        let end = value.checked_add(4)?.checked_add(size)?;
+        found.push(at..end);
+        at = end;
+    }
+    Some((found, at + 1))
+}
+
+/// Sorts the attributes by name, so that equal pictures give equal bytes. The head stays as long as it was, so all places in the file
+/// still hold.
+pub(crate) fn sort_attributes(bytes: &mut [u8]) {
+    let Some((mut ranges, end)) = attributes(bytes) else { return };
+    ranges.sort_by(|left, right| bytes[left.clone()].cmp(&bytes[right.clone()]));
+    let sorted: Vec<u8> = ranges.into_iter().flat_map(|range| bytes[range].iter().copied()).collect();
+    bytes[FIRST..end - 1].copy_from_slice(&sorted);
+}
+
+/// Whether a file is an EXR file with all its rows, as far as its table tells; a file that was cut is not.
+pub(crate) fn is_whole(path: &Path) -> bool {
+    ends_with_its_last_block(path).unwrap_or(false)
+}
+
+fn ends_with_its_last_block(path: &Path) -> Option<bool> {
+    let mut file = File::open(path).ok()?;
+    let length = file.metadata().ok()?.len();
+    let mut head = Vec::new();
+    // Most heads are short; with a manifest they may be long.
+    let mut wanted = 64 << 10;
+    let end = loop {
+        file.by_ref().take(wanted - head.len() as u64).read_to_end(&mut head).ok()?;
+        if head.len() < FIRST || head[..4] != MAGIC {
+            return Some(false);
+        }
+        match attributes(&head) {
+            Some((_, end)) => break end,
+            None if head.len() as u64 >= length.min(LONGEST) => return Some(false),
+            None => wanted *= 4,
+        }
+    };
+    let mut number = |at: u64, bytes: usize| {
+        let mut value = [0; 8];
+        file.seek(SeekFrom::Start(at)).ok()?;
+        file.read_exact(&mut value[..bytes]).ok()?;
+        Some(u64::from_le_bytes(value))
+    };
+    // The first block follows the table, so it tells how long that is.
+    let first = number(end as u64, 8)?;
+    let mut last = 0;
+    let mut entry = end as u64;
+    while entry + 8 <= first.min(length) {
+        last = last.max(number(entry, 8)?);
+        entry += 8;
+    }
+    Some(last > 0 && last + 8 + number(last + 4, 4)? == length)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exr_file::{Channel, ExrPicture, Samples, encode};
+    use crate::picture_file::Provenance;
+
+    #[test]
+    fn a_whole_file_is_told_from_one_that_was_cut_anywhere() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.exr");
+        let channel = Channel::new("Y", Samples::Float((0..40 * 37).map(|index| index as f32).collect()));
+        let from_world = [[0.0; 16]; 2];
+        let picture =
+            ExrPicture { size_px: [40, 37], channels: vec![channel], fps: 24.0, from_world, notes: Vec::new() };
+        let provenance = Provenance { scene: String::new(), frame: String::new(), driver: String::new() };
+        let bytes = encode(picture, &provenance, false).unwrap();
+        std::fs::write(&path, &bytes).unwrap();
+        assert!(is_whole(&path));
+        for kept in [0, 3, 7, 8, 40, 300, bytes.len() / 2, bytes.len() - 1] {
+            std::fs::write(&path, &bytes[..kept]).unwrap();
+            assert!(!is_whole(&path), "{kept} of {} bytes", bytes.len());
+        }
+        std::fs::write(&path, [bytes.as_slice(), b"x"].concat()).unwrap();
+        assert!(!is_whole(&path), "a byte too many");
+        assert!(!is_whole(&folder.path().join("none.exr")));
+    }
+}

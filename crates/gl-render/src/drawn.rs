@@ -1,0 +1,80 @@
+//! What drawing gives: pictures, strokes as they were painted, measures of every pixel, what it cost.
+
+use half::f16;
+
+/// A finished picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    /// Width and height in pixels.
+    pub size_px: [u32; 2],
+    /// sRGB bytes with straight alpha, four a pixel, top row first.
+    pub rgba8: Vec<u8>,
+}
+
+/// A stroke as it was painted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ResolvedStroke {
+    /// Display-linear colour.
+    pub color_linear: [f32; 3],
+    /// Presence times the visible share of the stroke's centre, 0..=1.
+    pub alpha: f32,
+    /// Centre in pixels, origin at the lower left, moved along the stroke so that it lies on its body.
+    pub center_px: [f32; 2],
+    /// What was added to its angle so that a line lies along the end of its body, radians.
+    pub turned_rad: f32,
+}
+
+/// What a picture cost to draw.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Cost {
+    /// The passes, in order. A layer of paint that is laid in several runs is listed several times.
+    pub passes: Vec<PassTime>,
+    /// How many strokes laid paint on a pixel, on average.
+    pub overdraw: f64,
+}
+
+/// How long a pass took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PassTime {
+    /// The pass, or the layer of paint.
+    pub name: &'static str,
+    /// Wall clock seconds.
+    pub seconds: f64,
+}
+
+/// The reference picture as numbers, top row first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReferencePixels {
+    /// Depth along the gaze in world units; 0 where nothing is.
+    pub depth: Vec<f32>,
+    /// Index of the body plus 1; 0 where nothing is.
+    pub body_id: Vec<u32>,
+}
+
+/// The surfaces that the last picture shows, top row first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurfacePixels {
+    /// Colour without light, linear Rec. 709; the last number is 1 where light falls on it.
+    pub albedo: Vec<[f16; 4]>,
+    /// Unit normal in world space, towards the eye; the last number is the gloss.
+    pub normal: Vec<[f16; 4]>,
+    /// Light that falls, and how much of the first sun arrives.
+    pub light: Vec<[f16; 4]>,
+    /// How open the place is, 0..=1.
+    pub openness: Vec<f16>,
+}
+
+/// The paint's own surface in the last picture, top row first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PaintSurface {
+    /// Paint and ground before the light of the room falls on them, premultiplied, display-linear.
+    pub flat: Vec<[f16; 4]>,
+    /// Unit normal (X right, Y up, Z towards the eye), and height in brush thicknesses.
+    pub normal_and_height: Vec<[f16; 4]>,
+    /// How far the paint runs together with its neighbours, 0..=1.
+    pub wetness: Vec<f32>,
+    /// Whether the picture is a mean over neighbours here, because a body ends.
+    pub is_border: Vec<bool>,
+    /// What lies under the paint, premultiplied, display-linear.
+    pub ground: Vec<[f16; 4]>,
+}

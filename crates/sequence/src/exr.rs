@@ -1,0 +1,43 @@
+//! The EXR file of a frame: its channels, and what the file notes of the frame.
+
+use impasto_aovs::Drawn;
+use impasto_frame_files::exr_file::{self, ExrPicture, Note};
+use impasto_frame_files::picture_file::Provenance;
+use impasto_gl_render::Renderer;
+
+use crate::shot::FrameError;
+
+/// The file of the picture that a renderer drew last.
+pub(crate) fn encode(
+    renderer: &mut Renderer,
+    drawn: &Drawn<'_>,
+    provenance: &Provenance,
+) -> Result<Vec<u8>, FrameError> {
+    let found = impasto_aovs::read(renderer, drawn)?;
+    let scene = drawn.painting.scene();
+    let view = &drawn.frame.view;
+    let mut notes = found.notes;
+    let finish = &drawn.frame.finish;
+    notes.extend(
+        [
+            ("Frame", Note::Number(drawn.number as i32)),
+            ("Seed", Note::Text(scene.seed.to_string())),
+            ("Style", Note::Text(scene.style.info().name.to_owned())),
+            // A display shows the picture as it is: nothing but sRGB lies between.
+            ("View", Note::Text("sRGB".to_owned())),
+            ("paint.toLight", Note::Vector(finish.to_relief_light)),
+            ("paint.relief", Note::Float(finish.relief)),
+        ]
+        .map(|(name, note)| (name.to_owned(), note)),
+    );
+    let picture = ExrPicture {
+        size_px: drawn.frame.size_px,
+        channels: found.channels,
+        fps: scene.timeline.fps,
+        // The rows of a matrix for row vectors are the columns of ours.
+        from_world: [view.view_from_world, view.clip_from_view * view.view_from_world]
+            .map(|matrix| matrix.to_cols_array()),
+        notes,
+    };
+    exr_file::encode(picture, provenance, true).map_err(FrameError::Encode)
+}
