@@ -118,9 +118,7 @@ impl Covering {
             let of_shown = names.iter().zip(shown).filter(|(_, shown)| *shown).map(|(name, _)| name);
             let matte = Matte::new("CryptoStroke", of_shown.chain(&of_ground).map(String::as_str));
             let of_stroke: Vec<u32> = names.par_iter().map(|name| id_bits(name)).collect();
-            add(&matte, &of_stroke, &|pixel| {
-                id_bits(&format!("ground/{}", object_of(self.body_id[pixel])))
-            });
+            add(&matte, &of_stroke, &|pixel| id_bits(&format!("ground/{}", object_of(self.body_id[pixel]))));
         }
     }
 }
@@ -148,7 +146,8 @@ fn materials(drawn: &Drawn<'_>) -> Vec<Vec<String>> {
     let of_object = |index: usize| {
         let own = &scene.objects[index].name;
         let materials = &drawn.painting.surface(index).materials;
-        let names = materials.iter().map(|material| if material.name.is_empty() { own } else { &material.name });
+        let names =
+            materials.iter().map(|material| if material.name.is_empty() { own } else { &material.name });
         let names: BTreeSet<&String> = names.collect();
         if names.is_empty() { vec![own.clone()] } else { names.into_iter().cloned().collect() }
     };
@@ -163,7 +162,11 @@ fn all_layers(layers: &[PaintedLayer], width: usize, pixels: usize) -> (PixelSha
             let before = shares.len();
             let mut through = 1.0;
             for layer in layers.iter().rev() {
-                let seen = layer.shares.of(pixel).iter().map(|share| Share { amount: share.amount * through, ..*share });
+                let seen = layer
+                    .shares
+                    .of(pixel)
+                    .iter()
+                    .map(|share| Share { amount: share.amount * through, ..*share });
                 shares.extend(seen.filter(|share| share.amount >= LEAST_SHARE));
                 through *= 1.0 - f32::from(layer.rgba[pixel][3]);
             }

@@ -3,11 +3,14 @@
 
 use std::collections::BTreeMap;
 
+use crate::planes::{in_steps, planes};
 use impasto_frame_files::exr_file::{Channel, Note, Samples};
-use crate::planes::planes;
 
 /// How many names a pixel keeps.
 const RANKS: usize = 6;
+
+/// Coverage is a multiple of this.
+const COVERAGE_STEP: f32 = 1.0 / 1024.0;
 
 /// MurmurHash3, 32 bits, seed 0 (Appleby, 2011), of a text in UTF-8.
 pub fn hash(text: &str) -> u32 {
@@ -58,7 +61,7 @@ impl Matte {
             let mut of_pixel: Vec<(u32, f32)> = Vec::new();
             found(pixel, &mut of_pixel);
             for (pair, &(bits, amount)) in values.chunks_exact_mut(2).zip(ranked(&mut of_pixel)) {
-                pair.copy_from_slice(&[f32::from_bits(bits), amount]);
+                pair.copy_from_slice(&[f32::from_bits(bits), in_steps(amount, COVERAGE_STEP)]);
             }
         });
         let letters = ["R", "G", "B", "A"];

@@ -16,6 +16,10 @@ use crate::{Drawn, Found};
 /// A layer is made brighter by no more than this.
 const MOST_GAIN: f32 = 4.0;
 
+/// The light that the finish adds is more than this, and more than the last bit of the picture.
+const LEAST_LIGHT: f32 = 4e-4;
+const HALF_ULP: f32 = 1.0 / 1024.0;
+
 pub(crate) fn add(
     drawn: &Drawn<'_>,
     layers: &[PaintedLayer],
@@ -32,7 +36,8 @@ pub(crate) fn add(
     let count = 4 * (slots.len() + 2);
     let mut planes = planes(linear.len(), count, |pixel, values: &mut [f16]| {
         let ground = surface.ground[pixel].map(f32::from);
-        let of_slot = slots.iter().map(|slot| slot.map_or([0.0; 4], |layer| layer.rgba[pixel].map(f32::from)));
+        let of_slot =
+            slots.iter().map(|slot| slot.map_or([0.0; 4], |layer| layer.rgba[pixel].map(f32::from)));
         let [r, g, b, a] = linear[pixel];
         let layers = finished(std::iter::once(ground).chain(of_slot).collect(), [r * a, g * a, b * a, a]);
         for (value, wanted) in values.iter_mut().zip(layers.as_flattened()) {
@@ -83,7 +88,10 @@ fn finished(mut layers: Vec<[f32; 4]>, wanted: [f32; 4]) -> Vec<[f32; 4]> {
     top[3] = f16::from_f32(top[3]).to_f32();
     let laid = over(&layers);
     for channel in 0..3 {
-        top[channel] = wanted[channel] - (1.0 - top[3]) * laid[channel];
+        let lacking = wanted[channel] - (1.0 - top[3]) * laid[channel];
+        // What 16 bits cannot tell is no light.
+        top[channel] =
+            if lacking.abs() > LEAST_LIGHT.max(wanted[channel] * HALF_ULP) { lacking } else { 0.0 };
     }
     layers.push(top);
     layers

@@ -8,7 +8,8 @@ use impasto_scene::document::{Aov, AovSet};
 use crate::Found;
 
 pub(crate) fn add(wanted: AovSet, surface: &PaintSurface, found: &mut Found) {
-    let plane = |pixels: &[[f16; 4]], at: usize| Samples::Half(pixels.iter().map(|pixel| pixel[at]).collect());
+    let plane =
+        |pixels: &[[f16; 4]], at: usize| Samples::Half(pixels.iter().map(|pixel| pixel[at]).collect());
     let mut add = |name: &str, samples: Samples| found.channels.push(Channel::new(name, samples));
     if wanted.has(Aov::PaintColor) {
         for (at, name) in ["paint.R", "paint.G", "paint.B", "paint.A"].into_iter().enumerate() {

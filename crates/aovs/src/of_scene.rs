@@ -8,10 +8,14 @@ use impasto_painting::Frame;
 use impasto_scene::document::{Aov, AovSet};
 use impasto_scene::motion;
 
+use crate::planes::{in_steps, short};
 use crate::{Drawn, Found};
 
 /// The depth where nothing is, as others write it.
 const NOTHING: f32 = 1e10;
+
+/// Motion is a multiple of this.
+const MOTION_STEP_PX: f32 = 1.0 / 256.0;
 
 pub(crate) fn add(
     renderer: &mut Renderer,
@@ -26,7 +30,7 @@ pub(crate) fn add(
         if wanted.has(Aov::Position) {
             let places = places(frame, &reference.depth);
             for (name, axis) in [("P.X", 0), ("P.Y", 1), ("P.Z", 2)] {
-                let plane = places.iter().map(|place| place[axis]).collect();
+                let plane = places.iter().map(|place| short(place[axis])).collect();
                 channels.push(Channel::new(name, Samples::Float(plane)));
             }
         }
@@ -36,7 +40,7 @@ pub(crate) fn add(
         }
         if wanted.has(Aov::Depth) {
             let depth = reference.depth.into_iter();
-            let depth = depth.map(|depth| if depth == 0.0 { NOTHING } else { depth }).collect();
+            let depth = depth.map(|depth| if depth == 0.0 { NOTHING } else { short(depth) }).collect();
             channels.push(Channel::new("Z", Samples::Float(depth)));
         }
     }
@@ -68,7 +72,11 @@ pub(crate) fn add(
     let (before, after) = (moved(before)?, moved(after)?);
     let mut add = |name: &str, motion: &MotionPixels, axis: usize, sign: f32| {
         // + 0 turns −0 into 0.
-        let plane = motion.offset_px.iter().map(|offset| sign * offset[axis] + 0.0).collect();
+        let plane = motion
+            .offset_px
+            .iter()
+            .map(|offset| in_steps(sign * offset[axis], MOTION_STEP_PX) + 0.0)
+            .collect();
         channels.push(Channel::new(name, Samples::Float(plane)));
     };
     // A renderer's offsets point down, and from here to there.

@@ -10,7 +10,11 @@ use rayon::prelude::*;
 
 use crate::covering::{Covering, kind_of, stroke_names};
 use crate::cryptomatte::id_bits;
+use crate::planes::in_steps;
 use crate::{Drawn, Found};
+
+/// How much shows of a layer is a multiple of this.
+const ALPHA_STEP: f32 = 1.0 / 512.0;
 
 pub(crate) fn add(
     drawn: &Drawn<'_>,
@@ -51,13 +55,17 @@ pub(crate) fn add(
         found.channels.push(Channel::new("stroke.id", Samples::Uint(ids.collect())));
     }
     if wanted.has(Aov::PaintAlpha) {
-        let kinds: Vec<LayerKind> = frame.strokes.iter().enumerate().map(|(index, _)| kind_of(frame, index)).collect();
+        let kinds: Vec<LayerKind> =
+            frame.strokes.iter().enumerate().map(|(index, _)| kind_of(frame, index)).collect();
         for kind in LayerKind::ALL {
             let shown = (0..pixels).into_par_iter().map(|pixel| {
                 let shares = covering.shares.of(pixel).iter();
-                shares.filter(|share| kinds[share.stroke as usize] == kind).map(|share| share.amount).sum()
+                shares
+                    .filter(|share| kinds[share.stroke as usize] == kind)
+                    .map(|share| share.amount)
+                    .sum::<f32>()
             });
-            let shown: Vec<f32> = shown.collect();
+            let shown: Vec<f32> = shown.map(|shown| in_steps(shown, ALPHA_STEP)).collect();
             found.channels.push(Channel::new(format!("alpha.{}", kind.name()), Samples::half(shown)));
         }
         let ground = Samples::half(covering.ground.iter().copied());

@@ -145,7 +145,8 @@ fn wanted(arguments: &RenderArguments, destination: &Destination, scene: &Scene)
             Some(picture.aovs_of(scene, arguments.talk.quiet)?)
         }
         _ if !picture.aovs.is_empty() || picture.exr => {
-            let words = "--aov and --exr are for EXR files: let -o end in .exr, or add --exr to frames in .png";
+            let words =
+                "--aov and --exr are for EXR files: let -o end in .exr, or add --exr to frames in .png";
             return Err(Failure::Usage(words.to_owned()));
         }
         _ => None,
@@ -327,7 +328,9 @@ impl Plan {
     fn stream(&mut self, interrupt: &Interrupt) -> Result<(), Failure> {
         let Self { sequence, renderer, frames, .. } = self;
         let ending = sequence.render(renderer, frames, &|| interrupt.came(), |drawn| {
-            Ok::<(), Failure>(drawn.files.iter().try_for_each(|(_, bytes)| std::io::stdout().write_all(bytes))?)
+            Ok::<(), Failure>(
+                drawn.files.iter().try_for_each(|(_, bytes)| std::io::stdout().write_all(bytes))?,
+            )
         })?;
         if ending == Ending::Done { Ok(()) } else { Err(Failure::Interrupted { done: 0 }) }
     }

@@ -109,8 +109,7 @@ pub fn encode(picture: ExrPicture, provenance: &Provenance, parallel: bool) -> a
         ..LayerAttributes::default()
     };
     let encoding = Encoding { compression: Compression::ZIP16, ..Encoding::SMALL_LOSSLESS };
-    let mut image =
-        Image::from_layer(Layer::new(size, attributes, encoding, AnyChannels::sort(channels)));
+    let mut image = Image::from_layer(Layer::new(size, attributes, encoding, AnyChannels::sort(channels)));
     image.attributes.display_window = IntegerBounds::from_dimensions(size);
     image.attributes.chromaticities = Some(REC_709);
     let own = [
@@ -124,7 +123,11 @@ pub fn encode(picture: ExrPicture, provenance: &Provenance, parallel: bool) -> a
     }
     let mut bytes = Cursor::new(Vec::new());
     let writer = image.write();
-    if parallel { writer.to_buffered(&mut bytes)? } else { writer.non_parallel().to_buffered(&mut bytes)? };
+    if parallel {
+        writer.to_buffered(&mut bytes)?
+    } else {
+        writer.non_parallel().to_buffered(&mut bytes)?
+    };
     let mut bytes = bytes.into_inner();
     sort_attributes(&mut bytes);
     Ok(bytes)
@@ -171,7 +174,10 @@ mod tests {
             channels: vec![
                 Channel::new("Z", Samples::Float(ramp.clone().collect())),
                 Channel::new("R", Samples::half(ramp)),
-                Channel::new("stroke.id", Samples::Uint((0..pixels).map(|index| index * 99_999_999).collect())),
+                Channel::new(
+                    "stroke.id",
+                    Samples::Uint((0..pixels).map(|index| index * 99_999_999).collect()),
+                ),
             ],
             fps: 23.976,
             from_world: [std::array::from_fn(|index| index as f32), [0.5; 16]],

@@ -92,8 +92,13 @@ mod tests {
         let path = folder.path().join("a.exr");
         let channel = Channel::new("Y", Samples::Float((0..40 * 37).map(|index| index as f32).collect()));
         let from_world = [[0.0; 16]; 2];
-        let picture =
-            ExrPicture { size_px: [40, 37], channels: vec![channel], fps: 24.0, from_world, notes: Vec::new() };
+        let picture = ExrPicture {
+            size_px: [40, 37],
+            channels: vec![channel],
+            fps: 24.0,
+            from_world,
+            notes: Vec::new(),
+        };
         let provenance = Provenance { scene: String::new(), frame: String::new(), driver: String::new() };
         let bytes = encode(picture, &provenance, false).unwrap();
         std::fs::write(&path, &bytes).unwrap();

@@ -145,7 +145,8 @@ mod tests {
         let mut reader = png::Decoder::new(io::Cursor::new(&bytes)).read_info().unwrap();
         let mut read = vec![0; reader.output_buffer_size().unwrap()];
         assert_eq!(reader.next_frame(&mut read).unwrap().bit_depth, png::BitDepth::Sixteen);
-        let read: Vec<u16> = read.chunks_exact(2).map(|pair| u16::from_be_bytes([pair[0], pair[1]])).collect();
+        let read: Vec<u16> =
+            read.chunks_exact(2).map(|pair| u16::from_be_bytes([pair[0], pair[1]])).collect();
         assert_eq!(read, rgba16);
         std::fs::write(&path, &bytes).unwrap();
         assert!(is_whole(&path));

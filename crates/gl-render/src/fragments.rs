@@ -134,7 +134,10 @@ impl FragmentGatherer {
         if count > self.capacity {
             return Err(GlError::Resource {
                 what: "data of strokes".to_owned(),
-                reason: format!("{count} places of paint at once, {} fit; use a smaller --size", self.capacity),
+                reason: format!(
+                    "{count} places of paint at once, {} fit; use a smaller --size",
+                    self.capacity
+                ),
             });
         }
         let bytes = self.buffer.read(COUNT_BYTES + count * FRAGMENT_BYTES);

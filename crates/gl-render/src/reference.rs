@@ -112,7 +112,8 @@ impl ReferencePass {
             Some(program) => program,
             None => Program::new(&self.gpu, FILES, &LIGHT_PARTS)?,
         };
-        let target = || Texture::target(&self.gpu, Format::Rgba16F, frame.size_px, Filter::Nearest).map(Rc::new);
+        let target =
+            || Texture::target(&self.gpu, Format::Rgba16F, frame.size_px, Filter::Nearest).map(Rc::new);
         let pass = Framebuffer::new(&self.gpu, &[&target()?, &target()?], None)?;
         self.gpu.begin_pass(&pass, DrawState::default());
         let lens = LensSetup::new(&frame.view, frame.size_px);
@@ -241,10 +242,8 @@ const OPENNESS: ProgramSource<'static> = ProgramSource::screen(
     &[&VIEW_LENS_UNIFORMS, &["normal", "depth_and_id", "view_from_world"]],
 );
 
-const LIGHT: ProgramSource<'static> = ProgramSource::screen(
-    "reference/light.frag",
-    &[&LENS_UNIFORMS, &LIGHT_UNIFORMS, &SURFACE_TEXTURES],
-);
+const LIGHT: ProgramSource<'static> =
+    ProgramSource::screen("reference/light.frag", &[&LENS_UNIFORMS, &LIGHT_UNIFORMS, &SURFACE_TEXTURES]);
 
 const LIGHT_PARTS: ProgramSource<'static> =
     ProgramSource { fragment: Some("reference/light_parts.frag"), ..LIGHT };

@@ -179,9 +179,13 @@ impl Painting {
     /// The material that a stroke lies on: its name, or that of its object where it has none.
     pub fn material_of(&self, object: usize, kind: LayerKind, particle: usize) -> &str {
         let body = &self.bodies[object].surface;
-        let material = self.coat(object, kind).map(|coat| coat.sampled.particles.triangle(particle)).and_then(|triangle| {
-            body.materials.get(body.mesh.material_of_triangle.get(triangle).copied().unwrap_or(0) as usize)
-        });
+        let material = self
+            .coat(object, kind)
+            .map(|coat| coat.sampled.particles.triangle(particle))
+            .and_then(|triangle| {
+                body.materials
+                    .get(body.mesh.material_of_triangle.get(triangle).copied().unwrap_or(0) as usize)
+            });
         match material {
             Some(material) if !material.name.is_empty() => &material.name,
             _ => &self.scene().objects[object].name,

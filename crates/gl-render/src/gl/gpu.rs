@@ -62,8 +62,7 @@ impl Limits {
                 .min(viewport[1]);
             let version = gl.version();
             let is_new = (version.major, version.minor) >= (4, 3) && !version.is_embedded;
-            let has_storage =
-                is_new && gl.get_parameter_i32(glow::MAX_FRAGMENT_SHADER_STORAGE_BLOCKS) > 0;
+            let has_storage = is_new && gl.get_parameter_i32(glow::MAX_FRAGMENT_SHADER_STORAGE_BLOCKS) > 0;
             let max_storage =
                 if has_storage { gl.get_parameter_i32(glow::MAX_SHADER_STORAGE_BLOCK_SIZE) } else { 0 };
             Self {

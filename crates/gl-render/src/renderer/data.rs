@@ -108,7 +108,8 @@ impl Renderer {
 
     /// The last picture before it was encoded: display-linear with straight alpha, top row first, whatever the exposure.
     pub fn read_linear(&self) -> Vec<[f32; 4]> {
-        let Some(painted) = self.painted.as_ref().filter(|_| self.context.gpu().make_current().is_ok()) else {
+        let Some(painted) = self.painted.as_ref().filter(|_| self.context.gpu().make_current().is_ok())
+        else {
             return Vec::new();
         };
         let pixels: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&painted.pass.read_floats(0));

@@ -315,12 +315,7 @@ impl RotatingStrokes {
     }
 
     /// Sets the uniforms of `finish.frag`.
-    fn bind_finish<'a>(
-        &self,
-        bound: Bound<'a>,
-        input: &StyleInput<'_>,
-        covered: &Covered,
-    ) -> Bound<'a> {
+    fn bind_finish<'a>(&self, bound: Bound<'a>, input: &StyleInput<'_>, covered: &Covered) -> Bound<'a> {
         let Some(targets) = &self.targets else { return bound };
         let frame = input.frame;
         let finish = &frame.finish;

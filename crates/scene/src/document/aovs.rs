@@ -97,28 +97,142 @@ pub const AOVS: [AovRow; 26] = [
         "float",
         "X, Y: where the surface was in the frame before, less where it is; Z, W: where it is, less where it will be; pixels, Y up, as Blender's Vector pass",
     ),
-    row(Aov::Forward, "forward", "forward.u forward.v", "float", "where the surface will be in the frame after, less where it is; pixels, Y up"),
-    row(Aov::Backward, "backward", "backward.u backward.v", "float", "where the surface was in the frame before, less where it is; pixels, Y up"),
+    row(
+        Aov::Forward,
+        "forward",
+        "forward.u forward.v",
+        "float",
+        "where the surface will be in the frame after, less where it is; pixels, Y up",
+    ),
+    row(
+        Aov::Backward,
+        "backward",
+        "backward.u backward.v",
+        "float",
+        "where the surface was in the frame before, less where it is; pixels, Y up",
+    ),
     row(Aov::Albedo, "albedo", "albedo.R albedo.G albedo.B", "half", "colour of the surface without light"),
-    row(Aov::Light, "light", "light.R light.G light.B", "half", "light that falls on the surface, with shadows; 1 on unlit surfaces"),
+    row(
+        Aov::Light,
+        "light",
+        "light.R light.G light.B",
+        "half",
+        "light that falls on the surface, with shadows; 1 on unlit surfaces",
+    ),
     row(Aov::Shadow, "shadow", "shadow", "half", "how much of the sun arrives: 1 in the light, 0 in shadow"),
-    row(Aov::Occlusion, "occlusion", "occlusion", "half", "how open a place is to light from all around: 1 open, 0 enclosed"),
-    row(Aov::ObjectId, "objectid", "objectid", "float", "number of the object in the scene, from 1; 0 where nothing is"),
-    row(Aov::StrokeId, "stroke.id", "stroke.id", "uint", "number of the stroke that shows most, the same in every frame; 0 where none is"),
-    row(Aov::StrokeAngle, "stroke.angle", "stroke.angle", "float", "its angle, radians counter-clockwise from X in the picture, from -pi to pi"),
+    row(
+        Aov::Occlusion,
+        "occlusion",
+        "occlusion",
+        "half",
+        "how open a place is to light from all around: 1 open, 0 enclosed",
+    ),
+    row(
+        Aov::ObjectId,
+        "objectid",
+        "objectid",
+        "float",
+        "number of the object in the scene, from 1; 0 where nothing is",
+    ),
+    row(
+        Aov::StrokeId,
+        "stroke.id",
+        "stroke.id",
+        "uint",
+        "number of the stroke that shows most, the same in every frame; 0 where none is",
+    ),
+    row(
+        Aov::StrokeAngle,
+        "stroke.angle",
+        "stroke.angle",
+        "float",
+        "its angle, radians counter-clockwise from X in the picture, from -pi to pi",
+    ),
     row(Aov::StrokeKappa, "stroke.kappa", "stroke.kappa", "half", "how far its turn can be trusted, 0 to 1"),
-    row(Aov::StrokeRank, "stroke.rank", "stroke.rank", "half", "its rank, 0 to 1: strokes with low ranks stay longest when strokes thin out"),
-    row(Aov::StrokeLayer, "stroke.layer", "stroke.layer", "half", "its layer of paint, from 1 for the underpainting to 7 for the lights; 0 where no stroke is"),
-    row(Aov::PaintColor, "paint.color", "paint.R paint.G paint.B paint.A", "half", "the paint without the light of the room, premultiplied"),
-    row(Aov::PaintHeight, "paint.height", "paint.height", "half", "height of the paint in thicknesses of a usual stroke"),
-    row(Aov::PaintNormal, "paint.normal", "paint.normal.X paint.normal.Y paint.normal.Z", "half", "normal of the paint and the canvas in the picture: X right, Y up, Z towards you"),
-    row(Aov::PaintWetness, "paint.wetness", "paint.wetness", "half", "how far the paint runs together with its neighbours, 0 to 1"),
-    row(Aov::PaintAlpha, "paint.alpha", "alpha.LAYER", "half", "how much of the finished picture each layer of paint shows; the ground is alpha.ground"),
-    row(Aov::Layers, "layers", "layer.LAYER.R .G .B .A", "half", "each layer of paint as a picture, premultiplied: ground, then the layers, then finish, each laid over the last, give the picture"),
-    row(Aov::CryptoObject, "crypto.object", "CryptoObject00.R ... CryptoObject02.A", "float", "Cryptomatte of objects"),
-    row(Aov::CryptoMaterial, "crypto.material", "CryptoMaterial00.R ... CryptoMaterial02.A", "float", "Cryptomatte of materials"),
-    row(Aov::CryptoRegion, "crypto.region", "CryptoRegion00.R ... CryptoRegion02.A", "float", "Cryptomatte of regions"),
-    row(Aov::CryptoStroke, "crypto.stroke", "CryptoStroke00.R ... CryptoStroke02.A", "float", "Cryptomatte of single strokes, named LAYER/OBJECT/NUMBER"),
+    row(
+        Aov::StrokeRank,
+        "stroke.rank",
+        "stroke.rank",
+        "half",
+        "its rank, 0 to 1: strokes with low ranks stay longest when strokes thin out",
+    ),
+    row(
+        Aov::StrokeLayer,
+        "stroke.layer",
+        "stroke.layer",
+        "half",
+        "its layer of paint, from 1 for the underpainting to 7 for the lights; 0 where no stroke is",
+    ),
+    row(
+        Aov::PaintColor,
+        "paint.color",
+        "paint.R paint.G paint.B paint.A",
+        "half",
+        "the paint without the light of the room, premultiplied",
+    ),
+    row(
+        Aov::PaintHeight,
+        "paint.height",
+        "paint.height",
+        "half",
+        "height of the paint in thicknesses of a usual stroke",
+    ),
+    row(
+        Aov::PaintNormal,
+        "paint.normal",
+        "paint.normal.X paint.normal.Y paint.normal.Z",
+        "half",
+        "normal of the paint and the canvas in the picture: X right, Y up, Z towards you",
+    ),
+    row(
+        Aov::PaintWetness,
+        "paint.wetness",
+        "paint.wetness",
+        "half",
+        "how far the paint runs together with its neighbours, 0 to 1",
+    ),
+    row(
+        Aov::PaintAlpha,
+        "paint.alpha",
+        "alpha.LAYER",
+        "half",
+        "how much of the finished picture each layer of paint shows; the ground is alpha.ground",
+    ),
+    row(
+        Aov::Layers,
+        "layers",
+        "layer.LAYER.R .G .B .A",
+        "half",
+        "each layer of paint as a picture, premultiplied: ground, then the layers, then finish, each laid over the last, give the picture",
+    ),
+    row(
+        Aov::CryptoObject,
+        "crypto.object",
+        "CryptoObject00.R ... CryptoObject02.A",
+        "float",
+        "Cryptomatte of objects",
+    ),
+    row(
+        Aov::CryptoMaterial,
+        "crypto.material",
+        "CryptoMaterial00.R ... CryptoMaterial02.A",
+        "float",
+        "Cryptomatte of materials",
+    ),
+    row(
+        Aov::CryptoRegion,
+        "crypto.region",
+        "CryptoRegion00.R ... CryptoRegion02.A",
+        "float",
+        "Cryptomatte of regions",
+    ),
+    row(
+        Aov::CryptoStroke,
+        "crypto.stroke",
+        "CryptoStroke00.R ... CryptoStroke02.A",
+        "float",
+        "Cryptomatte of single strokes, named LAYER/OBJECT/NUMBER",
+    ),
 ];
 
 /// A set of AOVs.
@@ -194,7 +308,9 @@ impl AovSet {
         words.into_iter().try_fold(Self::default(), |set, word| {
             let known = Self::named(word).map_err(|near| match near {
                 Some(near) => format!("there is no AOV \"{word}\"; did you mean \"{near}\"?"),
-                None => format!("there is no AOV \"{word}\"; write all, or names from `impasto render --help`"),
+                None => {
+                    format!("there is no AOV \"{word}\"; write all, or names from `impasto render --help`")
+                }
             })?;
             Ok(set.with(known))
         })
@@ -215,7 +331,9 @@ mod tests {
     fn the_table_is_in_order_and_every_name_is_its_own() {
         for (index, row) in AOVS.iter().enumerate() {
             assert_eq!(row.aov as usize, index);
-            assert!(AOVS[..index].iter().all(|other| other.name != row.name && other.channels != row.channels));
+            assert!(
+                AOVS[..index].iter().all(|other| other.name != row.name && other.channels != row.channels)
+            );
             assert_eq!(AovSet::named(row.name), Ok(row.aov.into()));
         }
         assert_eq!(AovSet::ALL.rows().count(), AOVS.len());

@@ -122,8 +122,7 @@ const PAINT_UNIFORMS: &[&str] = &[
 
 const OF_EXACT: &[&str] = &["below", "depth_and_id"];
 
-const PAINT: ProgramSource<'static> =
-    ProgramSource { uniforms: &[PAINT_UNIFORMS, OF_EXACT], ..DRAFT_PAINT };
+const PAINT: ProgramSource<'static> = ProgramSource { uniforms: &[PAINT_UNIFORMS, OF_EXACT], ..DRAFT_PAINT };
 
 /// Drafts pick up no paint.
 const DRAFT_PAINT: ProgramSource<'static> =
