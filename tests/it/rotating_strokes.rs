@@ -38,7 +38,7 @@ fn lone_strokes(size_px: [u32; 2], strokes: Vec<Stroke>, colors: [[f32; 3]; 2]) 
     let source = StrokeSource { place: 0, particle: 0, region: 0, kappa: 1.0, facing: 1.0, rank: 0.5 };
     frame.background = Some([0.0; 3]);
     frame.sources = vec![source; strokes.len()];
-    frame.layers = vec![LayerRun { kind: LayerKind::Body, first: 0, count: strokes.len() as u32 }];
+    frame.layers = vec![LayerRun { order: 0, kind: LayerKind::Body, first: 0, count: strokes.len() as u32 }];
     frame.strokes = strokes;
     frame.brushes = Arc::new(Brushes::of_names(&["filbert"]));
     frame.finish = Finish::default();
@@ -462,7 +462,8 @@ fn egl_and_osmesa_draw_the_same_bytes() {
     let mut other = frame.clone();
     other.strokes[0].angle_rad += 1.0;
     other.strokes.truncate(other.strokes.len() / 2);
-    other.layers = vec![LayerRun { kind: LayerKind::Body, first: 0, count: other.strokes.len() as u32 }];
+    other.layers =
+        vec![LayerRun { order: 0, kind: LayerKind::Body, first: 0, count: other.strokes.len() as u32 }];
     assert!(osmesa.render(&other).unwrap() != a, "the comparison must see a change");
 }
 

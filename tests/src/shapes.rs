@@ -166,6 +166,7 @@ pub fn scene(objects: Vec<Object>) -> Scene {
             ..Region::new("all", Selector::Everything)
         }],
         style: Style::default(),
+        aovs: Vec::new(),
     }
 }
 

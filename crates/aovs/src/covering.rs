@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use impasto_gl_render::{PaintSurface, PaintedLayer, PixelShares, ReferencePixels, Share};
 use impasto_painting::Frame;
 use impasto_painting::frame::LayerKind;
-use impasto_scene::document::{Aov, AovSet};
+use impasto_scene::aovs::{Aov, AovSet};
 use rayon::prelude::*;
 
 use crate::cryptomatte::{Matte, id_bits};

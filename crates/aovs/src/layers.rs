@@ -20,6 +20,9 @@ const MOST_GAIN: f32 = 4.0;
 const LEAST_LIGHT: f32 = 4e-4;
 const HALF_ULP: f32 = 1.0 / 1024.0;
 
+/// Alpha that differs by less is the same.
+const LEAST_ALPHA: f32 = 4e-4;
+
 pub(crate) fn add(
     drawn: &Drawn<'_>,
     layers: &[PaintedLayer],
@@ -60,16 +63,14 @@ pub(crate) fn add(
 
 /// The layers of a pixel, from the ground up, so that they give `wanted` (premultiplied), and one more on top.
 fn finished(mut layers: Vec<[f32; 4]>, wanted: [f32; 4]) -> Vec<[f32; 4]> {
-    // Where an outline was softened in a transparent picture, alpha is another.
-    let through: f32 = layers.iter().map(|layer| 1.0 - layer[3]).product();
+    // Where an outline was softened in a transparent picture, alpha is another: less, and all layers get thinner.
+    let clear = |alpha: f32| 1.0 - alpha.min(1.0 - 1e-6);
+    let through: f32 = layers.iter().map(|layer| clear(layer[3])).product();
     let wanted_through = 1.0 - wanted[3];
-    let mut top = [0.0; 4];
-    if wanted_through < through - 1e-6 {
-        top[3] = 1.0 - wanted_through / through;
-    } else if wanted_through > through + 1e-6 {
-        let power = wanted_through.ln() / through.max(1e-6).ln();
+    if wanted_through > through + LEAST_ALPHA {
+        let power = wanted_through.ln() / through.ln();
         for layer in &mut layers {
-            let alpha = 1.0 - (1.0 - layer[3].min(1.0 - 1e-6)).powf(power);
+            let alpha = 1.0 - clear(layer[3]).powf(power);
             let share = if layer[3] > 0.0 { alpha / layer[3] } else { 1.0 };
             *layer = [layer[0] * share, layer[1] * share, layer[2] * share, alpha];
         }
@@ -85,7 +86,12 @@ fn finished(mut layers: Vec<[f32; 4]>, wanted: [f32; 4]) -> Vec<[f32; 4]> {
     for layer in &mut layers {
         layer[3] = f16::from_f32(layer[3]).to_f32();
     }
-    top[3] = f16::from_f32(top[3]).to_f32();
+    // More, and the finish covers a little.
+    let through: f32 = layers.iter().map(|layer| 1.0 - layer[3]).product();
+    let mut top = [0.0; 4];
+    if wanted_through < through - LEAST_ALPHA {
+        top[3] = f16::from_f32(1.0 - wanted_through / through).to_f32();
+    }
     let laid = over(&layers);
     for channel in 0..3 {
         let lacking = wanted[channel] - (1.0 - top[3]) * laid[channel];
@@ -117,6 +123,7 @@ mod tests {
             (layers, [0.0, 1.0, 0.9, 1.0]),
             (clear.clone(), [0.3, 0.2, 0.1, 0.95]),
             (clear.clone(), [0.1, 0.2, 0.1, 0.4]),
+            (vec![[0.0, 0.0, 0.0, 1.0], [0.5, 0.5, 0.5, 1.0]], [0.4, 0.4, 0.4, 0.99]),
             (clear, [0.0; 4]),
         ] {
             let found = finished(layers.clone(), wanted);

@@ -17,7 +17,7 @@ mod planes;
 use impasto_frame_files::exr_file::{Channel, Note, Samples};
 use impasto_gl_render::{RenderError, Renderer};
 use impasto_painting::{Frame, FrameOptions, Painting, Quality};
-use impasto_scene::document::{Aov, AovSet};
+use impasto_scene::aovs::{Aov, AovSet};
 
 use covering::Covering;
 

@@ -3,7 +3,7 @@
 use half::f16;
 use impasto_frame_files::exr_file::{Channel, Samples};
 use impasto_gl_render::PaintSurface;
-use impasto_scene::document::{Aov, AovSet};
+use impasto_scene::aovs::{Aov, AovSet};
 
 use crate::Found;
 
@@ -12,12 +12,12 @@ pub(crate) fn add(wanted: AovSet, surface: &PaintSurface, found: &mut Found) {
         |pixels: &[[f16; 4]], at: usize| Samples::Half(pixels.iter().map(|pixel| pixel[at]).collect());
     let mut add = |name: &str, samples: Samples| found.channels.push(Channel::new(name, samples));
     if wanted.has(Aov::PaintColor) {
-        for (at, name) in ["paint.R", "paint.G", "paint.B", "paint.A"].into_iter().enumerate() {
-            add(name, plane(&surface.flat, at));
+        for (at, name) in ["R", "G", "B", "A"].into_iter().enumerate() {
+            add(&format!("paint.color.{name}"), plane(&surface.flat, at));
         }
     }
     if wanted.has(Aov::PaintHeight) {
-        add("paint.height", plane(&surface.normal_and_height, 3));
+        add("paint.height.X", plane(&surface.normal_and_height, 3));
     }
     if wanted.has(Aov::PaintNormal) {
         for (at, name) in ["paint.normal.X", "paint.normal.Y", "paint.normal.Z"].into_iter().enumerate() {
@@ -25,6 +25,6 @@ pub(crate) fn add(wanted: AovSet, surface: &PaintSurface, found: &mut Found) {
         }
     }
     if wanted.has(Aov::PaintWetness) {
-        add("paint.wetness", Samples::half(surface.wetness.iter().copied()));
+        add("paint.wetness.X", Samples::half(surface.wetness.iter().copied()));
     }
 }

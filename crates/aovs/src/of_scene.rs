@@ -5,7 +5,7 @@ use half::f16;
 use impasto_frame_files::exr_file::{Channel, Samples};
 use impasto_gl_render::{MotionPixels, RenderError, Renderer};
 use impasto_painting::Frame;
-use impasto_scene::document::{Aov, AovSet};
+use impasto_scene::aovs::{Aov, AovSet};
 use impasto_scene::motion;
 
 use crate::planes::{in_steps, short};
@@ -36,7 +36,7 @@ pub(crate) fn add(
         }
         if wanted.has(Aov::ObjectId) {
             let ids = reference.body_id.iter().map(|&id| id as f32).collect();
-            channels.push(Channel::new("objectid", Samples::Float(ids)));
+            channels.push(Channel::new("objectid.X", Samples::Float(ids)));
         }
         if wanted.has(Aov::Depth) {
             let depth = reference.depth.into_iter();
@@ -55,7 +55,7 @@ pub(crate) fn add(
             (Aov::Normal, &surfaces.normal, ["N.X", "N.Y", "N.Z"].as_slice(), 0),
             (Aov::Albedo, &surfaces.albedo, &["albedo.R", "albedo.G", "albedo.B"], 0),
             (Aov::Light, &surfaces.light, &["light.R", "light.G", "light.B"], 0),
-            (Aov::Shadow, &surfaces.light, &["shadow"], 3),
+            (Aov::Shadow, &surfaces.light, &["shadow.X"], 3),
         ];
         for (aov, pixels, names, first) in rows {
             for (at, name) in names.iter().enumerate().filter(|_| wanted.has(aov)) {
@@ -63,7 +63,7 @@ pub(crate) fn add(
             }
         }
         if wanted.has(Aov::Occlusion) {
-            channels.push(Channel::new("occlusion", Samples::Half(surfaces.openness)));
+            channels.push(Channel::new("occlusion.X", Samples::Half(surfaces.openness)));
         }
     }
     let before = wanted.has_any(&[Aov::Motion, Aov::Backward]).then_some(-1.0);
@@ -144,8 +144,8 @@ mod tests {
     #[test]
     fn a_place_is_found_again_from_its_pixel_and_its_depth() {
         let lenses = [
-            Mat4::perspective_rh_gl(0.7, 1.6, 0.1, 500.0),
-            Mat4::orthographic_rh_gl(-3.0, 3.0, -2.0, 2.0, 0.1, 50.0),
+            glam::camera::rh::proj::opengl::perspective(0.7, 1.6, 0.1, 500.0),
+            glam::camera::rh::proj::opengl::orthographic(-3.0, 3.0, -2.0, 2.0, 0.1, 50.0),
         ];
         for lens in lenses {
             for place in [Vec3::new(0.3, -0.2, -4.0), Vec3::new(-1.0, 0.7, -9.0)] {

@@ -5,7 +5,7 @@ use std::f32::consts::{PI, TAU};
 use impasto_frame_files::exr_file::{Channel, Samples};
 use impasto_gl_render::Renderer;
 use impasto_painting::frame::LayerKind;
-use impasto_scene::document::{Aov, AovSet};
+use impasto_scene::aovs::{Aov, AovSet};
 use rayon::prelude::*;
 
 use crate::covering::{Covering, kind_of, stroke_names};
@@ -52,7 +52,7 @@ pub(crate) fn add(
     if wanted.has(Aov::StrokeId) {
         let bits: Vec<u32> = stroke_names(drawn).par_iter().map(|name| id_bits(name)).collect();
         let ids = (0..pixels).into_par_iter().map(|pixel| most(pixel).map_or(0, |stroke| bits[stroke]));
-        found.channels.push(Channel::new("stroke.id", Samples::Uint(ids.collect())));
+        found.channels.push(Channel::new("stroke.id.X", Samples::Uint(ids.collect())));
     }
     if wanted.has(Aov::PaintAlpha) {
         let kinds: Vec<LayerKind> =
@@ -66,9 +66,9 @@ pub(crate) fn add(
                     .sum::<f32>()
             });
             let shown: Vec<f32> = shown.map(|shown| in_steps(shown, ALPHA_STEP)).collect();
-            found.channels.push(Channel::new(format!("alpha.{}", kind.name()), Samples::half(shown)));
+            found.channels.push(Channel::new(format!("alpha.{}.X", kind.name()), Samples::half(shown)));
         }
         let ground = Samples::half(covering.ground.iter().copied());
-        found.channels.push(Channel::new("alpha.ground", ground));
+        found.channels.push(Channel::new("alpha.ground.X", ground));
     }
 }

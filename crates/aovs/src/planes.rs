@@ -39,7 +39,7 @@ pub(crate) fn in_steps(value: f32, step: f32) -> f32 {
     (value / step).round() * step
 }
 
-/// Keeps 17 bits of a number, which is one part in 260,000.
+/// Keeps 17 bits of a number: it moves by less than a part in 100,000.
 pub(crate) fn short(value: f32) -> f32 {
     const DROPPED: u32 = 7;
     let bits = value.to_bits();
@@ -53,7 +53,7 @@ mod tests {
     #[test]
     fn shortened_numbers_are_near_and_whole_ones_stay() {
         for value in [1e10, -1e10, 0.0, 1.0, -3.0, 123.456, -0.000_765, 16.000_001] {
-            assert!((short(value) - value).abs() <= value.abs() * 4e-6, "{value}");
+            assert!((short(value) - value).abs() <= value.abs() * 8e-6, "{value}");
         }
         assert_eq!([short(0.0), short(2.0), short(-1.5)], [0.0, 2.0, -1.5]);
         assert_eq!(in_steps(0.7, 0.25), 0.75);

@@ -38,6 +38,8 @@ pub(crate) enum Command {
     Measure(MeasureArguments),
     /// Paint a sheet of all brushes, and of your own pictures as brushes.
     Brushes(BrushesArguments),
+    /// Light the paint of an EXR file anew.
+    Relight(RelightArguments),
     /// Find out which OpenGL drivers work here, by drawing a test picture.
     Doctor(DoctorArguments),
     /// Print a completion script for a shell.
@@ -400,6 +402,18 @@ pub(crate) struct BrushesArguments {
     pub(crate) pictures: Vec<PathBuf>,
     /// The sheet, a PNG file.
     #[arg(short, long, default_value = "out/brushes.png")]
+    pub(crate) output: String,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct RelightArguments {
+    /// An EXR file that was rendered with --aov paint.color,paint.normal.
+    pub(crate) frame: PathBuf,
+    /// Where the light stands, seen from the picture: right, up, towards you.
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = crate::relight::direction)]
+    pub(crate) light: [f32; 3],
+    /// The picture, a PNG file.
+    #[arg(short, long)]
     pub(crate) output: String,
 }
 

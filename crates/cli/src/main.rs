@@ -13,6 +13,7 @@ mod measure;
 mod movie;
 mod new;
 mod picture_args;
+mod relight;
 mod render;
 mod session;
 mod sheet;
@@ -48,6 +49,7 @@ fn main() -> ExitCode {
         Command::Strokes(arguments) => strokes::run(&arguments),
         Command::Measure(arguments) => measure::run(&arguments),
         Command::Brushes(arguments) => brushes::run(&arguments),
+        Command::Relight(arguments) => relight::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
         Command::Completions { shell } => {
             clap_complete::generate(shell, &mut Arguments::command(), "impasto", &mut std::io::stdout());

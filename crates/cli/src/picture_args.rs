@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 
 use clap::Args;
-use impasto_scene::document::{AOVS, AovSet, Scene};
+use impasto_scene::aovs::{AOVS, AovSet};
+use impasto_scene::document::Scene;
 use impasto_sequence::PngDepth;
 
 use crate::failure::Failure;

@@ -1,13 +1,17 @@
 //! EXR files: one part with all channels, compressed without loss, the same bytes for the same picture.
 
 use std::io::Cursor;
+use std::path::Path;
 
+use anyhow::Context as _;
+use exr::meta::MetaData;
 use exr::meta::attribute::{AttributeValue, Chromaticities, Text};
 use exr::prelude::{
     AnyChannel, AnyChannels, Compression, Encoding, FlatSamples, Image, IntegerBounds, Layer,
-    LayerAttributes, SmallVec, Vec2, WritableImage,
+    LayerAttributes, ReadChannels as _, ReadLayers as _, SmallVec, Vec2, WritableImage,
 };
 use half::f16;
+use impasto_scene::limits::MAX_PIXELS;
 
 use crate::exr_header::sort_attributes;
 use crate::picture_file::Provenance;
@@ -133,6 +137,49 @@ pub fn encode(picture: ExrPicture, provenance: &Provenance, parallel: bool) -> a
     Ok(bytes)
 }
 
+/// Some channels of a file as numbers, row by row from the top.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Planes {
+    /// Width and height in pixels.
+    pub size_px: [u32; 2],
+    /// The channels, in the order in which they were asked for.
+    pub values: Vec<Vec<f32>>,
+}
+
+/// Reads channels of a file. A picture that is larger than a scene's may be is not read.
+///
+/// # Errors
+/// What is wrong with the file, or the first channel that it lacks.
+pub fn read(path: &Path, channels: &[&str]) -> anyhow::Result<Planes> {
+    let meta = MetaData::read_from_file(path, false)?;
+    let header = meta.headers.first().context("it has no picture")?;
+    let Vec2(width, height) = header.layer_size;
+    anyhow::ensure!(
+        (width as u64).saturating_mul(height as u64) <= MAX_PIXELS,
+        "{width} x {height} pixels are too many"
+    );
+    // The file's blocks take space in it, however well they are compressed.
+    anyhow::ensure!(crate::exr_header::is_whole(path), "it was cut, or has parts of other kinds");
+    for name in channels {
+        anyhow::ensure!(
+            header.channels.list.iter().any(|channel| channel.name.eq(*name)),
+            "it has no channel {name}"
+        );
+    }
+    let image = exr::prelude::read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .first_valid_layer()
+        .all_attributes()
+        .from_file(path)?;
+    let values = channels.iter().map(|name| {
+        let channel = image.layer_data.channel_data.list.iter().find(|channel| channel.name.eq(*name));
+        channel.map(|channel| channel.sample_data.values_as_f32().collect()).context("a channel is gone")
+    });
+    Ok(Planes { size_px: [width as u32, height as u32], values: values.collect::<Result<_, _>>()? })
+}
+
 /// A text as UTF-8. The library would store Latin-1, which readers of the format refuse.
 fn text(words: &str) -> Text {
     Text::from_slice_unchecked(words.as_bytes())
@@ -162,7 +209,7 @@ fn rate(fps: f64) -> (i32, u32) {
 mod tests {
     use std::collections::BTreeMap;
 
-    use exr::prelude::{ReadChannels as _, ReadLayers as _, read};
+    use exr::prelude::read;
 
     use super::*;
 

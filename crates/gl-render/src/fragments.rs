@@ -15,7 +15,7 @@ const FRAGMENT_BYTES: usize = 12;
 const COUNT_BYTES: usize = 4;
 
 /// The most that fragments may take on the graphics card at a time.
-const MOST_BYTES: usize = 96 << 20;
+const MOST_BYTES: usize = 32 << 20;
 
 /// Bits of the alpha in its word; the others hold the stroke.
 const ALPHA_BITS: u32 = 10;

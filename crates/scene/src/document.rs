@@ -1,7 +1,6 @@
 //! The scene document: every field of a scene file, with its default. Angles are in degrees, times in
 //! frames and colours in sRGB, as a person writes them; nothing here is solved or resolved.
 
-mod aovs;
 mod color;
 mod keys;
 mod light;
@@ -20,7 +19,6 @@ use serde::{Deserialize, Serialize};
 
 use self::numbers::usual_fields;
 
-pub use aovs::{AOVS, Aov, AovRow, AovSet};
 pub use color::Color;
 pub use keys::{BackgroundKey, Key, LightKey, StrokesKey};
 pub use light::{Light, LightKind};

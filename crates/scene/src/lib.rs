@@ -1,6 +1,7 @@
 //! The document and everything that reads files: scenes, meshes, pictures, keyframes, presets, saving, and located
 //! problems.
 
+pub mod aovs;
 pub mod assets;
 pub mod built_in_mesh;
 pub mod check;

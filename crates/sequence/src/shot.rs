@@ -6,7 +6,7 @@ use impasto_frame_files::picture_file::Provenance;
 use impasto_gl_render::context::Driver;
 use impasto_gl_render::{Cost, Picture, RenderError, Renderer, ShaderTexts};
 use impasto_painting::{FrameOptions, Painting};
-use impasto_scene::document::AovSet;
+use impasto_scene::aovs::AovSet;
 
 /// What is made of each frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

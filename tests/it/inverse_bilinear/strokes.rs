@@ -23,7 +23,7 @@ fn frame(strokes: Vec<Stroke>, quality: Quality) -> Frame {
     frame.quality = quality;
     let source = StrokeSource { place: 0, particle: 0, region: 0, kappa: 1.0, facing: 1.0, rank: 0.5 };
     frame.sources = vec![source; strokes.len()];
-    frame.layers = vec![LayerRun { kind: LayerKind::Body, first: 0, count: strokes.len() as u32 }];
+    frame.layers = vec![LayerRun { order: 0, kind: LayerKind::Body, first: 0, count: strokes.len() as u32 }];
     frame.strokes = strokes;
     frame
 }

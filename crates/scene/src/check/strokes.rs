@@ -4,9 +4,10 @@ use std::collections::HashSet;
 use std::ops::RangeInclusive;
 
 use super::{Findings, did_you_mean, short, shown};
+use crate::aovs::{AOVS, AovSet};
 use crate::document::{
-    AOVS, AovSet, BrushMix, Edges, LayerNumber, LayerSettings, STROKE_NUMBERS, Scene, SettingRule, Solver,
-    StrokeNumber, StrokeSettings, StrokesKey,
+    BrushMix, Edges, LayerNumber, LayerSettings, STROKE_NUMBERS, Scene, SettingRule, Solver, StrokeNumber,
+    StrokeSettings, StrokesKey,
 };
 use crate::limits;
 use crate::presets::{self, GROUND, LayerKind, PAPER_PRESET};

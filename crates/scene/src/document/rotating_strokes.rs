@@ -3,9 +3,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::aovs::AovSet;
 use super::numbers::usual_fields;
 use super::style_settings::{CanvasFollows, Preparation, SettingRule, Solver, StyleInfo, StyleSettings};
+use crate::aovs::AovSet;
 use crate::limits::MAX_STRENGTH;
 
 usual_fields! {

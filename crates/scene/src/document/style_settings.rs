@@ -4,8 +4,8 @@ use std::ops::RangeInclusive;
 
 use serde::{Deserialize, Serialize};
 
-use super::aovs::AovSet;
 use super::numbers::Number;
+use crate::aovs::AovSet;
 
 /// The settings of a style. Other code asks about a style only through this trait.
 pub trait StyleSettings {

@@ -36,6 +36,7 @@ fn scene(camera_keys: Vec<CameraKey>, objects: Vec<Object>) -> Scene {
         strokes: Default::default(),
         regions: Vec::new(),
         style: Default::default(),
+        aovs: Vec::new(),
     }
 }
 

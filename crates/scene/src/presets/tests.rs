@@ -28,6 +28,7 @@ fn scene(strokes: StrokeSettings, of_region: StrokeSettings) -> Scene {
             ..Region::new("skin", Selector::Everything)
         }],
         style: Default::default(),
+        aovs: Vec::new(),
     }
 }
 

@@ -424,6 +424,7 @@ pub(super) fn any_scene() -> impl Strategy<Value = Scene> {
                 strokes,
                 regions,
                 style,
+                aovs: Vec::new(),
             }
         },
     )
