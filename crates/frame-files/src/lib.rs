@@ -1,7 +1,8 @@
-//! Rendered frames as files: lists of frames, their file names, and PNG. The command line and the editor write the same
+//! Rendered frames as files: lists of frames, their file names, and PNG, written and read. The command line and the editor write the same
 //! bytes because both write them here.
 
 mod frame_list;
+pub mod frame_reader;
 mod pattern;
 pub mod picture_file;
 mod place;
