@@ -2,17 +2,34 @@
 
 use super::*;
 
-/// Bands of flat colour, left to right: three colours that BT.601 and BT.709 show differently, then white, black, grey.
-const BANDS: [[u8; 4]; 6] = [
-    [0, 160, 0, 255],
-    [200, 30, 30, 255],
-    [20, 40, 220, 255],
-    [255, 255, 255, 255],
-    [0, 0, 0, 255],
-    [128, 128, 128, 255],
+/// Flat colours, left to right: three that BT.601 and BT.709 show differently, the corners of the cube of colours, and grey.
+const COLORS: [[u8; 3]; 13] = [
+    [0, 160, 0],
+    [200, 30, 30],
+    [20, 40, 220],
+    [255, 255, 255],
+    [0, 0, 0],
+    [128, 128, 128],
+    [255, 0, 0],
+    [0, 255, 0],
+    [0, 0, 255],
+    [255, 255, 0],
+    [255, 0, 255],
+    [0, 255, 255],
+    [255, 128, 0],
 ];
-const BAND_PX: usize = 32;
-const HEIGHT_PX: usize = 64;
+
+/// What is laid on them from the top down, in rows.
+const ALPHAS: [u8; 7] = [255, 128, 64, 192, 1, 254, 0];
+
+/// Side of a patch of one colour and one alpha, in pixels.
+const PATCH_PX: usize = 32;
+
+/// How many frames the movies have.
+const FRAMES: usize = 4;
+
+/// The most by which a channel may be off, of 255.
+const WITHIN: u8 = 2;
 
 /// Whether ffmpeg and ffprobe are installed; prints a line where they are not.
 ///
@@ -29,23 +46,66 @@ fn has_ffmpeg() -> bool {
     all
 }
 
-fn encoding(name: &str, transparent: bool) -> Encoding {
-    Encoding::of(Path::new(name), transparent).unwrap().unwrap()
+fn encoding(path: &Path, transparent: bool) -> &'static Encoding {
+    Kind::of(path).unwrap().encoding(transparent).unwrap()
 }
 
-/// Writes a movie of three equal frames of bands. `extra_px` is added to the last band's width and to the height, so
-/// that the sides can be odd.
-fn write(path: &Path, transparent: bool, bands: &[[u8; 4]], extra_px: usize) {
-    let width = bands.len() * BAND_PX + extra_px;
-    let row = (0..width).flat_map(|x| bands[(x / BAND_PX).min(bands.len() - 1)]);
-    let frame: Vec<u8> = row.collect::<Vec<u8>>().repeat(HEIGHT_PX + extra_px);
-    let size_px = [width as u32, (HEIGHT_PX + extra_px) as u32];
-    let mut movie =
-        Movie::start(path, encoding(&path.to_string_lossy(), transparent), size_px, 24.0).unwrap();
-    for _ in 0..3 {
-        movie.add(&frame).unwrap();
+/// A picture of patches: a column for each colour, a row for each alpha.
+struct Patches {
+    alphas: &'static [u8],
+    /// The last patches are wider and higher by so much, so that the sides can be odd.
+    extra_px: usize,
+}
+
+impl Patches {
+    fn size_px(&self) -> [usize; 2] {
+        [COLORS.len(), self.alphas.len()].map(|patches| patches * PATCH_PX + self.extra_px)
     }
-    movie.finish().unwrap();
+
+    fn rgba_at(&self, x: usize, y: usize) -> [u8; 4] {
+        let [r, g, b] = COLORS[(x / PATCH_PX).min(COLORS.len() - 1)];
+        [r, g, b, self.alphas[(y / PATCH_PX).min(self.alphas.len() - 1)]]
+    }
+
+    /// Writes a movie of equal frames.
+    fn write(&self, path: &Path, transparent: bool, depth: Depth) {
+        let [width, height] = self.size_px();
+        let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+        let bytes = pixels.flat_map(|(x, y)| self.rgba_at(x, y));
+        let frame: Vec<u8> = match depth {
+            Depth::Eight => bytes.collect(),
+            Depth::Sixteen => bytes.flat_map(|value| [value; 2]).collect(),
+        };
+        let format = FrameFormat { size_px: self.size_px().map(|side| side as u32), depth, fps: 24.0 };
+        let encoding = encoding(path, transparent);
+        encoding.ready(path).unwrap();
+        let mut movie = Movie::start(path, encoding, format).unwrap();
+        for _ in 0..FRAMES {
+            movie.add(&frame).unwrap();
+        }
+        movie.finish().unwrap();
+    }
+
+    /// Asserts that every pixel in the inner half of every patch, in every frame, is what was written. `coded_px` is the
+    /// size of the frames in the movie.
+    fn assert_decoded(&self, path: &Path, decoder: &[&str], coded_px: [usize; 2]) {
+        let arguments = [&["-v", "error"], decoder, &["-i"]].concat();
+        let decoded = output("ffmpeg", &arguments, path, &["-f", "rawvideo", "-pix_fmt", "rgba", "-"]);
+        let [width, height] = coded_px;
+        assert_eq!(decoded.len(), width * height * 4 * FRAMES, "{}", path.display());
+        for (at, found) in decoded.chunks_exact(4).enumerate() {
+            let (x, y) = (at % width, at / width % height);
+            let inside = |at: usize| (PATCH_PX / 4..PATCH_PX * 3 / 4).contains(&(at % PATCH_PX));
+            if !inside(x) || !inside(y) || x / PATCH_PX >= COLORS.len() || y / PATCH_PX >= self.alphas.len() {
+                continue;
+            }
+            let wanted = self.rgba_at(x, y);
+            // What cannot be seen at all may have any colour.
+            let seen = if wanted[3] == 0 { 3..4 } else { 0..4 };
+            let near = seen.into_iter().all(|channel| found[channel].abs_diff(wanted[channel]) <= WITHIN);
+            assert!(near, "{}: {wanted:?} is shown as {found:?}", path.display());
+        }
+    }
 }
 
 fn output(program: &str, arguments: &[&str], path: &Path, more: &[&str]) -> Vec<u8> {
@@ -54,29 +114,21 @@ fn output(program: &str, arguments: &[&str], path: &Path, more: &[&str]) -> Vec<
     output.stdout
 }
 
-/// What ffprobe says about the movie's stream, as lines of `name=value`.
-fn probed(path: &Path, entries: &str) -> String {
-    let entries = format!("stream={entries}");
+/// Asserts that ffprobe says these lines of `name=value` about the movie.
+fn assert_told(path: &Path, lines: &[&str]) {
+    let entries = "codec_name,pix_fmt,width,height,color_range,color_space,color_transfer,color_primaries";
+    let entries = format!("stream={entries}:stream_tags=alpha_mode");
     let arguments =
         ["-v", "error", "-select_streams", "v:0", "-of", "default=nw=1", "-show_entries", &entries];
-    String::from_utf8(output("ffprobe", &arguments, path, &[])).unwrap()
-}
-
-/// The RGBA pixel in the middle of each band of the last frame. `before` are arguments of ffmpeg before its input.
-fn decoded(path: &Path, bands: usize, width: usize, before: &[&str]) -> Vec<[u8; 4]> {
-    let arguments = [&["-v", "error"], before, &["-i"]].concat();
-    let pixels = output("ffmpeg", &arguments, path, &["-f", "rawvideo", "-pix_fmt", "rgba", "-"]);
-    let frame_bytes = pixels.len() / 3;
-    let row = &pixels[2 * frame_bytes + HEIGHT_PX / 2 * width * 4..][..width * 4];
-    (0..bands).map(|band| row[(band * BAND_PX + BAND_PX / 2) * 4..][..4].try_into().unwrap()).collect()
-}
-
-fn assert_near(found: &[[u8; 4]], wanted: &[[u8; 4]], name: &str) {
-    for (found, wanted) in found.iter().zip(wanted) {
-        let near = found.iter().zip(wanted).all(|(found, wanted)| found.abs_diff(*wanted) <= 2);
-        assert!(near, "{name}: {wanted:?} is shown as {found:?}");
+    let told = String::from_utf8(output("ffprobe", &arguments, path, &[])).unwrap();
+    for line in lines {
+        assert!(told.lines().any(|told| told == *line), "{}: no {line} in {told}", path.display());
     }
 }
+
+/// What every movie says, whatever its kind.
+const BT709: [&str; 4] =
+    ["color_range=tv", "color_space=bt709", "color_transfer=bt709", "color_primaries=bt709"];
 
 #[test]
 fn colours_are_shown_as_they_were_painted() {
@@ -84,24 +136,23 @@ fn colours_are_shown_as_they_were_painted() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    for (name, extra_px) in [("a.mp4", 0), ("odd.mp4", 1), ("a.mov", 0), ("a.mkv", 0), ("a.webm", 0)] {
+    for (name, codec, even_sides) in [
+        ("a.mp4", ["codec_name=h264", "pix_fmt=yuv420p"], true),
+        ("a.mkv", ["codec_name=h264", "pix_fmt=yuv420p"], true),
+        // ffmpeg decodes ProRes 4444 to 12 bits.
+        ("a.mov", ["codec_name=prores", "pix_fmt=yuv444p12le"], false),
+        ("a.webm", ["codec_name=vp9", "pix_fmt=yuv420p"], false),
+    ] {
         let path = folder.path().join(name);
-        write(&path, false, &BANDS, extra_px);
-        let told =
-            probed(&path, "color_range,color_space,color_transfer,color_primaries,pix_fmt,width,height");
-        let (width, height) = (BANDS.len() * BAND_PX + 2 * extra_px, HEIGHT_PX + 2 * extra_px);
-        for line in [
-            "pix_fmt=yuv420p",
-            "color_range=tv",
-            "color_space=bt709",
-            "color_transfer=bt709",
-            "color_primaries=bt709",
-            &format!("width={width}"),
-            &format!("height={height}"),
-        ] {
-            assert!(told.lines().any(|told| told == line), "{name}: no {line} in {told}");
+        for extra_px in [0, 1] {
+            let patches = Patches { alphas: &[255, 255], extra_px };
+            patches.write(&path, false, Depth::Eight);
+            let coded_px =
+                patches.size_px().map(|side| if even_sides { side.next_multiple_of(2) } else { side });
+            let sides = [format!("width={}", coded_px[0]), format!("height={}", coded_px[1])];
+            assert_told(&path, &[&BT709[..], &codec, &[&sides[0], &sides[1]]].concat());
+            patches.assert_decoded(&path, &[], coded_px);
         }
-        assert_near(&decoded(&path, BANDS.len(), width, &[]), &BANDS, name);
     }
 }
 
@@ -111,27 +162,71 @@ fn transparency_is_kept_where_a_movie_has_it() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    let bands = [[0, 160, 0, 255], [200, 30, 30, 128], [20, 40, 220, 0]];
-    for (name, decoder) in [("a.mov", "prores"), ("a.webm", "libvpx-vp9")] {
+    // ffmpeg's own VP9 decoder drops transparency, and its pixel format is told without.
+    for (name, decoder, tag) in
+        [("a.mov", "prores", "pix_fmt=yuva444p12le"), ("a.webm", "libvpx-vp9", "TAG:alpha_mode=1")]
+    {
         let path = folder.path().join(name);
-        write(&path, true, &bands, 0);
-        // ffmpeg's own VP9 decoder drops transparency.
-        let mut found = decoded(&path, bands.len(), bands.len() * BAND_PX, &["-c:v", decoder]);
-        assert_eq!(found[2][3], 0, "{name}");
-        // A fully transparent pixel may have any colour.
-        found[2] = bands[2];
-        assert_near(&found, &bands, name);
-        assert!(probed(&path, "color_space").contains("bt709"), "{name}");
+        for extra_px in [0, 1] {
+            let patches = Patches { alphas: &ALPHAS, extra_px };
+            patches.write(&path, true, Depth::Eight);
+            assert_told(&path, &[&BT709[..], &[tag]].concat());
+            patches.assert_decoded(&path, &["-c:v", decoder], patches.size_px());
+        }
     }
 }
 
 #[test]
-fn transparency_is_refused_where_a_movie_has_none() {
-    assert_eq!(Encoding::of(Path::new("a.png"), true), None);
-    assert_eq!(Encoding::of(Path::new("mp4"), false), None);
-    for name in ["a.mp4", "a.MKV"] {
-        let words = Encoding::of(Path::new(name), true).unwrap().unwrap_err();
-        assert!(words.contains(".mov") && words.contains(".webm"), "{words}");
-        assert!(Encoding::of(Path::new(name), false).unwrap().is_ok());
+fn sixteen_bits_a_channel_are_taken_too() {
+    if !has_ffmpeg() {
+        return;
     }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.mov");
+    let patches = Patches { alphas: &ALPHAS, extra_px: 0 };
+    patches.write(&path, true, Depth::Sixteen);
+    patches.assert_decoded(&path, &[], patches.size_px());
+}
+
+#[test]
+fn transparency_is_refused_where_a_movie_has_none() {
+    for name in ["a.png", "mp4", "a", ""] {
+        assert_eq!(Kind::of(Path::new(name)), None, "{name}");
+    }
+    for name in ["a.mp4", "a.MKV"] {
+        let kind = Kind::of(Path::new(name)).unwrap();
+        assert!(!kind.holds_transparency() && kind.encoding(false).is_ok());
+        let words = kind.encoding(true).unwrap_err().words().unwrap();
+        assert!(words.contains(".mov") && words.contains(".webm") && !words.contains('\n'), "{words}");
+    }
+    for name in ["a.mov", "a.webm"] {
+        assert!(Kind::of(Path::new(name)).unwrap().holds_transparency());
+    }
+}
+
+#[test]
+fn an_encoder_that_is_missing_is_named_with_what_does_without_it() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let none = Encoding {
+        encoder: "libnothing",
+        codec: "Nothing",
+        arguments: &["-f", "mp4"],
+        even_sides: false,
+        deep: false,
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.mp4");
+    let words = none.ready(&path).unwrap_err().words().unwrap();
+    assert!(words.contains("a.mp4") && words.contains("no encoder libnothing (Nothing)"), "{words}");
+    // What ffmpeg itself says as it fails is told too, and nothing is left.
+    let format = FrameFormat { size_px: [512, 512], depth: Depth::Eight, fps: 24.0 };
+    let mut movie = Movie::start(&path, &none, format).unwrap();
+    let added = movie.add(&[0; 512 * 512 * 4]);
+    let words = added.and_then(|()| movie.finish()).unwrap_err().words().unwrap();
+    assert!(words.contains("libnothing") && words.contains("a.mp4 is not written"), "{words}");
+    assert_eq!(words.lines().count(), 1, "{words}");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    assert_eq!(encoding(Path::new("a.mp4"), false).others(), [".mov", ".webm"]);
 }
