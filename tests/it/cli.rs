@@ -487,21 +487,29 @@ fn frames_are_piped_to_ffmpeg_where_it_is_installed() {
     let without = render();
     assert_eq!(code(&without), 3);
     assert!(words(&without.stderr).contains("ffmpeg, which is not installed; install it"));
-    // A stand-in for ffmpeg that copies its input into the file that its last argument names.
+    // A stand-in for ffmpeg that has an encoder, and copies its input into the file that its last argument names.
     let install = |script: &str| {
         let path = programs.join("ffmpeg");
         std::fs::write(&path, script).unwrap();
         std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o755)).unwrap();
     };
-    install("#!/bin/sh\nfor last; do :; done\n/bin/cat > \"$last\"\n");
+    let encoders =
+        |name: &str| format!("#!/bin/sh\ncase \"$*\" in *-encoders*) echo ' V {name} x'; exit;; esac\n");
+    install(&(encoders("libx264") + "for last; do :; done\n/bin/cat > \"$last\"\n"));
     let with = render();
     assert_eq!(code(&with), 0, "{}", words(&with.stderr));
     // Three frames, four bytes a pixel.
     assert_eq!(std::fs::metadata(folder.path("shot.mp4")).unwrap().len(), 3 * 160 * 90 * 4);
     std::fs::remove_file(folder.path("shot.mp4")).unwrap();
-    install("#!/bin/sh\n/bin/cat > /dev/null\nexit 1\n");
+    install(&(encoders("libx264") + "/bin/cat > /dev/null\necho no room >&2\necho left >&2\nexit 1\n"));
     let failing = render();
     assert_eq!(code(&failing), 1, "{}", words(&failing.stderr));
+    let told = words(&failing.stderr);
+    assert!(told.contains("shot.mp4 is not written") && told.ends_with("no room; left\n"), "{told}");
+    install(&encoders("libx265"));
+    let lacking = render();
+    assert_eq!(code(&lacking), 3);
+    assert!(words(&lacking.stderr).contains("no encoder libx264 (H.264)"), "{}", words(&lacking.stderr));
     assert_eq!(
         folder.names("."),
         ["cube.obj", "programs", "scene.ron"],

@@ -25,6 +25,7 @@ mod hostile_scenes;
 mod inverse_bilinear;
 mod light_billboards;
 mod measure;
+mod movies;
 mod noise_displace;
 mod openness;
 mod own_shaders;

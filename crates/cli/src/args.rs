@@ -26,6 +26,8 @@ pub(crate) enum Command {
     Edit(EditArguments),
     /// Paint frames of a scene, or any OBJ model from a sensible camera.
     Render(RenderArguments),
+    /// Make a movie of frames that are there, painted or touched up; by ffmpeg, where that is installed.
+    Movie(MovieArguments),
     /// Write the scene that `render MODEL` would use to a file.
     New(NewArguments),
     /// List every problem of scenes, with its line and column.
@@ -237,8 +239,8 @@ pub(crate) struct EditArguments {
 pub(crate) struct RenderArguments {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
-    /// Where frames go: #### or %04d or $F4 stands for the frame number, - for standard output (one frame). A name that
-    /// ends in .exr gives linear pictures for compositing; one that ends in .mp4, .mov, .mkv or .webm is one movie, made by ffmpeg.
+    /// Where frames go: #### or %04d or $F4 stands for the frame number, - for standard output (one frame). A name that ends in
+    /// .exr gives linear pictures for compositing; one in .mp4, .mkv (H.264), .mov (ProRes 4444) or .webm (VP9) a movie, by ffmpeg.
     #[arg(short, long, default_value = "out/frame_####.png")]
     pub(crate) output: String,
     /// Which frames: a-b, a..b, a-bxN and a-b:N (every Nth), commas; left out, the scene's own.
@@ -288,6 +290,44 @@ pub(crate) struct RenderArguments {
     pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) talk: Talk,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct MovieArguments {
+    /// The frames, PNG files of one size: #### or %04d or $F4 stands for the frame number.
+    #[arg(value_name = "FRAMES")]
+    pub(crate) pattern: String,
+    /// What a shell makes of `*`: refused, with the mend.
+    #[arg(hide = true)]
+    pub(crate) more: Vec<String>,
+    /// The movie: .mp4, .mkv (H.264), .mov (ProRes 4444) or .webm (VP9).
+    #[arg(short, long, value_name = "MOVIE")]
+    pub(crate) output: PathBuf,
+    /// Which frames, in which order: a-b, a..b, a-bxN and a-b:N (every Nth), commas; left out, all that are there, without
+    /// gaps.
+    #[arg(short = 'f', long = "frames", value_name = "LIST", allow_hyphen_values = true)]
+    pub(crate) list: Option<String>,
+    /// Frames a second, such as 25, 23.976 or 24000/1001.
+    #[arg(long, default_value = "24", value_parser = parse_fps)]
+    pub(crate) fps: f64,
+    /// Make a transparent movie (.mov or .webm) in any case. Left out, these two are transparent where the frames are, and
+    /// in an .mp4 or .mkv frames lie over black.
+    #[arg(long)]
+    pub(crate) alpha: bool,
+    /// Say nothing but errors.
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+/// Reads frames a second: a number, or one over another.
+fn parse_fps(text: &str) -> Result<f64, String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok();
+    let fps = match text.split_once('/') {
+        Some((over, under)) => number(over).zip(number(under)).map(|(over, under)| over / under),
+        None => number(text),
+    };
+    fps.filter(|fps| (0.001..=1e6).contains(fps))
+        .ok_or_else(|| "write a number of frames a second, such as 24, 23.976 or 24000/1001".to_owned())
 }
 
 #[derive(Args, Debug)]

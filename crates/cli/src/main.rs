@@ -7,6 +7,7 @@ mod doctor;
 #[cfg(feature = "editor")]
 mod edit;
 mod failure;
+mod ffmpeg;
 mod info;
 mod interrupt;
 mod measure;
@@ -43,6 +44,7 @@ fn main() -> ExitCode {
         #[cfg(feature = "editor")]
         Command::Edit(arguments) => edit::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
+        Command::Movie(arguments) => movie::run(&arguments),
         Command::New(arguments) => new::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),

@@ -1,131 +1,192 @@
-//! Writes movies: pipes raw frames to ffmpeg, where that is installed.
+//! `impasto movie`: a movie of frames that are on the disk.
 
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
 
-use impasto_scene::whole_file::WholeFile;
+use impasto_frame_files::frame_reader::{self, Depth, FrameInfo, FramePixels};
+use impasto_frame_files::{FrameList, Pattern, not_an_input, ready_folder};
+use rayon::prelude::*;
 
+use crate::args::MovieArguments;
 use crate::failure::Failure;
+use crate::ffmpeg::{FrameFormat, Kind, Movie};
+use crate::interrupt::Interrupt;
+use crate::render::progress_bar;
 
-#[cfg(test)]
-mod tests;
+/// The frames of a movie, in order, all of one size.
+struct Frames {
+    paths: Vec<PathBuf>,
+    infos: Vec<FrameInfo>,
+}
 
-/// Converts sRGB pixels to BT.709 in the limited range of television, and states that in the file. Players assume it;
-/// by default ffmpeg writes BT.601 and states nothing, and players show wrong colours. H.264 and others need even
-/// sides, so the picture is padded: transparent in files with transparency, else black.
-const FILTERS: &str = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=black@0,\
-    scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int,\
-    setparams=color_primaries=bt709:color_trc=bt709:colorspace=bt709";
-
-/// How a movie is encoded: ffmpeg's arguments for its file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Encoding(&'static [&'static str]);
-
-/// Endings of file names that mean a movie, with the encodings without and with transparency.
-const ENCODINGS: [(&str, Encoding, Option<Encoding>); 4] = [
-    ("mp4", Encoding(&["-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4"]), None),
-    (
-        "mov",
-        Encoding(&["-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mov"]),
-        // ProRes 4444.
-        Some(Encoding(&["-c:v", "prores_ks", "-profile:v", "4", "-pix_fmt", "yuva444p10le", "-f", "mov"])),
-    ),
-    ("mkv", Encoding(&["-pix_fmt", "yuv420p", "-f", "matroska"]), None),
-    (
-        "webm",
-        Encoding(&["-pix_fmt", "yuv420p", "-f", "webm"]),
-        Some(Encoding(&["-c:v", "libvpx-vp9", "-pix_fmt", "yuva420p", "-f", "webm"])),
-    ),
-];
-
-impl Encoding {
-    /// The encoding that a file's name asks for; `None` for a name that is not a movie's.
-    ///
-    /// # Errors
-    /// A message, where transparency is wanted and this kind of file has none.
-    pub(crate) fn of(path: &Path, transparent: bool) -> Option<Result<Self, String>> {
-        let ending = path.extension()?.to_string_lossy().to_lowercase();
-        let (_, opaque, with_alpha) = ENCODINGS.into_iter().find(|(known, ..)| *known == ending)?;
-        if !transparent {
-            return Some(Ok(opaque));
+pub(crate) fn run(arguments: &MovieArguments) -> Result<(), Failure> {
+    let interrupt = Interrupt::watch()?;
+    let output = arguments.output.as_path();
+    let Some(kind) = Kind::of(output) else {
+        let words = format!("-o {}: let the name end in .mp4, .mkv, .mov or .webm", output.display());
+        return Err(Failure::Usage(words));
+    };
+    // Refused before anything is read.
+    kind.encoding(arguments.alpha)?;
+    let paths = paths(arguments)?;
+    not_an_input(output, &paths)?;
+    let frames = Frames::of(paths)?;
+    let transparent =
+        arguments.alpha || kind.holds_transparency() && frames.are_transparent_somewhere(arguments.quiet)?;
+    let encoding = kind.encoding(transparent)?;
+    encoding.ready(output)?;
+    ready_folder(output)?;
+    interrupt.hold_off();
+    let deep = encoding.deep && frames.infos.iter().any(|info| info.depth == Depth::Sixteen);
+    let format = FrameFormat {
+        size_px: frames.infos[0].size_px,
+        depth: if deep { Depth::Sixteen } else { Depth::Eight },
+        fps: arguments.fps,
+    };
+    let mut movie = Movie::start(output, encoding, format)?;
+    let bar = progress_bar(frames.paths.len() as u64, arguments.quiet);
+    let poured = frames.pour(|mut frame| {
+        if interrupt.came() {
+            return Err(Failure::Interrupted { done: 0 });
         }
-        Some(with_alpha.ok_or_else(|| {
-            format!(
-                "--alpha: a .{ending} movie holds no transparency; write a .mov (ProRes 4444) or a .webm (VP9), or PNG frames"
-            )
-        }))
+        let lies_over_black = !transparent && !frame.is_opaque();
+        if lies_over_black {
+            frame.lay_over_black();
+        }
+        movie.add(&frame.at_depth(format.depth).rgba)?;
+        bar.inc(1);
+        Ok(lies_over_black)
+    });
+    bar.finish_and_clear();
+    let lies_over_black = poured?;
+    movie.finish()?;
+    if !arguments.quiet {
+        eprintln!("{} frames in {}", frames.paths.len(), output.display());
+        if lies_over_black {
+            eprintln!(
+                "what is transparent in the frames is black here; a .mov or a .webm keeps it transparent"
+            );
+        }
+    }
+    Ok(())
+}
+
+/// The files of the frames, in order.
+fn paths(arguments: &MovieArguments) -> Result<Vec<PathBuf>, Failure> {
+    let text = arguments.pattern.as_str();
+    let pattern = Pattern::parse(text, 1);
+    if !arguments.more.is_empty() || !pattern.has_place() {
+        let words = format!(
+            "name all frames by one word with #### for the number, such as {}; -f takes some of them",
+            example(text)
+        );
+        return Err(Failure::Usage(words));
+    }
+    let list = arguments.list.as_deref().map(FrameList::parse).transpose().map_err(Failure::Usage)?;
+    let frames = match list {
+        Some(list) => list.iter().collect(),
+        None => frames_there(text, &pattern)?,
+    };
+    Ok(frames.into_iter().map(|frame| pattern.path(frame)).collect())
+}
+
+/// The pattern that somebody meant who named a folder or a single frame.
+fn example(text: &str) -> String {
+    let path = Path::new(text);
+    if path.is_dir() {
+        return path.join("####.png").display().to_string();
+    }
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let before = stem.trim_end_matches(|letter: char| letter.is_ascii_digit());
+    let digits = match stem.len() - before.len() {
+        0 => 4,
+        digits => digits,
+    };
+    let ending = path.extension().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!("{before}{}.{ending}", "#".repeat(digits))).display().to_string()
+}
+
+/// All frames that are there, which must be without gaps.
+fn frames_there(text: &str, pattern: &Pattern) -> Result<Vec<i64>, Failure> {
+    let frames = pattern.frames_there().map_err(|error| Failure::of_file(Path::new(text), error))?;
+    let [first, .., last] = frames[..] else {
+        return match frames[..] {
+            [] => {
+                Err(Failure::Refused(format!("{text}: no file has such a name; look for the frames' names")))
+            }
+            _ => Ok(frames),
+        };
+    };
+    let Some(gap) = frames.windows(2).find(|pair| pair[1].abs_diff(pair[0]) != 1) else { return Ok(frames) };
+    let step = gap[1].abs_diff(gap[0]);
+    let even = frames.windows(2).all(|pair| pair[1].abs_diff(pair[0]) == step);
+    let example = if even { format!("{first}-{last}x{step}") } else { format!("{first}-{}", gap[0]) };
+    Err(Failure::Refused(format!(
+        "{} is not there, but frames before and after it are; render it, or name those to take, such as -f {example}",
+        pattern.path(gap[0] + 1).display()
+    )))
+}
+
+impl Frames {
+    /// Looks at every file's header, so that a frame that does not fit is found before anything is written.
+    fn of(paths: Vec<PathBuf>) -> Result<Self, Failure> {
+        let mut infos: Vec<FrameInfo> = Vec::with_capacity(paths.len());
+        for path in &paths {
+            let info = frame_reader::info(path).map_err(|error| Failure::Refused(error.to_string()))?;
+            infos.push(info);
+            fits(path, info.size_px, &paths[0], infos[0].size_px)?;
+        }
+        Ok(Self { paths, infos })
+    }
+
+    fn read(&self, path: &Path) -> Result<FramePixels, Failure> {
+        let frame = frame_reader::read(path).map_err(|error| Failure::Refused(error.to_string()))?;
+        // The file may have been written anew since its header was looked at.
+        fits(path, frame.size_px, &self.paths[0], self.infos[0].size_px)?;
+        Ok(frame)
+    }
+
+    /// Hands each frame to `take_in`, in order. Tells whether that said yes to any.
+    fn pour(&self, mut take_in: impl FnMut(FramePixels) -> Result<bool, Failure>) -> Result<bool, Failure> {
+        let mut any = false;
+        for path in &self.paths {
+            any |= take_in(self.read(path)?)?;
+        }
+        Ok(any)
+    }
+
+    /// Whether any pixel of any frame is transparent. Only frames whose files have alpha are read, up to the first one.
+    fn are_transparent_somewhere(&self, quiet: bool) -> Result<bool, Failure> {
+        let with_alpha: Vec<&PathBuf> = self
+            .paths
+            .iter()
+            .zip(&self.infos)
+            .filter(|(_, info)| info.has_alpha)
+            .map(|(path, _)| path)
+            .collect();
+        let bar = progress_bar(with_alpha.len() as u64, quiet);
+        bar.set_prefix("looking for transparency ");
+        let found = with_alpha.into_par_iter().find_map_first(|path| {
+            let transparent = self.read(path).map(|frame| !frame.is_opaque());
+            bar.inc(1);
+            (!matches!(transparent, Ok(false))).then_some(transparent)
+        });
+        bar.finish_and_clear();
+        found.unwrap_or(Ok(false))
     }
 }
 
-/// A movie that is being written. The file gets its name only once it is whole; dropped before that, it leaves nothing.
-pub(crate) struct Movie {
-    encoder: Child,
-    file: Option<WholeFile>,
-    path: PathBuf,
-}
-
-impl Movie {
-    /// Starts ffmpeg.
-    pub(crate) fn start(
-        path: &Path,
-        encoding: Encoding,
-        size_px: [u32; 2],
-        fps: f64,
-    ) -> Result<Self, Failure> {
-        let file = WholeFile::create(path).map_err(|error| Failure::of_file(path, error))?;
-        let mut command = Command::new("ffmpeg");
-        command
-            .args(["-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgba"])
-            .args(["-s", &format!("{}x{}", size_px[0], size_px[1]), "-r", &fps.to_string(), "-i", "-"])
-            .args(["-an", "-vf", FILTERS])
-            .args(encoding.0)
-            .arg(file.part_path())
-            .stdin(Stdio::piped())
-            .stdout(Stdio::null());
-        // Ctrl-C in a terminal goes to a whole process group. ffmpeg has a group of its own, so that only we end it.
-        #[cfg(unix)]
-        std::os::unix::process::CommandExt::process_group(&mut command, 0);
-        let encoder = command.spawn().map_err(|error| match error.kind() {
-            std::io::ErrorKind::NotFound => Failure::Refused(format!(
-                "{}: movies are made by ffmpeg, which is not installed; install it (apt install ffmpeg), or write \
-                 frames with -o out/frame_####.png or one animated PNG with --apng",
-                path.display()
-            )),
-            _ => Failure::Other(format!("ffmpeg cannot be started: {error}")),
-        })?;
-        Ok(Self { encoder, file: Some(file), path: path.to_owned() })
+/// Refuses a frame that is not as large as the first.
+fn fits(path: &Path, size_px: [u32; 2], first: &Path, first_size_px: [u32; 2]) -> Result<(), Failure> {
+    if size_px == first_size_px {
+        return Ok(());
     }
-
-    /// Appends a frame.
-    pub(crate) fn add(&mut self, rgba8: &[u8]) -> Result<(), Failure> {
-        let Some(pipe) = &mut self.encoder.stdin else { return Ok(()) };
-        pipe.write_all(rgba8)
-            .map_err(|error| Failure::Other(format!("ffmpeg stopped before the last frame: {error}")))
-    }
-
-    /// Waits for ffmpeg and gives the movie its name.
-    pub(crate) fn finish(mut self) -> Result<(), Failure> {
-        drop(self.encoder.stdin.take());
-        let status = self.encoder.wait().map_err(|error| Failure::Other(format!("ffmpeg: {error}")))?;
-        if !status.success() {
-            return Err(Failure::Other(format!(
-                "ffmpeg ended with {status}; {} is not written",
-                self.path.display()
-            )));
-        }
-        let Some(file) = self.file.take() else { return Ok(()) };
-        file.finish().map_err(|error| Failure::of_file(&self.path, error))
-    }
-}
-
-impl Drop for Movie {
-    fn drop(&mut self) {
-        // An unfinished movie leaves no ffmpeg running.
-        drop(self.encoder.stdin.take());
-        if self.encoder.try_wait().is_ok_and(|status| status.is_none()) {
-            let _ = self.encoder.kill();
-            let _ = self.encoder.wait();
-        }
-    }
+    Err(Failure::Refused(format!(
+        "{} is {} x {} pixels, but {} is {} x {}; render it at that size, or leave it out by -f",
+        path.display(),
+        size_px[0],
+        size_px[1],
+        first.display(),
+        first_size_px[0],
+        first_size_px[1],
+    )))
 }

@@ -5,6 +5,7 @@ use std::io::{IsTerminal as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use impasto_frame_files::frame_reader::Depth;
 use impasto_frame_files::picture_file::{self, Pixels};
 use impasto_frame_files::{FrameList, Pattern, not_an_input, ready_folder};
 use impasto_gl_render::shader_folder::ShaderFolder;
@@ -18,8 +19,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::args::{ColorsChoice, RenderArguments, RotationChoice};
 use crate::failure::Failure;
+use crate::ffmpeg::{Encoding, FrameFormat, Kind, Movie};
 use crate::interrupt::Interrupt;
-use crate::movie::{Encoding, Movie};
 use crate::session;
 use crate::sheet::Sheet;
 
@@ -31,7 +32,7 @@ enum Destination {
     /// One animated PNG file.
     Animation(PathBuf),
     /// One movie.
-    Movie(PathBuf, Encoding),
+    Movie(PathBuf, &'static Encoding),
     /// One picture, to standard output.
     Stream,
 }
@@ -171,13 +172,14 @@ fn destination(arguments: &RenderArguments, frames: &FrameList) -> Result<Destin
         }
         return Ok(Destination::Stream);
     }
-    if let Some(encoding) = Encoding::of(Path::new(&arguments.output), arguments.alpha) {
+    if let Some(kind) = Kind::of(Path::new(&arguments.output)) {
         if arguments.apng || arguments.contact_sheet || arguments.skip_existing {
             let words = "-o MOVIE makes one movie and nothing else: leave --apng, --contact-sheet and --skip-existing out";
             return Err(Failure::Usage(words.to_owned()));
         }
-        let encoding = encoding.map_err(Failure::Usage)?;
-        return Ok(Destination::Movie(PathBuf::from(&arguments.output), encoding));
+        let (path, encoding) = (PathBuf::from(&arguments.output), kind.encoding(arguments.alpha)?);
+        encoding.ready(&path)?;
+        return Ok(Destination::Movie(path, encoding));
     }
     if !has_ending(&arguments.output, ".png") && !has_ending(&arguments.output, ".exr") {
         let words =
@@ -209,7 +211,7 @@ impl Plan {
         interrupt: &Interrupt,
     ) -> Result<(), Failure> {
         let Self { sequence, renderer, frames, .. } = self;
-        let bar = progress_bar(frames.count(), arguments);
+        let bar = progress_bar(frames.count(), arguments.talk.quiet);
         let mut sheet = arguments.contact_sheet.then(|| Sheet::new(frames.count(), sequence.options.size_px));
         let (mut done, mut failed, start) = (0, 0, Instant::now());
         let sheet_provenance = sequence.provenance("sheet", renderer);
@@ -314,11 +316,15 @@ impl Plan {
         &mut self,
         arguments: &RenderArguments,
         path: &Path,
-        encoding: Encoding,
+        encoding: &Encoding,
         interrupt: &Interrupt,
     ) -> Result<(), Failure> {
-        let fps = self.sequence.painting.scene().timeline.fps;
-        let mut movie = Movie::start(path, encoding, self.sequence.options.size_px, fps)?;
+        let frames = FrameFormat {
+            size_px: self.sequence.options.size_px,
+            depth: Depth::Eight,
+            fps: self.sequence.painting.scene().timeline.fps,
+        };
+        let mut movie = Movie::start(path, encoding, frames)?;
         self.pictures(arguments, interrupt, |rgba8| movie.add(rgba8))?;
         movie.finish()?;
         self.tell_done(arguments, path);
@@ -343,7 +349,7 @@ impl Plan {
         mut take_in: impl FnMut(&[u8]) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
         let Self { sequence, renderer, frames, .. } = self;
-        let bar = progress_bar(frames.count(), arguments);
+        let bar = progress_bar(frames.count(), arguments.talk.quiet);
         let ending = sequence.render(renderer, frames, &|| interrupt.came(), |drawn| {
             if let Some(picture) = &drawn.picture {
                 take_in(&picture.rgba8)?;
@@ -383,11 +389,12 @@ fn cost_words(drawn: &Drawn, cost: &Cost) -> String {
     text
 }
 
-fn progress_bar(count: u64, arguments: &RenderArguments) -> ProgressBar {
-    let shown = std::io::stderr().is_terminal() && !arguments.talk.quiet;
+/// A bar that is shown in a terminal.
+pub(crate) fn progress_bar(count: u64, quiet: bool) -> ProgressBar {
+    let shown = std::io::stderr().is_terminal() && !quiet;
     let target = if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
     let bar = ProgressBar::with_draw_target(Some(count), target);
-    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} frames, {eta} left") {
+    if let Ok(style) = ProgressStyle::with_template("{prefix}{wide_bar} {pos}/{len} frames, {eta} left") {
         bar.set_style(style);
     }
     bar

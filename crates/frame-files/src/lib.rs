@@ -1,9 +1,10 @@
-//! Rendered frames as files: lists of frames, their file names, PNG and EXR. The command line and the editor write the same
+//! Rendered frames as files: lists of frames, their file names, PNG and EXR, written and read. The command line and the editor write the same
 //! bytes because both write them here.
 
 pub mod exr_file;
 mod exr_header;
 mod frame_list;
+pub mod frame_reader;
 mod pattern;
 pub mod picture_file;
 mod place;

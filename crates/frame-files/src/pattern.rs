@@ -1,6 +1,7 @@
 //! File names of frames: a pattern with a place for the frame number.
 
-use std::path::PathBuf;
+use std::io;
+use std::path::{Path, PathBuf};
 
 /// A path with a place for the frame number. For a single frame it may have none.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -39,6 +40,37 @@ impl Pattern {
         let Self { before, digits, after } = self;
         let Some(digits) = *digits else { return PathBuf::from(format!("{before}{after}")) };
         PathBuf::from(format!("{before}{sign}{:0digits$}{after}", frame.unsigned_abs()))
+    }
+
+    /// Whether the name has a place for the frame number.
+    pub fn has_place(&self) -> bool {
+        self.digits.is_some()
+    }
+
+    /// The numbers of the frames whose files are there, from low to high. A file counts only if its name is the one that
+    /// [`Pattern::path`] gives.
+    ///
+    /// # Errors
+    /// What the system said about the folder.
+    pub fn frames_there(&self) -> io::Result<Vec<i64>> {
+        let name_at = self.before.rfind(['/', '\\']).map_or(0, |at| at + 1);
+        let (folder, start) = self.before.split_at(name_at);
+        let folder = if folder.is_empty() { Path::new(".") } else { Path::new(folder) };
+        let mut frames = Vec::new();
+        for entry in std::fs::read_dir(folder)? {
+            let name = entry?.file_name();
+            let number = name
+                .to_str()
+                .and_then(|name| name.strip_prefix(start)?.strip_suffix(&self.after))
+                .and_then(|number| number.parse::<i64>().ok());
+            if let Some(number) = number
+                && self.path(number).file_name() == Some(&name)
+            {
+                frames.push(number);
+            }
+        }
+        frames.sort_unstable();
+        Ok(frames)
     }
 
     /// A file beside the frames, with `word` where they have their number.
@@ -95,5 +127,38 @@ mod tests {
         assert_eq!(Pattern::parse("out/f.png", 1).path(7), PathBuf::from("out/f.png"));
         assert_eq!(Pattern::parse("out/f.png", 1).beside("sheet"), PathBuf::from("out/f_sheet.png"));
         assert_eq!(Pattern::parse("out/f_####.png", 9).beside("sheet"), PathBuf::from("out/f_sheet.png"));
+    }
+
+    #[test]
+    fn frames_that_are_there_are_found_by_their_exact_names() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in [
+            "f_0010.png",
+            "f_0002.png",
+            "f_-0001.png",
+            "f_12345.png",
+            // Other digits, other names, no numbers.
+            "f_003.png",
+            "f_00004.png",
+            "f_+005.png",
+            "f_0006.png.txt",
+            "g_0007.png",
+            "f_sheet.png",
+            "f_.png",
+            "f_0008.PNG",
+        ] {
+            std::fs::write(folder.path().join(name), "").unwrap();
+        }
+        let there = |name: &str| {
+            let pattern = Pattern::parse(&folder.path().join(name).display().to_string(), 1);
+            assert!(pattern.has_place());
+            pattern.frames_there().unwrap()
+        };
+        for name in ["f_####.png", "f_%04d.png", "f_$F4.png"] {
+            assert_eq!(there(name), [-1, 2, 10, 12_345], "{name}");
+        }
+        assert_eq!(there("f_#.png"), [12_345]);
+        assert!(Pattern::parse("no/such/folder/####.png", 1).frames_there().is_err());
+        assert!(!Pattern::parse("out/f.png", 1).has_place());
     }
 }
