@@ -14,6 +14,7 @@ use rayon::prelude::*;
 use crate::bake::{BakedBody, LiftSources};
 use crate::bent::Bent;
 use crate::body::BodySurface;
+use crate::made_once::made_once;
 use crate::paper::PolygonCounts;
 use crate::particles::Particles;
 use crate::surface::{Albedo, SurfaceInputs};
@@ -54,7 +55,7 @@ impl Coat {
 
     /// A bit for each particle: whether it faces the eye within the bounds, carried by a body that is not at rest.
     pub(crate) fn carried_within(&self, bent: &Bent, view: &ParticleView, bounds: &Bounds) -> Vec<u64> {
-        let sorted = self.sorted.get_or_init(|| {
+        let sorted = made_once(&self.sorted, || {
             SortedParticles::new(self.sampled.particles.places(), &self.baked.baked, self.heights())
         });
         bent.carrier().within(&self.surface.mesh, sorted, view, bounds)
