@@ -40,5 +40,6 @@ mod shot_looks;
 mod shots;
 mod steadiness;
 mod sumi_e;
+mod turntable;
 mod warm_prepare;
 mod whole_shot;

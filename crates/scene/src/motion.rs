@@ -11,6 +11,7 @@ use impasto_core::bending::BendPose;
 use impasto_gltf::Posed;
 
 use crate::document::{CameraKey, Lens, Object, ObjectKey, Reference, Scale, Scene};
+use crate::limits;
 use span::Span;
 
 pub use values::{background_at, light_at, lights_at, stroke_key_at};
@@ -312,18 +313,19 @@ pub fn key_at(scene: &Scene, object: &Object, frame: f64) -> ObjectKey {
     }
 }
 
-/// A pose of a shot as a key. Shear is lost.
-fn key_of_pose(pose: DAffine3, frame: f64) -> ObjectKey {
+/// A pose as a key at a frame. Shear is lost, and so is mirroring; the scale is brought within [`limits::KEY_SCALE`].
+pub fn key_of_pose(pose: DAffine3, frame: f64) -> ObjectKey {
     let [x, y, z] = [pose.matrix3.x_axis, pose.matrix3.y_axis, pose.matrix3.z_axis];
     let scale = DVec3::new(x.length(), y.length(), z.length());
     let axes = DMat3::from_cols(x / scale.x, y / scale.y, z / scale.z);
     let rotation = if axes.is_finite() && axes.determinant() > 0.0 { axes } else { DMat3::IDENTITY };
     let even = scale.max_element() - scale.min_element() < 1e-9 * scale.max_element();
+    let [least, most] = [limits::KEY_SCALE.start(), limits::KEY_SCALE.end()].map(|&end| DVec3::splat(end));
     let scale = if even { DVec3::splat(pose.matrix3.determinant().abs().cbrt()) } else { scale };
     ObjectKey {
         translation: pose.translation.to_array(),
         rotation_deg: euler_deg_from_rotation(rotation).to_array(),
-        scale: Scale(scale.clamp(DVec3::splat(0.001), DVec3::splat(1000.0)).to_array()),
+        scale: Scale(scale.clamp(least, most).to_array()),
         ..ObjectKey::at(frame)
     }
 }
