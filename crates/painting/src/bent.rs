@@ -89,7 +89,7 @@ impl BodySurface {
     }
 
     pub(crate) fn gradients(&self) -> &Gradients {
-        made_once(&self.bending.gradients, || Gradients::new(&self.mesh))
+        made_once(&self.bending.gradients, || Gradients::new(&self.mesh, self.bending.bonds()))
     }
 
     /// The vertices as targets, joints or a cache put them.
