@@ -63,9 +63,9 @@ impl BodyBend {
         }
     }
 
-    /// The same at rest in another shape, of which nothing was measured yet.
+    /// The same at rest in another shape, of which nothing was measured yet. What went wrong stays known.
     pub(crate) fn resting(self, rest: BodyShape) -> Self {
-        Self { bend: self.bend, cache: self.cache, rest, ..Self::default() }
+        Self { bend: self.bend, cache: self.cache, fault: self.fault, rest, ..Self::default() }
     }
 }
 

@@ -157,12 +157,21 @@ impl Painting {
         }
     }
 
-    /// What went wrong since it was prepared: point caches that could not be read any more. Such bodies stay at rest.
+    /// What went wrong since its files were opened: point caches that could not be read any more. Such bodies stay at rest. Each is told
+    /// once, in the order of the words.
     pub fn faults(&self) -> Vec<String> {
         let mut faults: Vec<String> =
             self.bodies.iter().filter_map(|body| body.surface.fault().cloned()).collect();
+        faults.sort();
         faults.dedup();
         faults
+    }
+
+    /// [`Painting::faults`] in one sentence; `None` where nothing went wrong.
+    pub fn fault_words(&self) -> Option<String> {
+        let faults = self.faults();
+        let why = "a body stayed at rest in some frames, since its point cache could not be read";
+        (!faults.is_empty()).then(|| format!("{why}: {}", faults.join("; ")))
     }
 
     /// Index of the region that a place of an object's surface belongs to; `regions.len()` of the scene for none of them.

@@ -58,10 +58,10 @@ pub struct FrameFiles<'a> {
 }
 
 /// How a sequence ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Ending {
-    /// After its last frame.
-    Done,
+    /// After its last frame. What the frames do not show as the scene has it, in words; `None` where all is well.
+    Done(Option<String>),
     /// It was stopped; frames that were under way are given up.
     Stopped,
 }
@@ -159,7 +159,7 @@ impl Sequence {
         };
         match in_order(jobs, workers, take_in) {
             Ok(()) if stopped => Ok(Ending::Stopped),
-            Ok(()) => Ok(Ending::Done),
+            Ok(()) => Ok(Ending::Done(self.painting.fault_words())),
             Err(Early::Stopped) => Ok(Ending::Stopped),
             Err(Early::Caller(error)) => Err(error),
         }
