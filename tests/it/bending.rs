@@ -1,8 +1,7 @@
 //! Tests of bodies that bend: strokes turn as closed forms say, particles suffice where a body stretches, nothing depends on what was
-//! asked before, and bad caches are told.
+//! asked before, and bad skins are told.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
@@ -259,87 +258,6 @@ fn an_uneven_scale_turns_strokes_as_its_map_says() {
         compared += 1;
     }
     assert!(compared > 300, "{compared}");
-}
-
-/// Writes a scene of a plate that a cache moves.
-fn cached_plate(folder: &Path, cache: &[u8]) -> std::path::PathBuf {
-    let plate = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 0\nf 1 2 3 4\nf 5 3 2\n";
-    std::fs::write(folder.join("plate.obj"), plate).expect("written");
-    std::fs::write(folder.join("plate.pc2"), cache).expect("written");
-    let text = "(version: 1, size: (64, 36), camera: (keys: [(frame: 0, eye: (0.5, 0.5, 3), target: (0.5, 0.5, 0))]), \
-                timeline: (last: 4), objects: [(name: \"plate\", mesh: \"plate.obj\", cache: \"plate.pc2\")])";
-    let path = folder.join("scene.ron");
-    std::fs::write(&path, text).expect("written");
-    path
-}
-
-fn pc2(samples: &[Vec<[f32; 3]>], claimed: i32) -> Vec<u8> {
-    let mut bytes = b"POINTCACHE2\0".to_vec();
-    bytes.extend(1i32.to_le_bytes().into_iter().chain(claimed.to_le_bytes()));
-    bytes.extend(0f32.to_le_bytes().into_iter().chain(2f32.to_le_bytes()));
-    bytes.extend((samples.len() as i32).to_le_bytes());
-    bytes.extend(samples.iter().flatten().flatten().flat_map(|number| number.to_le_bytes()));
-    bytes
-}
-
-#[test]
-fn a_cache_moves_the_points_of_its_file() {
-    let folder = tempfile::tempdir().expect("a folder");
-    // Points 0 and 4 lie on each other at rest and part in the cache.
-    let still = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]];
-    let mut moved = still.clone();
-    (moved[0][2], moved[4][2]) = (1.0, -1.0);
-    let path = cached_plate(folder.path(), &pc2(&[still, moved], 5));
-    let loaded = load(&path, &LoadOptions::default()).unwrap_or_else(|report| panic!("{report}"));
-    let painting = prepare(Arc::new(loaded)).expect("good");
-    let heights = |frame: f64| {
-        let positions = painting.surface(0).positions_at(&painting.shapes_at(frame)[0]);
-        let mut heights: Vec<f32> = positions.iter().map(|at| at.z).filter(|z| *z != 0.0).collect();
-        heights.sort_by(f32::total_cmp);
-        heights.dedup();
-        heights
-    };
-    assert_eq!((heights(0.0), heights(1.0), heights(2.0)), (vec![], vec![-0.5, 0.5], vec![-1.0, 1.0]));
-    assert_eq!(heights(4.0), [-1.0, 1.0]);
-    assert_eq!(painting.faults(), Vec::<String>::new());
-}
-
-#[test]
-fn a_cache_that_does_not_fit_is_refused_with_its_place() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let sample = |count: usize| vec![vec![[0.0; 3]; count]; 2];
-    for (bytes, expected) in [
-        (pc2(&sample(4), 4), "plate.pc2 moves 4 points, but plate.obj has 5"),
-        (pc2(&sample(5), 6), "cut short"),
-        (pc2(&sample(5), 1_000_000_000), "cut short"),
-        (pc2(&sample(5), 4), "more behind"),
-        (b"POINTCACHE2\0 no".to_vec(), "no PC2 file"),
-        (pc2(&[vec![[f32::NAN; 3]; 5]], 5), "point 0 of sample 0"),
-    ] {
-        let path = cached_plate(folder.path(), &bytes);
-        let report = load(&path, &LoadOptions::default()).expect_err(expected).to_string();
-        assert!(report.contains(expected), "{report}");
-        assert!(report.contains("plate.pc2"), "{report}");
-    }
-    std::fs::remove_file(folder.path().join("plate.pc2")).expect("removed");
-    let report = load(&folder.path().join("scene.ron"), &LoadOptions::default()).unwrap_err().to_string();
-    assert!(report.contains("scene.ron:1:") && report.contains("not found"), "{report}");
-}
-
-#[test]
-fn a_cache_that_is_lost_later_leaves_the_body_at_rest_and_is_told() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let cache = pc2(&vec![vec![[0.5; 3]; 5]; 3], 5);
-    let path = cached_plate(folder.path(), &cache);
-    let painting = prepare(Arc::new(load(&path, &LoadOptions::default()).expect("good"))).expect("good");
-    std::fs::OpenOptions::new()
-        .write(true)
-        .open(folder.path().join("plate.pc2"))
-        .and_then(|file| file.set_len(40))
-        .expect("cut");
-    let positions = painting.surface(0).positions_at(&painting.shapes_at(2.0)[0]);
-    assert_eq!(positions, painting.surface(0).mesh.positions);
-    assert!(painting.faults()[0].contains("plate.pc2, at frame 2"), "{:?}", painting.faults());
 }
 
 /// A copy of the shot of the parade, changed; returns what reading it says.

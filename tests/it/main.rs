@@ -28,6 +28,7 @@ mod noise_displace;
 mod openness;
 mod own_shaders;
 mod paint;
+mod point_caches;
 mod progressive_order;
 mod recall;
 mod references;
