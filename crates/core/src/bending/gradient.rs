@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::Bonds;
 use crate::TriangleMesh;
+use crate::cofactors::cofactors_f32;
 
 /// How many places one task measures.
 const CHUNK: usize = 1024;
@@ -109,18 +110,10 @@ impl Gradients {
     /// The normals of a mesh when its vertices are at these positions: each turns as the surface round it does.
     pub fn normals(&self, rest: &[Vec3], gradients: &[Mat3]) -> Vec<Vec3> {
         let turned = |(normal, gradient): (&Vec3, &Mat3)| {
-            (cofactors(gradient) * *normal).try_normalize().unwrap_or(*normal)
+            (cofactors_f32(*gradient) * *normal).try_normalize().unwrap_or(*normal)
         };
         rest.par_iter().zip(gradients).with_min_len(CHUNK).map(turned).collect()
     }
-}
-
-/// Takes normals where a matrix takes surfaces: its inverse transpose times its determinant. The length of what it makes of a unit normal
-/// is the area now over the area before.
-#[inline(always)]
-pub(super) fn cofactors(matrix: &Mat3) -> Mat3 {
-    let Mat3 { x_axis: x, y_axis: y, z_axis: z } = *matrix;
-    Mat3::from_cols(y.cross(z), z.cross(x), x.cross(y))
 }
 
 /// The place of each vertex, and for each place its first vertex.

@@ -5,10 +5,11 @@ use std::sync::Arc;
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use impasto_core::TriangleMesh;
 use impasto_core::bending::{Bend, BendPose, SkinWeights, Target};
+use impasto_core::cofactors::cofactors;
 use impasto_gltf::{Mesh, Posed, Primitive};
 
 use super::GltfFile;
-use super::joints::{blended, cofactors};
+use super::joints::blended;
 
 /// Consecutive vertices of a joined mesh that come from one primitive.
 #[derive(Debug)]

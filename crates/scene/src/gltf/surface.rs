@@ -3,12 +3,13 @@
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3, Vec2, Vec3};
+use impasto_core::cofactors::cofactors;
 use impasto_core::color::srgb_from_linear;
 use impasto_gltf::{Mesh, Node, Primitive};
 
 use super::GltfFile;
 use super::bend::{self, Run};
-use super::joints::{blended, cofactors};
+use super::joints::blended;
 use crate::mesh_file::MeshFile;
 use crate::surface::{Builder, Built, Geometry};
 
