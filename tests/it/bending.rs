@@ -8,7 +8,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use impasto_core::TriangleMesh;
 use impasto_measure::truth::{BodyView, PointMotion, ScreenTurn, SurfacePoint, TrueView};
 use impasto_painting::frame::{Frame, LayerKind};
-use impasto_painting::{FrameOptions, Painting, prepare};
+use impasto_painting::{FrameOptions, Painting, Rotation, prepare};
 use impasto_scene::document::{
     Direction, Ease, ObjectKey, Region, Rest, Scale, Scene, Selector, Solver, Style,
 };
@@ -131,11 +131,12 @@ fn stretched(at: DVec3) -> DVec3 {
 
 #[test]
 fn strokes_turn_as_closed_forms_of_bending_say() {
-    for (name, mesh, map) in [
-        ("a bowed bar", bar(0.45), &bowed as &dyn Fn(DVec3) -> DVec3),
-        ("a twisted bar", bar(0.5), &twisted),
-        ("a stretched sheet", shapes::sheet(48), &stretched),
-        ("a bowed sheet", shapes::sheet(48), &bowed),
+    // With the largest errors that are allowed, degrees: of 95 in 100 strokes, and of all.
+    for (name, mesh, map, most) in [
+        ("a bowed bar", bar(0.45), &bowed as &dyn Fn(DVec3) -> DVec3, [0.035, 0.56]),
+        ("a twisted bar", bar(0.5), &twisted, [0.017, 0.18]),
+        ("a stretched sheet", shapes::sheet(48), &stretched, [0.001, 0.001]),
+        ("a bowed sheet", shapes::sheet(48), &bowed, [0.28, 0.9]),
     ] {
         for angle_deg in [7.0, 30.0, 137.0] {
             // Directions are stated in the picture of the straight shape, then in that of the bent one.
@@ -145,7 +146,7 @@ fn strokes_turn_as_closed_forms_of_bending_say() {
                 let errors = errors(&mesh, map, scene, reference);
                 let (p95, max) = (errors[errors.len() * 95 / 100], errors[errors.len() - 1]);
                 println!("{name}, {angle_deg} from frame {reference}: p95 {p95:.3}, max {max:.3} degrees");
-                assert!(p95 <= 0.5 && max <= 2.0, "{name}, {angle_deg}: p95 {p95}, max {max}");
+                assert!(p95 <= most[0] && max <= most[1], "{name}, {angle_deg}: p95 {p95}, max {max}");
             }
         }
     }
@@ -162,7 +163,45 @@ fn a_stated_angle_shows_in_the_reference_whatever_the_rest() {
         let shown = angles(&painting.at(10.0, &FrameOptions::new(SIZE_PX)), 0.6);
         let worst =
             shown.values().map(|angle| lines_apart_deg(*angle, 30f64.to_radians())).fold(0.0, f64::max);
-        assert!(shown.len() > 200 && worst < 0.2, "{rest:?}: {worst} degrees of {} strokes", shown.len());
+        println!("{rest:?}: {worst:.5} degrees off what is stated");
+        assert!(shown.len() > 200 && worst < 3e-5, "{rest:?}: {worst} degrees of {} strokes", shown.len());
+    }
+}
+
+/// What is off its surface is as far off it where the reference has the body bent.
+#[test]
+fn raised_strokes_show_as_stated_in_a_bent_reference() {
+    let target = shapes::moved(&shapes::sheet(32), stretched);
+    let painting = |follow: f64| {
+        let mut scene = morphing_scene(30.0);
+        scene.reference = impasto_scene::document::Reference::Frame(10);
+        scene.strokes.offset = Some(0.6);
+        scene.strokes.size_follow = Some(follow);
+        prepare(shapes::morphing(scene, [shapes::sheet(32), target.clone()])).expect("good")
+    };
+    let (stated, following) = (painting(0.0), painting(1.0));
+    let options = FrameOptions::new(SIZE_PX);
+    let turned = angles(&stated.at(10.0, &options), 0.6);
+    let unturned = angles(&stated.at(10.0, &FrameOptions { rotation: Rotation::Off, ..options }), 0.6);
+    assert!(turned.len() > 200, "{}", turned.len());
+    let apart = turned.iter().map(|(particle, angle)| lines_apart_deg(*angle, unturned[particle]));
+    let worst = apart.fold(0.0, f64::max);
+    println!("raised, in the reference: at most {worst:.6} degrees off");
+    assert!(worst < 1.5e-5, "{worst} degrees");
+    let lengths = |painting: &Painting| -> BTreeMap<u32, f32> {
+        let frame = painting.at(10.0, &options);
+        let of = frame.sources.iter().zip(&frame.strokes);
+        of.map(|(source, stroke)| (source.particle, stroke.length_px)).collect()
+    };
+    let (own, followed) = (lengths(&stated), lengths(&following));
+    let grown = turned.keys().map(|particle| (followed[particle] / own[particle] - 1.0).abs());
+    println!("raised, in the reference: at most {:e} longer or shorter", grown.fold(0.0, f32::max));
+    for particle in turned.keys() {
+        let ratio = followed[particle] / own[particle];
+        assert!(
+            (ratio - 1.0).abs() < 1e-6,
+            "{particle}: {ratio} times as long in the reference's own picture"
+        );
     }
 }
 
@@ -186,7 +225,7 @@ fn the_paper_s_sum_agrees_on_a_bent_body() {
     apart.sort_by(f64::total_cmp);
     let (p50, p95) = (apart[apart.len() / 2], apart[apart.len() * 95 / 100]);
     println!("tangent against the paper's sum: p50 {p50:.3}, p95 {p95:.3} degrees over {}", apart.len());
-    assert!(apart.len() > 200 && p50 <= 1.0 && p95 <= 6.0, "{p50} {p95}");
+    assert!(apart.len() > 200 && p50 <= 0.37 && p95 <= 1.95, "{p50} {p95}");
 }
 
 /// Strokes on a body that stretches threefold are as many for each pixel as on the body at rest.
@@ -206,7 +245,7 @@ fn a_stretched_body_has_no_fewer_strokes_a_pixel() {
     };
     let (rest, wide) = (present(0.0), present(10.0));
     println!("{rest} strokes at rest, {wide} on three times the area");
-    assert!(rest > 100.0 && (wide / rest / 3.0 - 1.0).abs() < 0.06, "{rest} {wide}");
+    assert!(rest > 100.0 && (wide / rest / 3.0 - 1.0).abs() < 0.015, "{rest} {wide}");
 }
 
 #[test]
@@ -251,13 +290,11 @@ fn an_uneven_scale_turns_strokes_as_its_map_says() {
     let by_keys = of(&prepare(shapes::loaded(keyed, [shapes::sheet(16)])).expect("good"));
     let target = shapes::moved(&shapes::sheet(16), stretch);
     let by_morph = of(&prepare(shapes::morphing(morphed, [shapes::sheet(16), target])).expect("good"));
-    let mut compared = 0;
-    for (particle, angle) in &by_keys {
-        let Some(other) = by_morph.get(particle) else { continue };
-        assert!(lines_apart_deg(*angle, *other) < 0.02, "{particle}: {angle} {other}");
-        compared += 1;
-    }
-    assert!(compared > 300, "{compared}");
+    let both = by_keys.iter().filter_map(|(particle, angle)| Some((angle, by_morph.get(particle)?)));
+    let apart: Vec<f64> = both.map(|(angle, other)| lines_apart_deg(*angle, *other)).collect();
+    let worst = apart.iter().copied().fold(0.0, f64::max);
+    println!("keyed against modelled: at most {worst:.5} degrees");
+    assert!(apart.len() > 300 && worst < 3e-5, "{worst} degrees of {}", apart.len());
 }
 
 /// A copy of the shot of the parade, changed; returns what reading it says.

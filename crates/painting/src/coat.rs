@@ -17,6 +17,7 @@ use crate::body::BodySurface;
 use crate::made_once::made_once;
 use crate::paper::PolygonCounts;
 use crate::particles::Particles;
+use crate::references::RaisedPlace;
 use crate::surface::{Albedo, SurfaceInputs};
 use crate::traits::Traits;
 
@@ -51,6 +52,17 @@ impl Coat {
         let place = self.sampled.particles.places()[index];
         let baked = (&self.baked.baked, index);
         bent.carrier().particle(&self.surface.mesh, place, baked, self.heights()(index))
+    }
+
+    /// One of them at rest.
+    pub(crate) fn raised(&self, index: usize) -> RaisedPlace {
+        let baked = &self.baked.baked;
+        RaisedPlace {
+            place: self.sampled.particles.places()[index],
+            position: baked.position_of(index),
+            normal: baked.normal_of(index),
+            height: f64::from(self.heights()(index)),
+        }
     }
 
     /// A bit for each particle: whether it faces the eye within the bounds, carried by a body that is not at rest.
