@@ -42,7 +42,7 @@ fn the_gradient_of_a_rigid_motion_is_its_rotation_everywhere() {
         let turn = DMat3::from_euler(EulerRot::XYZ, a, b, c);
         let positions = moved(&mesh, |at| turn * at + DVec3::new(3.0, -2.0, 1.0));
         for gradient in gradients.at(&positions) {
-            assert!(gradient.abs_diff_eq(turn.as_mat3(), 3e-5), "{gradient} {turn}");
+            assert!(gradient.abs_diff_eq(turn.as_mat3(), 6.5e-6), "{gradient} {turn}");
         }
     }
 }
@@ -59,7 +59,7 @@ fn the_gradient_of_an_affine_map_is_exact_on_a_flat_surface() {
         DMat3::from_cols(DVec3::new(2.5, 0.3, 0.0), DVec3::new(-0.4, 0.7, 0.2), DVec3::new(0.1, 0.0, 1.4));
     for gradient in Gradients::new(&mesh, Bonds::All).at(&moved(&mesh, |at| map * at)) {
         for tangent in [tilt.x_axis, tilt.y_axis] {
-            assert!((gradient.as_dmat3() * tangent - map * tangent).length() < 1e-4);
+            assert!((gradient.as_dmat3() * tangent - map * tangent).length() < 2.8e-6);
         }
     }
 }
