@@ -151,10 +151,11 @@ impl Sequence {
             let next = numbers.peek().copied();
             (!stopped).then(|| Job { frame_number, must_draw: must_draw(frame_number), next })
         });
-        let mut painter = Painter::new(self, renderer);
+        let further = self.further_painters(frames.count());
+        let mut painter = Painter::new(self, renderer, further == 0);
         let workers = Workers {
             own: Box::new(move |job| painter.paint(job, stop)),
-            further: self.further_painters(frames.count()),
+            further,
             open: &|| painter::further(self, &driver, stop),
         };
         match in_order(jobs, workers, take_in) {
