@@ -71,7 +71,7 @@ impl BodySurface {
     }
 
     /// The vertices of the surface in this shape.
-    pub fn vertices_at(&self, shape: &BodyShape) -> Vertices {
+    pub(crate) fn vertices_at(&self, shape: &BodyShape) -> Vertices {
         self.strained(shape).vertices
     }
 
