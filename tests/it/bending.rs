@@ -248,6 +248,22 @@ fn a_stretched_body_has_no_fewer_strokes_a_pixel() {
     assert!(rest > 100.0 && (wide / rest / 3.0 - 1.0).abs() < 0.015, "{rest} {wide}");
 }
 
+/// Shadows are cast from wherever a body may be, also between the frames that stand for the timeline.
+#[test]
+fn shadows_reach_as_far_as_a_morph_goes() {
+    let mut scene = morphing_scene(7.0);
+    scene.timeline.last = 160;
+    let key = |frame: f64, morph: f64| ObjectKey { morph, ..ObjectKey::at(frame) };
+    scene.objects[0].keys = vec![key(0.0, 0.0), key(5.0, 1.0), key(9.0, 0.0)];
+    let target = shapes::moved(&shapes::sheet(4), |at| at + DVec3::Y * 3.0);
+    let painting = prepare(shapes::morphing(scene, [shapes::sheet(4), target])).expect("good");
+    let (center, radius) = painting.at(5.0, &FrameOptions::new(SIZE_PX)).lights.shadow_bounds;
+    let bent = painting.bent_at(5.0)[0].clone().expect("it is bent");
+    for at in &bent.vertices.positions {
+        assert!(at.distance(center) <= radius, "{at} is outside of {radius} round {center}");
+    }
+}
+
 #[test]
 fn a_collapsed_or_mirrored_body_paints_numbers() {
     for map in [

@@ -12,7 +12,7 @@ use impasto_scene::presets::LayerKind;
 
 use crate::bent::{Bent, BentMemo};
 use crate::body::BodySurface;
-use crate::body_shape::{BodyNoise, BodyShape};
+use crate::body_shape::{BodyNoise, BodyShape, FrameNoise};
 use crate::coat::Coat;
 use crate::field::BodyField;
 use crate::finish::FinishRule;
@@ -23,7 +23,7 @@ use crate::parts::Cap;
 use crate::prepare::Step;
 use crate::references::SceneReferences;
 use crate::regions::{BodyRegions, RegionRule};
-use crate::shapes::shapes;
+use crate::shapes::{noises_at, shapes};
 
 /// A prepared scene, from which frames are made at any time and through any camera. Immutable; cheap to clone.
 #[derive(Clone)]
@@ -136,6 +136,11 @@ impl Painting {
     /// The shape of every object at a frame, in the order of the scene.
     pub fn shapes_at(&self, frame: f64) -> Vec<BodyShape> {
         shapes(&self.loaded, &self.noises, frame)
+    }
+
+    /// The noise of every object at a frame.
+    pub(crate) fn noises_at(&self, frame: f64) -> Vec<Option<FrameNoise>> {
+        noises_at(self.scene(), &self.noises, frame)
     }
 
     /// Every object as it stands at a frame, in the order of the scene; `None` for those at rest. The last few frames are remembered.
