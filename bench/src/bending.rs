@@ -8,7 +8,9 @@ use std::sync::Arc;
 use anyhow::{anyhow, ensure};
 use glam::{DAffine3, DVec3, Vec3};
 use impasto_core::TriangleMesh;
-use impasto_core::bending::{Bend, BendPose, Carrier, Gradients, SkinWeights, SortedParticles, Vertices};
+use impasto_core::bending::{
+    Bend, BendPose, Bonds, Carrier, Gradients, SkinWeights, SortedParticles, Vertices,
+};
 use impasto_core::lift::Lift;
 use impasto_core::sampling::{PackedParticle, Particle};
 use impasto_core::solve::{BakedParticles, Bounds, ParticleView, SolvedParticles, solve};
@@ -43,7 +45,7 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
     let figures = race(&bench.pace(false), contenders)?;
     bench.push(Row::of_race("vertices and normals of a frame", &name, figures, true));
 
-    let gradients = Gradients::new(&mesh);
+    let gradients = Gradients::new(&mesh, Bonds::Bend(&bend));
     let strain = || Carrier::new(&bent.positions, &gradients.at(&bent.positions));
     let contenders = vec![
         Contender::here("Impasto", "", strain),

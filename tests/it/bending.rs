@@ -1,15 +1,14 @@
 //! Tests of bodies that bend: strokes turn as closed forms say, particles suffice where a body stretches, nothing depends on what was
-//! asked before, and bad caches are told.
+//! asked before, and bad skins are told.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
 use impasto_core::TriangleMesh;
 use impasto_measure::truth::{BodyView, PointMotion, ScreenTurn, SurfacePoint, TrueView};
 use impasto_painting::frame::{Frame, LayerKind};
-use impasto_painting::{FrameOptions, Painting, prepare};
+use impasto_painting::{FrameOptions, Painting, Rotation, prepare};
 use impasto_scene::document::{
     Direction, Ease, ObjectKey, Region, Rest, Scale, Scene, Selector, Solver, Style,
 };
@@ -132,11 +131,12 @@ fn stretched(at: DVec3) -> DVec3 {
 
 #[test]
 fn strokes_turn_as_closed_forms_of_bending_say() {
-    for (name, mesh, map) in [
-        ("a bowed bar", bar(0.45), &bowed as &dyn Fn(DVec3) -> DVec3),
-        ("a twisted bar", bar(0.5), &twisted),
-        ("a stretched sheet", shapes::sheet(48), &stretched),
-        ("a bowed sheet", shapes::sheet(48), &bowed),
+    // With the largest errors that are allowed, degrees: of 95 in 100 strokes, and of all.
+    for (name, mesh, map, most) in [
+        ("a bowed bar", bar(0.45), &bowed as &dyn Fn(DVec3) -> DVec3, [0.035, 0.56]),
+        ("a twisted bar", bar(0.5), &twisted, [0.017, 0.18]),
+        ("a stretched sheet", shapes::sheet(48), &stretched, [0.001, 0.001]),
+        ("a bowed sheet", shapes::sheet(48), &bowed, [0.28, 0.9]),
     ] {
         for angle_deg in [7.0, 30.0, 137.0] {
             // Directions are stated in the picture of the straight shape, then in that of the bent one.
@@ -146,7 +146,7 @@ fn strokes_turn_as_closed_forms_of_bending_say() {
                 let errors = errors(&mesh, map, scene, reference);
                 let (p95, max) = (errors[errors.len() * 95 / 100], errors[errors.len() - 1]);
                 println!("{name}, {angle_deg} from frame {reference}: p95 {p95:.3}, max {max:.3} degrees");
-                assert!(p95 <= 0.5 && max <= 2.0, "{name}, {angle_deg}: p95 {p95}, max {max}");
+                assert!(p95 <= most[0] && max <= most[1], "{name}, {angle_deg}: p95 {p95}, max {max}");
             }
         }
     }
@@ -163,7 +163,45 @@ fn a_stated_angle_shows_in_the_reference_whatever_the_rest() {
         let shown = angles(&painting.at(10.0, &FrameOptions::new(SIZE_PX)), 0.6);
         let worst =
             shown.values().map(|angle| lines_apart_deg(*angle, 30f64.to_radians())).fold(0.0, f64::max);
-        assert!(shown.len() > 200 && worst < 0.2, "{rest:?}: {worst} degrees of {} strokes", shown.len());
+        println!("{rest:?}: {worst:.5} degrees off what is stated");
+        assert!(shown.len() > 200 && worst < 3e-5, "{rest:?}: {worst} degrees of {} strokes", shown.len());
+    }
+}
+
+/// What is off its surface is as far off it where the reference has the body bent.
+#[test]
+fn raised_strokes_show_as_stated_in_a_bent_reference() {
+    let target = shapes::moved(&shapes::sheet(32), stretched);
+    let painting = |follow: f64| {
+        let mut scene = morphing_scene(30.0);
+        scene.reference = impasto_scene::document::Reference::Frame(10);
+        scene.strokes.offset = Some(0.6);
+        scene.strokes.size_follow = Some(follow);
+        prepare(shapes::morphing(scene, [shapes::sheet(32), target.clone()])).expect("good")
+    };
+    let (stated, following) = (painting(0.0), painting(1.0));
+    let options = FrameOptions::new(SIZE_PX);
+    let turned = angles(&stated.at(10.0, &options), 0.6);
+    let unturned = angles(&stated.at(10.0, &FrameOptions { rotation: Rotation::Off, ..options }), 0.6);
+    assert!(turned.len() > 200, "{}", turned.len());
+    let apart = turned.iter().map(|(particle, angle)| lines_apart_deg(*angle, unturned[particle]));
+    let worst = apart.fold(0.0, f64::max);
+    println!("raised, in the reference: at most {worst:.6} degrees off");
+    assert!(worst < 1.5e-5, "{worst} degrees");
+    let lengths = |painting: &Painting| -> BTreeMap<u32, f32> {
+        let frame = painting.at(10.0, &options);
+        let of = frame.sources.iter().zip(&frame.strokes);
+        of.map(|(source, stroke)| (source.particle, stroke.length_px)).collect()
+    };
+    let (own, followed) = (lengths(&stated), lengths(&following));
+    let grown = turned.keys().map(|particle| (followed[particle] / own[particle] - 1.0).abs());
+    println!("raised, in the reference: at most {:e} longer or shorter", grown.fold(0.0, f32::max));
+    for particle in turned.keys() {
+        let ratio = followed[particle] / own[particle];
+        assert!(
+            (ratio - 1.0).abs() < 1e-6,
+            "{particle}: {ratio} times as long in the reference's own picture"
+        );
     }
 }
 
@@ -187,7 +225,7 @@ fn the_paper_s_sum_agrees_on_a_bent_body() {
     apart.sort_by(f64::total_cmp);
     let (p50, p95) = (apart[apart.len() / 2], apart[apart.len() * 95 / 100]);
     println!("tangent against the paper's sum: p50 {p50:.3}, p95 {p95:.3} degrees over {}", apart.len());
-    assert!(apart.len() > 200 && p50 <= 1.0 && p95 <= 6.0, "{p50} {p95}");
+    assert!(apart.len() > 200 && p50 <= 0.37 && p95 <= 1.95, "{p50} {p95}");
 }
 
 /// Strokes on a body that stretches threefold are as many for each pixel as on the body at rest.
@@ -207,7 +245,23 @@ fn a_stretched_body_has_no_fewer_strokes_a_pixel() {
     };
     let (rest, wide) = (present(0.0), present(10.0));
     println!("{rest} strokes at rest, {wide} on three times the area");
-    assert!(rest > 100.0 && (wide / rest / 3.0 - 1.0).abs() < 0.06, "{rest} {wide}");
+    assert!(rest > 100.0 && (wide / rest / 3.0 - 1.0).abs() < 0.015, "{rest} {wide}");
+}
+
+/// Shadows are cast from wherever a body may be, also between the frames that stand for the timeline.
+#[test]
+fn shadows_reach_as_far_as_a_morph_goes() {
+    let mut scene = morphing_scene(7.0);
+    scene.timeline.last = 160;
+    let key = |frame: f64, morph: f64| ObjectKey { morph, ..ObjectKey::at(frame) };
+    scene.objects[0].keys = vec![key(0.0, 0.0), key(5.0, 1.0), key(9.0, 0.0)];
+    let target = shapes::moved(&shapes::sheet(4), |at| at + DVec3::Y * 3.0);
+    let painting = prepare(shapes::morphing(scene, [shapes::sheet(4), target])).expect("good");
+    let (center, radius) = painting.at(5.0, &FrameOptions::new(SIZE_PX)).lights.shadow_bounds;
+    let bent = painting.bent_at(5.0)[0].clone().expect("it is bent");
+    for at in &bent.vertices.positions {
+        assert!(at.distance(center) <= radius, "{at} is outside of {radius} round {center}");
+    }
 }
 
 #[test]
@@ -252,94 +306,11 @@ fn an_uneven_scale_turns_strokes_as_its_map_says() {
     let by_keys = of(&prepare(shapes::loaded(keyed, [shapes::sheet(16)])).expect("good"));
     let target = shapes::moved(&shapes::sheet(16), stretch);
     let by_morph = of(&prepare(shapes::morphing(morphed, [shapes::sheet(16), target])).expect("good"));
-    let mut compared = 0;
-    for (particle, angle) in &by_keys {
-        let Some(other) = by_morph.get(particle) else { continue };
-        assert!(lines_apart_deg(*angle, *other) < 0.02, "{particle}: {angle} {other}");
-        compared += 1;
-    }
-    assert!(compared > 300, "{compared}");
-}
-
-/// Writes a scene of a plate that a cache moves.
-fn cached_plate(folder: &Path, cache: &[u8]) -> std::path::PathBuf {
-    let plate = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 0\nf 1 2 3 4\nf 5 3 2\n";
-    std::fs::write(folder.join("plate.obj"), plate).expect("written");
-    std::fs::write(folder.join("plate.pc2"), cache).expect("written");
-    let text = "(version: 1, size: (64, 36), camera: (keys: [(frame: 0, eye: (0.5, 0.5, 3), target: (0.5, 0.5, 0))]), \
-                timeline: (last: 4), objects: [(name: \"plate\", mesh: \"plate.obj\", cache: \"plate.pc2\")])";
-    let path = folder.join("scene.ron");
-    std::fs::write(&path, text).expect("written");
-    path
-}
-
-fn pc2(samples: &[Vec<[f32; 3]>], claimed: i32) -> Vec<u8> {
-    let mut bytes = b"POINTCACHE2\0".to_vec();
-    bytes.extend(1i32.to_le_bytes().into_iter().chain(claimed.to_le_bytes()));
-    bytes.extend(0f32.to_le_bytes().into_iter().chain(2f32.to_le_bytes()));
-    bytes.extend((samples.len() as i32).to_le_bytes());
-    bytes.extend(samples.iter().flatten().flatten().flat_map(|number| number.to_le_bytes()));
-    bytes
-}
-
-#[test]
-fn a_cache_moves_the_points_of_its_file() {
-    let folder = tempfile::tempdir().expect("a folder");
-    // Points 0 and 4 lie on each other at rest and part in the cache.
-    let still = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]];
-    let mut moved = still.clone();
-    (moved[0][2], moved[4][2]) = (1.0, -1.0);
-    let path = cached_plate(folder.path(), &pc2(&[still, moved], 5));
-    let loaded = load(&path, &LoadOptions::default()).unwrap_or_else(|report| panic!("{report}"));
-    let painting = prepare(Arc::new(loaded)).expect("good");
-    let heights = |frame: f64| {
-        let positions = painting.surface(0).positions_at(&painting.shapes_at(frame)[0]);
-        let mut heights: Vec<f32> = positions.iter().map(|at| at.z).filter(|z| *z != 0.0).collect();
-        heights.sort_by(f32::total_cmp);
-        heights.dedup();
-        heights
-    };
-    assert_eq!((heights(0.0), heights(1.0), heights(2.0)), (vec![], vec![-0.5, 0.5], vec![-1.0, 1.0]));
-    assert_eq!(heights(4.0), [-1.0, 1.0]);
-    assert_eq!(painting.faults(), Vec::<String>::new());
-}
-
-#[test]
-fn a_cache_that_does_not_fit_is_refused_with_its_place() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let sample = |count: usize| vec![vec![[0.0; 3]; count]; 2];
-    for (bytes, expected) in [
-        (pc2(&sample(4), 4), "plate.pc2 moves 4 points, but plate.obj has 5"),
-        (pc2(&sample(5), 6), "cut short"),
-        (pc2(&sample(5), 1_000_000_000), "cut short"),
-        (pc2(&sample(5), 4), "more behind"),
-        (b"POINTCACHE2\0 no".to_vec(), "no PC2 file"),
-        (pc2(&[vec![[f32::NAN; 3]; 5]], 5), "point 0 of sample 0"),
-    ] {
-        let path = cached_plate(folder.path(), &bytes);
-        let report = load(&path, &LoadOptions::default()).expect_err(expected).to_string();
-        assert!(report.contains(expected), "{report}");
-        assert!(report.contains("plate.pc2"), "{report}");
-    }
-    std::fs::remove_file(folder.path().join("plate.pc2")).expect("removed");
-    let report = load(&folder.path().join("scene.ron"), &LoadOptions::default()).unwrap_err().to_string();
-    assert!(report.contains("scene.ron:1:") && report.contains("not found"), "{report}");
-}
-
-#[test]
-fn a_cache_that_is_lost_later_leaves_the_body_at_rest_and_is_told() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let cache = pc2(&vec![vec![[0.5; 3]; 5]; 3], 5);
-    let path = cached_plate(folder.path(), &cache);
-    let painting = prepare(Arc::new(load(&path, &LoadOptions::default()).expect("good"))).expect("good");
-    std::fs::OpenOptions::new()
-        .write(true)
-        .open(folder.path().join("plate.pc2"))
-        .and_then(|file| file.set_len(40))
-        .expect("cut");
-    let positions = painting.surface(0).positions_at(&painting.shapes_at(2.0)[0]);
-    assert_eq!(positions, painting.surface(0).mesh.positions);
-    assert!(painting.faults()[0].contains("plate.pc2, at frame 2"), "{:?}", painting.faults());
+    let both = by_keys.iter().filter_map(|(particle, angle)| Some((angle, by_morph.get(particle)?)));
+    let apart: Vec<f64> = both.map(|(angle, other)| lines_apart_deg(*angle, *other)).collect();
+    let worst = apart.iter().copied().fold(0.0, f64::max);
+    println!("keyed against modelled: at most {worst:.5} degrees");
+    assert!(apart.len() > 300 && worst < 3e-5, "{worst} degrees of {}", apart.len());
 }
 
 /// A copy of the shot of the parade, changed; returns what reading it says.

@@ -22,7 +22,7 @@ const MOST_PX: f64 = 0.01;
 const MOST_RAD: f64 = 1e-5;
 
 /// The furthest that a vertex may be from where Blender has it in the world, in sizes of its object.
-const MOST_SHARE: f64 = 1e-4;
+const MOST_SHARE: f64 = 3e-6;
 
 /// Where a point is in the picture, pixels from the lower left; `None` behind the eye.
 fn seen(camera: &CameraPose, at: DVec3) -> Option<DVec2> {

@@ -50,21 +50,17 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     let frames = arguments.frames.as_deref().map(FrameList::parse).transpose().map_err(Failure::Usage)?;
     let mut plan = plan(arguments, frames)?;
     interrupt.hold_off();
-    match plan.destination.clone() {
+    let fault = match plan.destination.clone() {
         Destination::Files(pattern) => plan.files(arguments, &pattern, &interrupt),
         Destination::Animation(path) => plan.animation(arguments, &path, &interrupt),
         Destination::Movie(path, encoding) => plan.movie(arguments, &path, encoding, &interrupt),
         Destination::Stream => plan.stream(&interrupt),
     }?;
-    let faults = plan.sequence.painting.faults();
-    if faults.is_empty() {
-        return Ok(());
-    }
-    Err(Failure::Other(format!(
-        "a body stayed at rest in some frames, since its point cache could not be read: {}",
-        faults.join("; ")
-    )))
+    fault.map_or(Ok(()), |fault| Err(Failure::Other(fault)))
 }
+
+/// What is not as the scene has it in frames that were all drawn, in words; `None` where all is well.
+type Fault = Option<String>;
 
 fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, Failure> {
     let verbose = arguments.talk.verbose > 0;
@@ -209,7 +205,7 @@ impl Plan {
         arguments: &RenderArguments,
         pattern: &Pattern,
         interrupt: &Interrupt,
-    ) -> Result<(), Failure> {
+    ) -> Result<Fault, Failure> {
         let Self { sequence, renderer, frames, .. } = self;
         let bar = progress_bar(frames.count(), arguments.talk.quiet);
         let mut sheet = arguments.contact_sheet.then(|| Sheet::new(frames.count(), sequence.options.size_px));
@@ -265,9 +261,7 @@ impl Plan {
                 bar.inc(1);
                 Ok::<(), Failure>(())
             })?;
-        if ending == Ending::Stopped {
-            return Err(Failure::Interrupted { done });
-        }
+        let Ending::Done(fault) = ending else { return Err(Failure::Interrupted { done }) };
         bar.finish_and_clear();
         if let Some(sheet) = sheet {
             let path = pattern.beside("sheet").with_extension("png");
@@ -286,7 +280,7 @@ impl Plan {
             let folder = first.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
             eprintln!("{done} {frames} in {seconds:.1} s, into {}", folder.display());
         }
-        Ok(())
+        Ok(fault)
     }
 
     fn animation(
@@ -294,7 +288,7 @@ impl Plan {
         arguments: &RenderArguments,
         path: &Path,
         interrupt: &Interrupt,
-    ) -> Result<(), Failure> {
+    ) -> Result<Fault, Failure> {
         let of_file = |error: anyhow::Error| Failure::of_file(path, error);
         let count = u32::try_from(self.frames.count()).map_err(|error| Failure::Usage(error.to_string()))?;
         let fps = self.sequence.painting.scene().timeline.fps;
@@ -303,13 +297,13 @@ impl Plan {
         let size_px = self.sequence.options.size_px;
         let mut writer =
             picture_file::begin_animation(&mut file, size_px, count, fps, &provenance).map_err(of_file)?;
-        self.pictures(arguments, interrupt, |rgba8| {
+        let fault = self.pictures(arguments, interrupt, |rgba8| {
             writer.write_image_data(rgba8).map_err(|error| of_file(error.into()))
         })?;
         writer.finish().map_err(|error| of_file(error.into()))?;
         file.finish().map_err(|error| of_file(error.into()))?;
         self.tell_done(arguments, path);
-        Ok(())
+        Ok(fault)
     }
 
     fn movie(
@@ -318,27 +312,27 @@ impl Plan {
         path: &Path,
         encoding: &Encoding,
         interrupt: &Interrupt,
-    ) -> Result<(), Failure> {
+    ) -> Result<Fault, Failure> {
         let frames = FrameFormat {
             size_px: self.sequence.options.size_px,
             depth: Depth::Eight,
             fps: self.sequence.painting.scene().timeline.fps,
         };
         let mut movie = Movie::start(path, encoding, frames)?;
-        self.pictures(arguments, interrupt, |rgba8| movie.add(rgba8))?;
+        let fault = self.pictures(arguments, interrupt, |rgba8| movie.add(rgba8))?;
         movie.finish()?;
         self.tell_done(arguments, path);
-        Ok(())
+        Ok(fault)
     }
 
-    fn stream(&mut self, interrupt: &Interrupt) -> Result<(), Failure> {
+    fn stream(&mut self, interrupt: &Interrupt) -> Result<Fault, Failure> {
         let Self { sequence, renderer, frames, .. } = self;
         let ending = sequence.render(renderer, frames, &|| interrupt.came(), |drawn| {
             Ok::<(), Failure>(
                 drawn.files.iter().try_for_each(|(_, bytes)| std::io::stdout().write_all(bytes))?,
             )
         })?;
-        if ending == Ending::Done { Ok(()) } else { Err(Failure::Interrupted { done: 0 }) }
+        of_all(ending)
     }
 
     /// Hands the pixels of all frames to `take_in`, in order, until one fails or a signal comes.
@@ -347,7 +341,7 @@ impl Plan {
         arguments: &RenderArguments,
         interrupt: &Interrupt,
         mut take_in: impl FnMut(&[u8]) -> Result<(), Failure>,
-    ) -> Result<(), Failure> {
+    ) -> Result<Fault, Failure> {
         let Self { sequence, renderer, frames, .. } = self;
         let bar = progress_bar(frames.count(), arguments.talk.quiet);
         let ending = sequence.render(renderer, frames, &|| interrupt.came(), |drawn| {
@@ -358,13 +352,21 @@ impl Plan {
             Ok::<(), Failure>(())
         });
         bar.finish_and_clear();
-        if ending? == Ending::Done { Ok(()) } else { Err(Failure::Interrupted { done: 0 }) }
+        of_all(ending?)
     }
 
     fn tell_done(&self, arguments: &RenderArguments, path: &Path) {
         if !arguments.talk.quiet {
             eprintln!("{} frames in {}", self.frames.count(), path.display());
         }
+    }
+}
+
+/// Of frames that make one file, which is not there if any of them was not drawn.
+fn of_all(ending: Ending) -> Result<Fault, Failure> {
+    match ending {
+        Ending::Done(fault) => Ok(fault),
+        Ending::Stopped => Err(Failure::Interrupted { done: 0 }),
     }
 }
 

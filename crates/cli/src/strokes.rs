@@ -87,11 +87,12 @@ pub(crate) fn run(arguments: &StrokesArguments) -> Result<(), Failure> {
     };
     if arguments.output == "-" {
         std::io::stdout().write_all(text.as_bytes())?;
-        return Ok(());
+    } else {
+        interrupt.hold_off();
+        let path = Path::new(&arguments.output);
+        whole_file::write(path, text.as_bytes()).map_err(|error| Failure::of_file(path, error))?;
     }
-    interrupt.hold_off();
-    let path = Path::new(&arguments.output);
-    whole_file::write(path, text.as_bytes()).map_err(|error| Failure::of_file(path, error))
+    painting.fault_words().map_or(Ok(()), |fault| Err(Failure::Other(fault)))
 }
 
 fn row<'a>(

@@ -6,6 +6,7 @@
 //!                                                                             └─▶ Gradients: F at each vertex ─▶ carry
 //! ```
 
+mod bonds;
 mod carry;
 mod gradient;
 
@@ -14,6 +15,7 @@ use std::ops::Range;
 use glam::{DAffine3, Vec3};
 use rayon::prelude::*;
 
+pub use bonds::Bonds;
 pub use carry::{CarriedPlace, Carrier, SortedParticles};
 pub use gradient::Gradients;
 

@@ -13,6 +13,7 @@
 pub mod angle;
 pub mod bending;
 pub mod brush;
+pub mod cofactors;
 pub mod color;
 pub mod direction;
 pub mod flood;

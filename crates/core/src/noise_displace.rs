@@ -14,6 +14,8 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec2, DVec3, DVec4};
 
+use crate::cofactors::cofactors;
+
 pub use built_in::{gaussian, perlin};
 pub use tile::Tile;
 
@@ -122,12 +124,7 @@ impl VertexNoise {
         // F = 1 + ∂d/∂u ⊗ ∇u + ∂d/∂v ⊗ ∇v, where d is the displacement.
         let column = |axis: usize| DVec3::AXES[axis] + along_u * u[axis] + along_v * v[axis];
         let moved = DMat3::from_cols(column(0), column(1), column(2));
-        let cofactor = DMat3::from_cols(
-            moved.y_axis.cross(moved.z_axis),
-            moved.z_axis.cross(moved.x_axis),
-            moved.x_axis.cross(moved.y_axis),
-        );
-        (cofactor * normal).normalize_or(normal)
+        (cofactors(moved) * normal).normalize_or(normal)
     }
 
     /// `saturate(N) − ½`.

@@ -16,8 +16,17 @@ pub struct ScreenMap {
     pub row_w: DVec4,
     /// Depth along the gaze, world units, positive in front.
     pub row_depth: DVec4,
-    /// The linear part of the body's pose, where it does not scale all directions alike.
-    pub uneven: Option<DMat3>,
+    /// The body's pose, where it does not scale all directions alike.
+    pub uneven: Option<UnevenPose>,
+}
+
+/// The linear part of a pose that does not scale all directions alike.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UnevenPose {
+    /// What it does to steps.
+    pub world_from_model: DMat3,
+    /// What it does to normals, but for their length.
+    pub world_from_normal: DMat3,
 }
 
 /// How the camera projects, with the picture's height.
@@ -44,17 +53,22 @@ impl ScreenMap {
             PixelLens::Perspective { focal_px } => (focal_px, depth),
             PixelLens::Orthographic { px_per_unit } => (px_per_unit, DVec4::W),
         };
-        let uneven = Some(world_from_model.matrix3).filter(|pose| is_uneven(*pose));
+        let pose = world_from_model.matrix3;
+        let uneven = is_uneven(pose, UNEVEN)
+            .then(|| UnevenPose { world_from_model: pose, world_from_normal: pose.inverse().transpose() });
         Self { row_x: x * scale, row_y: y * scale, row_w, row_depth: depth, uneven }
     }
 
     /// As [`facing`], also where the body's pose scales directions differently.
     #[inline]
     pub fn facing(&self, jacobian: [DVec3; 2], normal_in_model: DVec3) -> f64 {
-        let Some(pose) = self.uneven else { return facing(jacobian, normal_in_model) };
+        let Some(UnevenPose { world_from_model, world_from_normal }) = self.uneven else {
+            return facing(jacobian, normal_in_model);
+        };
         // In world space the normal is M⁻ᵀ n, and the direction to the eye M m, m being the one in model space.
         let towards_eye = jacobian[0].cross(jacobian[1]);
-        let lengths = (pose.inverse().transpose() * normal_in_model).length() * (pose * towards_eye).length();
+        let lengths =
+            (world_from_normal * normal_in_model).length() * (world_from_model * towards_eye).length();
         let cosine = normal_in_model.dot(towards_eye) / lengths;
         if cosine.is_finite() { cosine } else { 0.0 }
     }
@@ -83,12 +97,15 @@ impl ScreenMap {
     }
 }
 
-/// Whether a linear map scales directions differently.
-fn is_uneven(pose: DMat3) -> bool {
+/// A pose is uneven where squares of lengths differ by more than this share.
+const UNEVEN: f64 = 1e-9;
+
+/// Whether a linear map scales directions differently: squares of lengths by more than this share.
+pub fn is_uneven(pose: DMat3, share: f64) -> bool {
     let [x, y, z] = [pose.x_axis, pose.y_axis, pose.z_axis];
     let size = x.length_squared();
     let off = [y.length_squared() - size, z.length_squared() - size, x.dot(y), y.dot(z), z.dot(x)];
-    off.iter().any(|off| off.abs() > 1e-9 * size)
+    off.iter().any(|off| off.abs() > share * size)
 }
 
 /// Projected area in px² per unit of surface with this unit normal, positive where the surface faces the eye:

@@ -31,6 +31,7 @@ const STEP_PX: f64 = 1.0;
 const STAMP_SHARE: f64 = 0.25;
 /// Points that deviate from a path by at most this are dropped.
 const TOLERANCE_PX: f64 = 0.5;
+/// The same on a bent body, where what is straight in the picture is a curve on the surface at rest.
 const BENT_TOLERANCE_PX: f64 = 0.1;
 /// If two steps are farther apart on the surface than this many pixels, it is checked whether the surface is connected
 /// there.

@@ -235,10 +235,11 @@ fn run(
         }
         Ok(())
     })?;
-    Ok(match ending {
-        Ending::Done => Outcome::Done,
-        Ending::Stopped => Outcome::Stopped,
-    })
+    match ending {
+        Ending::Done(None) => Ok(Outcome::Done),
+        Ending::Done(Some(fault)) => Err(format!("All frames are written, but {fault}")),
+        Ending::Stopped => Ok(Outcome::Stopped),
+    }
 }
 
 /// Every n-th pixel of every n-th row, so that no side is longer than [`SMALL_PX`].

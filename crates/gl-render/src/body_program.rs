@@ -1,6 +1,7 @@
 //! Programs that draw bodies; the shader code that they share is `shared/body.glsl`.
 
 use glam::Mat3;
+use impasto_core::screen_map::is_uneven;
 use impasto_painting::Frame;
 use impasto_painting::frame::FrameBody;
 
@@ -23,14 +24,14 @@ pub(crate) struct BodyProgram {
     variants: [Option<Program>; 2],
 }
 
+/// Below this share, squares of lengths may differ by the rounding of the pose to single precision alone.
+const UNEVEN: f64 = 1e-4;
+
 /// What takes normals from model space to the world: the pose itself, or, where that scales directions differently, its inverse
 /// transpose.
 fn world_from_normal(body: &FrameBody) -> Mat3 {
     let pose = Mat3::from_mat4(body.world_from_model);
-    let [x, y, z] = [pose.x_axis, pose.y_axis, pose.z_axis];
-    let size = x.length_squared();
-    let off = [y.length_squared() - size, z.length_squared() - size, x.dot(y), y.dot(z), z.dot(x)];
-    if off.iter().all(|off| off.abs() < 1e-4 * size) { pose } else { pose.inverse().transpose() }
+    if is_uneven(pose.as_dmat3(), UNEVEN) { pose.inverse().transpose() } else { pose }
 }
 
 impl BodyProgram {

@@ -1,6 +1,6 @@
 //! What the protocols work with: the scene and its prepared versions, a renderer, and frames already drawn.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -182,6 +182,11 @@ impl<'a> MeasureContext<'a> {
         let painting = self.painting(version)?;
         let options = self.frame_options(Rotation::On);
         self.draw(painting.seen_by(camera, self.reference_frame(), &options))
+    }
+
+    /// What went wrong in any version, in words, each once.
+    pub fn faults(&self) -> BTreeSet<String> {
+        self.paintings.values().filter_map(|painting| painting.fault_words()).collect()
     }
 
     /// Draws a frame.

@@ -73,6 +73,8 @@ pub fn measure(
         rows.push(row);
         context.forget();
     }
+    let faults = context.faults();
+    context.warnings.extend(faults);
     Ok(MeasureReport {
         scene: loaded.path.display().to_string(),
         driver: context.renderer.report().to_string(),

@@ -72,12 +72,16 @@ impl Reference {
         let views = [TrueView::new(&self.camera, size_px), TrueView::new(camera, size_px)];
         let scene = painting.scene();
         let poses = [self.frame, frame].map(|frame| motion::poses_at(scene, frame));
-        let shapes = [self.frame, frame].map(|frame| painting.shapes_at(frame));
-        let bodies: Vec<[Vertices; 2]> = (0..scene.objects.len())
+        let bent = [self.frame, frame].map(|frame| painting.bent_at(frame));
+        let at_rest: Vec<Vertices> = (0..scene.objects.len())
             .map(|object| {
-                [0, 1].map(|side: usize| painting.surface(object).vertices_at(&shapes[side][object]))
+                let mesh = &painting.surface(object).mesh;
+                Vertices { positions: mesh.positions.clone(), normals: mesh.normals.clone() }
             })
             .collect();
+        let vertices = |object: usize| {
+            bent.each_ref().map(|bent| bent[object].as_ref().map_or(&at_rest[object], |bent| &bent.vertices))
+        };
         // A region with its own reference states its directions in another picture.
         let is_of_scene =
             |region: u32| scene.regions.get(region as usize).is_none_or(|region| region.reference.is_none());
@@ -85,8 +89,7 @@ impl Reference {
             let base = self.strokes.get(key)?;
             let object = key.body_id as usize - 1;
             let particle = painting.particles(object).get(key.particle as usize)?;
-            let point_motion =
-                PointMotion::of(&painting.surface(object).mesh, &particle, bodies[object].each_ref());
+            let point_motion = PointMotion::of(&painting.surface(object).mesh, &particle, vertices(object));
             let [then, now] = [0, 1]
                 .map(|side: usize| BodyView { view: &views[side], world_from_model: poses[side][object] });
             if then.facing(point_motion.before) < FACED || !is_of_scene(base.region) {

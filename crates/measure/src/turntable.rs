@@ -1,6 +1,6 @@
 //! Replaces a scene's shot by a whole turn of the camera.
 
-use impasto_scene::document::{CameraKey, Ease, ObjectKey, Reference, Scale};
+use impasto_scene::document::{CameraKey, Ease, ObjectKey, Reference};
 use impasto_scene::limits;
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion;
@@ -8,20 +8,22 @@ use impasto_scene::motion;
 use crate::cameras;
 use crate::versions::{leave_out, orbit_blockers};
 
-/// The scene with its shot replaced by a whole turn of the reference camera about its target, one degree per frame.
-/// Objects keep their reference pose, and objects that would hide the target are left out.
+/// The scene with its shot replaced by a whole turn of the reference camera about its target, one degree per frame, from the reference's
+/// frame on. Objects keep their reference pose, and objects that would hide the target are left out.
 pub fn turntable(loaded: &LoadedScene) -> LoadedScene {
     let mut version = loaded.clone();
     let scene = &mut version.scene;
     let (camera, frame) = motion::referred_to(scene, &scene.reference);
     let poses = motion::poses_at(scene, frame);
     let morphs = motion::morphs_at(scene, frame);
-    scene.reference = Reference::Frame(0);
-    (scene.timeline.first, scene.timeline.last) = (0, 360);
+    // The frame of a reference is a whole number.
+    let first = frame as i64;
+    scene.reference = Reference::Frame(first);
+    (scene.timeline.first, scene.timeline.last) = (first, first + 360);
     scene.camera.lens = camera.lens.clone();
     scene.camera.keys = (0..=360u32)
         .map(|degree| CameraKey {
-            frame: f64::from(degree),
+            frame: frame + f64::from(degree),
             eye: cameras::orbited(&camera, f64::from(degree)).eye.to_array(),
             target: camera.target.to_array(),
             roll_deg: camera.roll_rad.to_degrees(),
@@ -32,17 +34,10 @@ pub fn turntable(loaded: &LoadedScene) -> LoadedScene {
     let bends: Vec<bool> = scene.objects.iter().map(|object| motion::bends(scene, object)).collect();
     for ((object, bends), (pose, morph)) in scene.objects.iter_mut().zip(bends).zip(poses.iter().zip(morphs))
     {
-        let scale = pose.matrix3.x_axis.length();
         object.parent = None;
-        // A body that bends stays in one shape.
+        // A body that bends stays in one shape: that of the first frame, since holds count from there.
         object.hold = if bends { limits::MAX_HOLD } else { 1 };
-        object.keys = vec![ObjectKey {
-            translation: pose.translation.to_array(),
-            rotation_deg: motion::euler_deg_from_rotation(pose.matrix3 / scale).to_array(),
-            scale: Scale::even(scale),
-            morph,
-            ..ObjectKey::at(0.0)
-        }];
+        object.keys = vec![ObjectKey { morph, ..motion::key_of_pose(*pose, frame) }];
     }
     let blockers = orbit_blockers(&version);
     leave_out(&mut version, &blockers);

@@ -31,7 +31,7 @@ impl Painting {
         let view = PictureView { pose: camera.clone(), size_px: options.size_px };
         let poses = motion::poses_at(scene, frame);
         let bent = self.bent_at(frame);
-        let shapes = self.shapes_at(frame);
+        let noises = self.noises_at(frame);
         let hidden = motion::hidden_at(scene, frame);
         Frame {
             size_px: options.size_px,
@@ -42,14 +42,14 @@ impl Painting {
             bodies: self
                 .bodies
                 .iter()
-                .zip(poses.iter().zip(shapes).zip(&*bent))
+                .zip(poses.iter().zip(noises).zip(&*bent))
                 .zip(scene.objects.iter().zip(hidden))
-                .map(|((body, ((&pose, shape), bent)), (object, hidden))| FrameBody {
+                .map(|((body, ((&pose, noise), bent)), (object, hidden))| FrameBody {
                     is_backdrop: built_in_mesh::ALL.contains(&object.mesh.as_str()),
                     surface: Arc::clone(&body.surface),
                     world_from_model: glam::Mat4::from(pose.as_affine3()),
                     bent: bent.clone(),
-                    noise: shape.noise,
+                    noise,
                     hidden,
                 })
                 .collect(),

@@ -6,13 +6,12 @@ use glam::{DVec2, DVec3};
 use impasto_core::direction::carry::Stencils;
 use impasto_core::lift::Lift;
 use impasto_core::neighbours::Neighbours;
-use impasto_core::sampling::PackedParticle;
 use impasto_core::solve::BakedParticles;
 use impasto_scene::document::Solver;
 use rayon::prelude::*;
 
 use crate::field::{BodyField, FieldInputs};
-use crate::references::{BodyReference, BodyReferences, SurfacePoint, Views};
+use crate::references::{BodyReference, BodyReferences, RaisedPlace, SurfacePoint, Views};
 use crate::regions::RegionRule;
 use crate::stated::DirectionRules;
 use crate::traits::{TraitInputs, Traits};
@@ -96,17 +95,15 @@ impl BakedBody {
     pub(crate) fn base_angle_rad(
         &self,
         particle: usize,
-        place: PackedParticle,
+        raised: RaisedPlace,
         reference: &BodyReference,
     ) -> f64 {
         match self.base_angle_rad.get(particle) {
             Some(&angle_rad) => f64::from(angle_rad),
             // The angle at which N' shows in that picture.
             None => {
-                let jacobian = match reference.carried(place) {
-                    Some(carried) => carried.pulled_back(reference.map.jacobian(carried.position)),
-                    None => reference.map.jacobian(self.baked.position_of(particle)),
-                };
+                let then = reference.then(raised);
+                let jacobian = then.pulled_back(reference.map.jacobian(then.position));
                 self.baked.lift_of(particle).map(jacobian).angle_rad()
             }
         }
@@ -228,8 +225,7 @@ impl LiftSources {
         let position = point.position;
         self.references.views(point, |reference| {
             let neighbours = lists?.of(index);
-            let seen_at = reference.carried(point.place).map_or(position, |carried| carried.position);
-            let center_px = reference.map.project(seen_at);
+            let center_px = reference.map.project(reference.then(point.raised()).position);
             // At rest, and where the reference has it.
             let at = |other: &u32| {
                 let at_rest = self.traits.particles.at(*other as usize).position.as_dvec3();

@@ -14,6 +14,7 @@ use crate::body::BodySurface;
 use crate::body_bend::BodyBend;
 use crate::body_shape::BodyShape;
 use crate::displaced::displaced;
+use crate::made_once::made_once;
 
 /// A surface that is not at rest.
 #[derive(Debug)]
@@ -27,7 +28,7 @@ pub struct Bent {
 impl Bent {
     /// What carries places of the surface.
     pub(crate) fn carrier(&self) -> &Carrier {
-        self.carrier.get_or_init(|| {
+        made_once(&self.carrier, || {
             let positions = &self.vertices.positions;
             Carrier::new(positions, &self.surface.gradients().at(positions))
         })
@@ -70,7 +71,7 @@ impl BodySurface {
     }
 
     /// The vertices of the surface in this shape.
-    pub fn vertices_at(&self, shape: &BodyShape) -> Vertices {
+    pub(crate) fn vertices_at(&self, shape: &BodyShape) -> Vertices {
         self.strained(shape).vertices
     }
 
@@ -88,7 +89,7 @@ impl BodySurface {
     }
 
     pub(crate) fn gradients(&self) -> &Gradients {
-        self.bending.gradients.get_or_init(|| Gradients::new(&self.mesh))
+        made_once(&self.bending.gradients, || Gradients::new(&self.mesh, self.bending.bonds()))
     }
 
     /// The vertices as targets, joints or a cache put them.

@@ -3,7 +3,7 @@
 use std::sync::{Arc, OnceLock};
 
 use glam::{DAffine3, DMat3, Vec3};
-use impasto_core::bending::{Bend, Gradients, Target, Vertices};
+use impasto_core::bending::{Bend, Bonds, Gradients, Target, Vertices};
 use impasto_scene::mesh_file::{MeshFile, Points};
 use impasto_scene::morph;
 use impasto_scene::point_cache::PointCache;
@@ -54,9 +54,18 @@ impl BodyBend {
         Self { bend, cache, ..Self::default() }
     }
 
-    /// The same at rest in another shape, of which nothing was measured yet.
+    /// What tells vertices apart that lie on each other at rest. Noise parts none: it moves a vertex by its position and normal.
+    pub(crate) fn bonds(&self) -> Bonds<'_> {
+        match (&self.cache, &self.bend) {
+            (Some(cache), _) => Bonds::Points(&cache.points.of_vertex),
+            (None, Some(bend)) => Bonds::Bend(bend),
+            (None, None) => Bonds::All,
+        }
+    }
+
+    /// The same at rest in another shape, of which nothing was measured yet. What went wrong stays known.
     pub(crate) fn resting(self, rest: BodyShape) -> Self {
-        Self { bend: self.bend, cache: self.cache, rest, ..Self::default() }
+        Self { bend: self.bend, cache: self.cache, fault: self.fault, rest, ..Self::default() }
     }
 }
 

@@ -14,8 +14,10 @@ use rayon::prelude::*;
 use crate::bake::{BakedBody, LiftSources};
 use crate::bent::Bent;
 use crate::body::BodySurface;
+use crate::made_once::made_once;
 use crate::paper::PolygonCounts;
 use crate::particles::Particles;
+use crate::references::RaisedPlace;
 use crate::surface::{Albedo, SurfaceInputs};
 use crate::traits::Traits;
 
@@ -52,9 +54,20 @@ impl Coat {
         bent.carrier().particle(&self.surface.mesh, place, baked, self.heights()(index))
     }
 
+    /// One of them at rest.
+    pub(crate) fn raised(&self, index: usize) -> RaisedPlace {
+        let baked = &self.baked.baked;
+        RaisedPlace {
+            place: self.sampled.particles.places()[index],
+            position: baked.position_of(index),
+            normal: baked.normal_of(index),
+            height: f64::from(self.heights()(index)),
+        }
+    }
+
     /// A bit for each particle: whether it faces the eye within the bounds, carried by a body that is not at rest.
     pub(crate) fn carried_within(&self, bent: &Bent, view: &ParticleView, bounds: &Bounds) -> Vec<u64> {
-        let sorted = self.sorted.get_or_init(|| {
+        let sorted = made_once(&self.sorted, || {
             SortedParticles::new(self.sampled.particles.places(), &self.baked.baked, self.heights())
         });
         bent.carrier().within(&self.surface.mesh, sorted, view, bounds)

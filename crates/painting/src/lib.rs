@@ -26,6 +26,7 @@ mod finish;
 pub mod frame;
 mod frame_options;
 mod lights;
+mod made_once;
 mod noise_displace;
 mod object_cache;
 mod order;

@@ -13,7 +13,7 @@ use impasto_scene::presets::LayerKind;
 
 use crate::bent::{Bent, BentMemo};
 use crate::body::BodySurface;
-use crate::body_shape::{BodyNoise, BodyShape};
+use crate::body_shape::{BodyNoise, BodyShape, FrameNoise};
 use crate::coat::Coat;
 use crate::field::BodyField;
 use crate::finish::FinishRule;
@@ -24,7 +24,7 @@ use crate::parts::Cap;
 use crate::prepare::Step;
 use crate::references::SceneReferences;
 use crate::regions::{BodyRegions, RegionRule};
-use crate::shapes::shapes;
+use crate::shapes::{noises_at, shapes};
 
 /// A prepared scene, from which frames are made at any time and through any camera. Immutable; cheap to clone.
 #[derive(Clone)]
@@ -139,6 +139,11 @@ impl Painting {
         shapes(&self.loaded, &self.noises, frame)
     }
 
+    /// The noise of every object at a frame.
+    pub(crate) fn noises_at(&self, frame: f64) -> Vec<Option<FrameNoise>> {
+        noises_at(self.scene(), &self.noises, frame)
+    }
+
     /// Every object as it stands at a frame, in the order of the scene; `None` for those at rest. The last few frames are remembered.
     pub fn bent_at(&self, frame: f64) -> Arc<Vec<Option<Arc<Bent>>>> {
         self.bent.at(frame, self.bodies.iter().map(|body| &body.surface), || self.shapes_at(frame))
@@ -158,12 +163,21 @@ impl Painting {
         }
     }
 
-    /// What went wrong since it was prepared: point caches that could not be read any more. Such bodies stay at rest.
+    /// What went wrong since its files were opened: point caches that could not be read any more. Such bodies stay at rest. Each is told
+    /// once, in the order of the words.
     pub fn faults(&self) -> Vec<String> {
         let mut faults: Vec<String> =
             self.bodies.iter().filter_map(|body| body.surface.fault().cloned()).collect();
+        faults.sort();
         faults.dedup();
         faults
+    }
+
+    /// [`Painting::faults`] in one sentence; `None` where nothing went wrong.
+    pub fn fault_words(&self) -> Option<String> {
+        let faults = self.faults();
+        let why = "a body stayed at rest in some frames, since its point cache could not be read";
+        (!faults.is_empty()).then(|| format!("{why}: {}", faults.join("; ")))
     }
 
     /// Index of the region that a place of an object's surface belongs to; `regions.len()` of the scene for none of them.

@@ -268,8 +268,8 @@ impl CoatView<'_> {
     /// The angle of a particle's stroke in the reference picture, radians.
     pub(crate) fn base_angle_rad(&self, index: usize) -> f64 {
         let region = usize::from(self.coat.traits.region(index));
-        let place = self.coat.sampled.particles.places()[index];
-        self.coat.baked.base_angle_rad(index, place, self.coat.lift_sources.references.of_rule(region))
+        let reference = self.coat.lift_sources.references.of_rule(region);
+        self.coat.baked.base_angle_rad(index, self.coat.raised(index), reference)
     }
 
     /// Where a particle is at rest, model space.
@@ -292,9 +292,8 @@ impl CoatView<'_> {
     /// How much larger the surface is at a particle than at rest, along a line.
     fn stretch(&self, bent: Option<&Arc<Bent>>, index: usize) -> f64 {
         let Some(bent) = bent else { return 1.0 };
-        let gradient = bent.place(self.coat.sampled.particles.places()[index]).gradient;
-        let normal = self.coat.baked.baked.normal_of(index);
-        (gradient.inverse().transpose() * normal * gradient.determinant()).length().sqrt()
+        let place = bent.place(self.coat.sampled.particles.places()[index]);
+        place.area_normal(self.baked().normal_of(index)).length().sqrt()
     }
 
     /// The factor on a stroke's stated size where it follows the size of its surface: m^γ. m is the pixels per unit of
@@ -309,13 +308,9 @@ impl CoatView<'_> {
             map.row_x.truncate().length() / map.row_w.dot(at.extend(1.0)).max(near)
         };
         let reference = self.coat.lift_sources.references.of_rule(usize::from(region));
-        let bent = reference.stands.bent.as_ref();
-        let place = self.coat.sampled.particles.places()[index];
-        let was_at = match bent {
-            Some(bent) => bent.place(place).position,
-            None => self.coat.baked.baked.position_of(index),
-        };
-        let before = scale(&reference.map, was_at, reference.near) * self.stretch(bent, index);
+        let was_at = reference.then(self.coat.raised(index)).position;
+        let before = scale(&reference.map, was_at, reference.near)
+            * self.stretch(reference.stands.bent.as_ref(), index);
         let now =
             scale(&self.map, self.placed(index).position, 1e-9) * self.stretch(self.bent.as_ref(), index);
         let grown = (now / before / f64::from(view.px_scale)).powf(f64::from(follow));

@@ -25,7 +25,7 @@ use crate::painting::{Painting, PreparedBody};
 use crate::references::{BodyReferences, SceneReferences};
 use crate::regions::{self, BodyGuide, BodyRegions, RegionRule};
 use crate::shadow_bounds;
-use crate::shapes::shapes;
+use crate::shapes::{BodyShapes, file_bend, shapes};
 use crate::surface::SurfaceInputs;
 use crate::view::PictureView;
 use options::{StepClock, fits};
@@ -281,7 +281,12 @@ fn plain(
         regions: Arc::default(),
     });
     let bodies = bodies.collect();
-    let of_object = |object: usize| shapes.iter().map(|shapes| shapes[object].clone()).collect();
+    // A key may take a morph farther than the views see it go.
+    let farthest = BodyShapes::at(loaded, references.own().frame).morphed_farthest();
+    let of_object = |object: usize| {
+        let at_views = shapes.iter().map(|shapes| shapes[object].clone());
+        at_views.chain([farthest.of(object, file_bend(loaded, &scene.objects[object]))]).collect()
+    };
     let bounds: Vec<_> =
         caches.iter_mut().enumerate().map(|(object, cache)| cache.bounds(of_object(object))).collect();
     let lit: Vec<_> = caches

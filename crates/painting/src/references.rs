@@ -154,6 +154,44 @@ pub(crate) struct SurfacePoint {
     pub(crate) part: usize,
 }
 
+impl SurfacePoint {
+    /// The place alone.
+    pub(crate) fn raised(&self) -> RaisedPlace {
+        let &Self { place, position, normal, height, .. } = self;
+        RaisedPlace { place, position, normal, height }
+    }
+}
+
+/// A place over a surface at rest.
+#[derive(Clone, Copy)]
+pub(crate) struct RaisedPlace {
+    /// Where on which triangle.
+    pub(crate) place: PackedParticle,
+    /// Model space, off the surface.
+    pub(crate) position: DVec3,
+    /// Unit, model space.
+    pub(crate) normal: DVec3,
+    /// How far it lies off the surface, model units.
+    pub(crate) height: f64,
+}
+
+/// The same place as a reference has it, as far off the surface.
+pub(crate) struct PlaceThen {
+    /// Model space.
+    pub(crate) position: DVec3,
+    /// Unit, model space.
+    pub(crate) normal: DVec3,
+    /// How the surface under it is carried there; `None` at rest.
+    carried: Option<CarriedPlace>,
+}
+
+impl PlaceThen {
+    /// A Jacobian there, pulled back to the surface at rest.
+    pub(crate) fn pulled_back(&self, jacobian: [DVec3; 2]) -> [DVec3; 2] {
+        self.carried.map_or(jacobian, |carried| carried.pulled_back(jacobian))
+    }
+}
+
 /// How the references see one point of a surface.
 pub(crate) struct Views {
     /// The reference of the point's rule, then the further one that faces the point best; `None` for one that does not
@@ -251,19 +289,21 @@ impl BodyReference {
         self.stands.centers.get(index).copied().unwrap_or(part.center)
     }
 
-    fn seen(&self, point: SurfacePoint) -> Seen {
-        let Some(carried) = self.carried(point.place) else {
-            let jacobian = self.map.jacobian(point.position);
-            return Seen {
-                position: point.position,
-                jacobian,
-                facing: self.map.facing(jacobian, point.normal),
-            };
+    /// Where a place is at the reference's frame.
+    pub(crate) fn then(&self, place: RaisedPlace) -> PlaceThen {
+        let RaisedPlace { position, normal, height, .. } = place;
+        let Some(carried) = self.carried(place.place) else {
+            return PlaceThen { position, normal, carried: None };
         };
-        let normal = carried.normal(point.normal);
-        let position = carried.position + normal * point.height;
-        let jacobian = self.map.jacobian(position);
-        Seen { position, jacobian: carried.pulled_back(jacobian), facing: self.map.facing(jacobian, normal) }
+        let normal = carried.normal(normal);
+        PlaceThen { position: carried.position + normal * height, normal, carried: Some(carried) }
+    }
+
+    fn seen(&self, point: SurfacePoint) -> Seen {
+        let then = self.then(point.raised());
+        let jacobian = self.map.jacobian(then.position);
+        let facing = self.map.facing(jacobian, then.normal);
+        Seen { position: then.position, jacobian: then.pulled_back(jacobian), facing }
     }
 
     fn facing_with(&self, seen: &Seen, normal: DVec3) -> Option<FacingReference> {

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use glam::DAffine3;
 use impasto_core::bending::{Bend, BendPose};
-use impasto_scene::document::Object;
+use impasto_scene::document::{Object, Scene};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion;
 
-use crate::body_shape::{BodyNoise, BodyShape};
+use crate::body_shape::{BodyNoise, BodyShape, FrameNoise};
 
 /// What moves the vertices of all objects at one frame, noise left out.
 pub(crate) struct BodyShapes<'a> {
@@ -32,6 +32,14 @@ impl<'a> BodyShapes<'a> {
             morphs: motion::morphs_at(scene, frame),
             cache_frames: motion::cache_frames_at(scene, frame),
         }
+    }
+
+    /// The same, with every object morphed as far as its keys take it.
+    pub(crate) fn morphed_farthest(mut self) -> Self {
+        for (weight, object) in self.morphs.iter_mut().zip(&self.loaded.scene.objects) {
+            *weight = object.keys.iter().map(|key| key.morph).fold(0.0, f64::max);
+        }
+        self
     }
 
     /// The shape of one object. `bend` is what its mesh file has.
@@ -60,15 +68,27 @@ impl<'a> BodyShapes<'a> {
 
 /// The shape of every object at a frame.
 pub(crate) fn shapes(loaded: &LoadedScene, noises: &[Option<Arc<BodyNoise>>], frame: f64) -> Vec<BodyShape> {
-    let scene = &loaded.scene;
     let all = BodyShapes::at(loaded, frame);
-    let with_noise = noises.iter().any(Option::is_some);
-    let at = with_noise.then(|| (motion::poses_at(scene, frame), motion::seconds_at(scene, frame)));
-    let shape = |(index, object): (usize, &Object)| BodyShape {
-        noise: at.as_ref().and_then(|(poses, seconds)| {
-            noises[index].as_ref().map(|noise| noise.at(seconds[index], poses[index]))
-        }),
+    let objects = loaded.scene.objects.iter().enumerate();
+    let shape = |((index, object), noise): ((usize, &Object), Option<FrameNoise>)| BodyShape {
+        noise,
         ..all.of(index, file_bend(loaded, object))
     };
-    scene.objects.iter().enumerate().map(shape).collect()
+    objects.zip(noises_at(&loaded.scene, noises, frame)).map(shape).collect()
+}
+
+/// The noise of every object at a frame.
+pub(crate) fn noises_at(
+    scene: &Scene,
+    noises: &[Option<Arc<BodyNoise>>],
+    frame: f64,
+) -> Vec<Option<FrameNoise>> {
+    if noises.iter().all(Option::is_none) {
+        return vec![None; noises.len()];
+    }
+    let (poses, seconds) = (motion::poses_at(scene, frame), motion::seconds_at(scene, frame));
+    let at = |(index, noise): (usize, &Option<Arc<BodyNoise>>)| {
+        noise.as_ref().map(|noise| noise.at(seconds[index], poses[index]))
+    };
+    noises.iter().enumerate().map(at).collect()
 }

@@ -336,7 +336,7 @@ pub struct Object {
     /// Path of a mesh of equal topology that keys may turn this one into.
     #[serde(default, skip_serializing_if = "is_default")]
     pub morph: Option<String>,
-    /// Path of a PC2 point cache with as many points as the mesh file: where they are, frame by frame, in the mesh file's own space.
+    /// Path of a PC2 point cache with as many points as the mesh file, an OBJ: where they are, frame by frame, in the mesh file's own space.
     #[serde(default, skip_serializing_if = "is_default")]
     pub cache: Option<String>,
     /// The shape in which strokes are laid and sized; what is combed in another is carried back to it.

@@ -193,6 +193,11 @@ fn finish(
     let known_mesh = known_mesh.map(|mesh| (own_name, mesh));
     let readers = Readers {
         mesh: &|name, with_points| match &known_mesh {
+            // Its points are not known. Its warnings are.
+            Some((known, _)) if *known == name && with_points => {
+                let read = read_mesh(&reader, path, name, &options.folders, true);
+                read.map(|(mesh, _)| (mesh, Vec::new()))
+            }
             Some((known, mesh)) if *known == name => Ok((Arc::clone(mesh), Vec::new())),
             _ => read_mesh(&reader, path, name, &options.folders, with_points),
         },

@@ -28,7 +28,7 @@ impl MeshFile {
     }
 }
 
-/// The points of a mesh file, in the order of the file: in an OBJ file the `v` lines, in a glTF file the positions of the node.
+/// The points of an OBJ file, its `v` lines, in the order of the file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Points {
     /// How many there are.

@@ -74,7 +74,7 @@ pub(crate) struct MeshReader {
 }
 
 impl MeshReader {
-    /// Reads a mesh file, or one node of it; `with_points` where a point cache moves it.
+    /// Reads a mesh file, or one node of it; `with_points` where a point cache moves it, which only an OBJ file can have.
     pub fn read(
         &self,
         path: &Path,
@@ -88,11 +88,11 @@ impl MeshReader {
         }
         let (file, warnings) = self.open(path, root, folders)?;
         let Some(node) = node else { return file.whole().map(|mesh| (Arc::new(mesh), warnings)) };
-        let key = file.instance_key(node).filter(|_| !with_points).map(|key| (one_name(path), key));
+        let key = file.instance_key(node).map(|key| (one_name(path), key));
         let known = key.as_ref().and_then(|key| self.instances.borrow().get(key).cloned());
         let mesh = match known {
             Some(mesh) => mesh,
-            None => Arc::new(file.of_node(node, with_points)?),
+            None => Arc::new(file.of_node(node)?),
         };
         if let Some(key) = key {
             self.instances.borrow_mut().insert(key, Arc::clone(&mesh));

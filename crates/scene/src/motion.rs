@@ -10,7 +10,8 @@ use glam::{DAffine3, DMat3, DMat4, DVec3, EulerRot};
 use impasto_core::bending::BendPose;
 use impasto_gltf::Posed;
 
-use crate::document::{CameraKey, Lens, Object, ObjectKey, Reference, Scale, Scene};
+use crate::document::{Brought, CameraKey, Lens, Object, ObjectKey, Reference, Scale, Scene};
+use crate::limits;
 use span::Span;
 
 pub use values::{background_at, light_at, lights_at, stroke_key_at};
@@ -147,7 +148,7 @@ pub fn hidden_at(scene: &Scene, frame: f64) -> Vec<bool> {
     scene.objects.iter().map(|object| object.hidden || !is_shown(object)).collect()
 }
 
-/// The poses of objects that a shot moves. Each time that is asked for is evaluated once.
+/// Where a shot has its objects. Each time that is asked for is evaluated once.
 #[derive(Default)]
 struct ShotPoses {
     at_frames: Vec<(f64, Posed)>,
@@ -161,12 +162,17 @@ impl ShotPoses {
             .shot
             .as_ref()
             .filter(|shot| object.keys.is_empty() && shot.has_object(&object.name))?;
+        shot.pose_of(self.at(scene, &**shot, frame), &object.name)
+    }
+
+    /// Where everything of the shot is at a frame.
+    fn at(&mut self, scene: &Scene, shot: &dyn Brought, frame: f64) -> &Posed {
         let known = self.at_frames.iter().position(|(other, _)| *other == frame);
         let index = known.unwrap_or_else(|| {
             self.at_frames.push((frame, shot.at(frame / scene.timeline.fps)));
             self.at_frames.len() - 1
         });
-        shot.pose_of(&self.at_frames[index].1, &object.name)
+        &self.at_frames[index].1
     }
 }
 
@@ -174,16 +180,12 @@ impl ShotPoses {
 /// with keys of its own still bends as the shot has it.
 pub fn bends_at(scene: &Scene, frame: f64) -> Vec<Option<BendPose>> {
     let Some(shot) = &scene.stage.shot else { return vec![None; scene.objects.len()] };
-    let mut at_frames: Vec<(f64, Posed)> = Vec::new();
+    let mut of_shot = ShotPoses::default();
     let bend = |object: &Object| {
         if !shot.bends(&object.name, &object.mesh) {
             return None;
         }
-        let held = held_frame(scene, object, frame);
-        if !at_frames.iter().any(|(known, _)| *known == held) {
-            at_frames.push((held, shot.at(held / scene.timeline.fps)));
-        }
-        let (_, posed) = at_frames.iter().find(|(known, _)| *known == held)?;
+        let posed = of_shot.at(scene, &**shot, held_frame(scene, object, frame));
         shot.bend_of(posed, &object.name, &object.mesh)
     };
     scene.objects.iter().map(bend).collect()
@@ -312,18 +314,19 @@ pub fn key_at(scene: &Scene, object: &Object, frame: f64) -> ObjectKey {
     }
 }
 
-/// A pose of a shot as a key. Shear is lost.
-fn key_of_pose(pose: DAffine3, frame: f64) -> ObjectKey {
+/// A pose as a key at a frame. Shear is lost, and so is mirroring; the scale is brought within [`limits::KEY_SCALE`].
+pub fn key_of_pose(pose: DAffine3, frame: f64) -> ObjectKey {
     let [x, y, z] = [pose.matrix3.x_axis, pose.matrix3.y_axis, pose.matrix3.z_axis];
     let scale = DVec3::new(x.length(), y.length(), z.length());
     let axes = DMat3::from_cols(x / scale.x, y / scale.y, z / scale.z);
     let rotation = if axes.is_finite() && axes.determinant() > 0.0 { axes } else { DMat3::IDENTITY };
     let even = scale.max_element() - scale.min_element() < 1e-9 * scale.max_element();
+    let [least, most] = [limits::KEY_SCALE.start(), limits::KEY_SCALE.end()].map(|&end| DVec3::splat(end));
     let scale = if even { DVec3::splat(pose.matrix3.determinant().abs().cbrt()) } else { scale };
     ObjectKey {
         translation: pose.translation.to_array(),
         rotation_deg: euler_deg_from_rotation(rotation).to_array(),
-        scale: Scale(scale.clamp(DVec3::splat(0.001), DVec3::splat(1000.0)).to_array()),
+        scale: Scale(scale.clamp(least, most).to_array()),
         ..ObjectKey::at(frame)
     }
 }

@@ -16,7 +16,7 @@ use std::fmt;
 use std::fs::File;
 use std::io::{self, Read as _, Seek as _, SeekFrom};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 use glam::Vec3;
 
@@ -26,11 +26,10 @@ const HEADER: u64 = 32;
 /// One point of a sample, in bytes.
 const POINT: u64 = 12;
 
-/// A file of at most so many bytes is read whole when it is opened, to find places that are no numbers. Of a larger one, some samples
-/// are.
+/// A file of at most so many bytes is read whole when its places are checked. Of a larger one, some samples are.
 const READ_WHOLE: u64 = 256 << 20;
 
-/// Of a large file, so many samples are read when it is opened.
+/// Of a large file, so many samples are read when its places are checked.
 const READ_SAMPLES: u64 = 16;
 
 /// Coordinates beyond this are refused, as in meshes.
@@ -44,6 +43,8 @@ pub struct PointCache {
     samples: u64,
     first_frame: f64,
     frames_per_sample: f64,
+    /// What is wrong with its places; found when first asked for.
+    fault_of_places: OnceLock<Option<Fault>>,
 }
 
 /// The path alone: a cache may be large.
@@ -57,7 +58,7 @@ impl fmt::Debug for PointCache {
 pub(crate) type Fault = [String; 2];
 
 impl PointCache {
-    /// Opens a cache and checks it: its header against its length, and its places.
+    /// Opens a cache and checks its header against its length. No place is read, since the file may hold more of them than any mesh.
     ///
     /// # Errors
     /// What is wrong, and the mend.
@@ -98,33 +99,33 @@ impl PointCache {
             );
             return Err([message, again()]);
         }
-        let cache = Self {
+        Ok(Self {
             path: path.to_owned(),
             file: Mutex::new(file),
             count: count as usize,
             samples: samples as u64,
             first_frame,
             frames_per_sample,
-        };
-        cache.check(length).map(|()| cache)
+            fault_of_places: OnceLock::new(),
+        })
     }
 
-    /// Reads samples for places that are no numbers.
-    fn check(&self, length: u64) -> Result<(), Fault> {
-        let read = if length <= READ_WHOLE { self.samples } else { READ_SAMPLES.min(self.samples) };
-        for number in 0..read {
-            let sample = number * (self.samples - 1) / (read - 1).max(1);
-            let places = self.sample(sample).map_err(|error| {
-                [format!("sample {sample} could not be read: {error}"), "check the file".to_owned()]
-            })?;
-            if let Some(point) =
-                places.iter().position(|at| !at.is_finite() || at.abs().max_element() > FARTHEST)
-            {
-                let message = format!("point {point} of sample {sample} is at {}", places[point]);
-                return Err([message, "export the cache again".to_owned()]);
-            }
-        }
-        Ok(())
+    /// What is wrong with its places, found once by reading them. Ask only where the number of points is that of a mesh: memory for a
+    /// sample is taken.
+    pub(crate) fn fault_of_places(&self) -> Option<&Fault> {
+        let find = || {
+            let whole = self.count as u64 * self.samples * POINT <= READ_WHOLE;
+            let read = if whole { self.samples } else { READ_SAMPLES.min(self.samples) };
+            let mut samples = (0..read).map(|number| number * (self.samples - 1) / (read - 1).max(1));
+            samples.find_map(|number| {
+                let error = self.sample(number).err()?;
+                Some(match error.kind() {
+                    io::ErrorKind::InvalidData => [error.to_string(), "export the cache again".to_owned()],
+                    _ => [format!("sample {number} could not be read: {error}"), "check the file".to_owned()],
+                })
+            })
+        };
+        self.fault_of_places.get_or_init(find).as_ref()
     }
 
     /// The file.
@@ -146,23 +147,27 @@ impl PointCache {
     /// the first and after the last, they stand still. Memory for two samples is taken, whatever the length of the file.
     ///
     /// # Errors
-    /// Those of the system, and of a place that is no number.
+    /// Those of the system, and a place that is no number or too far away.
     pub fn at(&self, frame: f64) -> io::Result<Vec<Vec3>> {
         let last = (self.samples - 1) as f64;
         let place = ((frame - self.first_frame) / self.frames_per_sample).max(0.0).min(last);
         let (sample, part) = (place.floor(), place.fract() as f32);
         let mut places = self.sample(sample as u64)?;
         if part > 0.0 {
-            let next = self.sample(sample as u64 + 1)?;
-            places.iter_mut().zip(next).for_each(|(at, next)| *at = at.lerp(next, part));
-        }
-        if places.iter().any(|at| !at.is_finite()) {
-            return Err(io::Error::new(io::ErrorKind::InvalidData, "a place is no number"));
+            let number = sample as u64 + 1;
+            let next = self.bytes(number)?;
+            for (at, next) in places.iter_mut().zip(places_in(&next, number)) {
+                *at = at.lerp(next?, part);
+            }
         }
         Ok(places)
     }
 
     fn sample(&self, number: u64) -> io::Result<Vec<Vec3>> {
+        places_in(&self.bytes(number)?, number).collect()
+    }
+
+    fn bytes(&self, number: u64) -> io::Result<Vec<u8>> {
         let mut bytes = vec![0; self.count * POINT as usize];
         {
             // What a thread that panicked left behind is only the place in the file.
@@ -170,14 +175,23 @@ impl PointCache {
             file.seek(SeekFrom::Start(HEADER + number * self.count as u64 * POINT))?;
             file.read_exact(&mut bytes)?;
         }
-        let float = |bytes: &[u8; 4]| f32::from_le_bytes(*bytes);
-        let place = |point: &[u8; 12]| {
-            let [x, y, z] =
-                [0, 4, 8].map(|at| float(&[point[at], point[at + 1], point[at + 2], point[at + 3]]));
-            Vec3::new(x, y, z)
-        };
-        Ok(bytes.as_chunks::<12>().0.iter().map(place).collect())
+        Ok(bytes)
     }
+}
+
+/// The places in the bytes of a sample; an error for each that is no number or too far away.
+fn places_in(bytes: &[u8], sample: u64) -> impl Iterator<Item = io::Result<Vec3>> {
+    let place = move |(number, point): (usize, &[u8; POINT as usize])| {
+        let coordinate =
+            |at: usize| f32::from_le_bytes([point[at], point[at + 1], point[at + 2], point[at + 3]]);
+        let at = Vec3::from_array([0, 4, 8].map(coordinate));
+        if at.is_finite() && at.abs().max_element() <= FARTHEST {
+            return Ok(at);
+        }
+        let words = format!("point {number} of sample {sample} is at {at}");
+        Err(io::Error::new(io::ErrorKind::InvalidData, words))
+    };
+    bytes.as_chunks::<{ POINT as usize }>().0.iter().enumerate().map(place)
 }
 
 #[cfg(test)]
@@ -227,10 +241,26 @@ mod tests {
             (with_places(header(-1, 0.0, 1.0, 1), &one), "-1 points"),
             (with_places(header(1, 0.0, 0.0, 1), &one), "0 frames a sample"),
             (with_places(header(1, f32::NAN, 1.0, 1), &one), "frame NaN"),
-            (with_places(header(1, 0.0, 1.0, 1), &[[0.0, f32::NAN, 0.0]]), "point 0 of sample 0"),
         ] {
             let [message, mend] = opened(&bytes).expect_err(expected);
             assert!(message.contains(expected) && !mend.is_empty(), "{message}");
         }
+    }
+
+    #[test]
+    fn a_place_that_is_nowhere_or_too_far_is_told_by_the_check_and_by_reading() {
+        for odd in [f32::NAN, f32::NEG_INFINITY, 2e9] {
+            let cache = opened(&with_places(header(1, 0.0, 1.0, 3), &[[0.0; 3], [0.0; 3], [0.0, odd, 0.0]]));
+            let cache = cache.expect("no place is read when it is opened");
+            let [message, mend] = cache.fault_of_places().expect("a place is odd");
+            assert!(message.contains("point 0 of sample 2") && !mend.is_empty(), "{message}");
+            for frame in [1.001, 2.0] {
+                let error = cache.at(frame).expect_err("a place is odd").to_string();
+                assert!(error.contains("point 0 of sample 2"), "{error}");
+            }
+            assert_eq!(cache.at(1.0).expect("it can be read"), [Vec3::ZERO]);
+        }
+        let cache = opened(&with_places(header(1, 0.0, 1.0, 1), &[[-1e9, 0.0, 1e9]])).expect("good");
+        assert_eq!(cache.fault_of_places(), None);
     }
 }

@@ -62,10 +62,10 @@ pub struct FrameFiles<'a> {
 }
 
 /// How a sequence ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Ending {
-    /// After its last frame.
-    Done,
+    /// After its last frame. What the frames do not show as the scene has it, in words; `None` where all is well.
+    Done(Option<String>),
     /// It was stopped; frames that were under way are given up.
     Stopped,
 }
@@ -157,15 +157,16 @@ impl Sequence {
             let next = numbers.peek().copied();
             (!stopped).then(|| Job { frame_number, must_draw: must_draw(frame_number), next })
         });
-        let mut painter = Painter::new(self, renderer);
+        let further = self.further_painters(frames.count());
+        let mut painter = Painter::new(self, renderer, further == 0);
         let workers = Workers {
             own: Box::new(move |job| painter.paint(job, stop)),
-            further: self.further_painters(frames.count()),
+            further,
             open: &|| painter::further(self, &driver, stop),
         };
         match in_order(jobs, workers, take_in) {
             Ok(()) if stopped => Ok(Ending::Stopped),
-            Ok(()) => Ok(Ending::Done),
+            Ok(()) => Ok(Ending::Done(self.painting.fault_words())),
             Err(Early::Stopped) => Ok(Ending::Stopped),
             Err(Early::Caller(error)) => Err(error),
         }

@@ -18,6 +18,8 @@ const MIN_PAINTED_ALPHA: f32 = 0.004;
 
 pub(crate) struct Painter<'a> {
     sequence: &'a Sequence,
+    /// Whether it draws all the frames.
+    is_alone: bool,
     renderer: &'a mut Renderer,
 }
 
@@ -35,12 +37,13 @@ pub(crate) fn further<'a>(
     if !sequence.shaders.is_empty() {
         renderer.replace_shaders(&sequence.shaders).ok()?;
     }
-    Some(Box::new(move |job| Painter::new(sequence, &mut renderer).paint(job, stop)))
+    Some(Box::new(move |job| Painter::new(sequence, &mut renderer, false).paint(job, stop)))
 }
 
 impl<'a> Painter<'a> {
-    pub(crate) fn new(sequence: &'a Sequence, renderer: &'a mut Renderer) -> Self {
-        Self { sequence, renderer }
+    /// A painter of a sequence; `is_alone` where it draws all the frames.
+    pub(crate) fn new(sequence: &'a Sequence, renderer: &'a mut Renderer, is_alone: bool) -> Self {
+        Self { sequence, is_alone, renderer }
     }
 
     /// Draws the frame of a job. `None` for a frame that need not be drawn, or that is given up because `stop` says so.
@@ -54,8 +57,8 @@ impl<'a> Painter<'a> {
         let wanted = sequence.wanted.exr.unwrap_or_default().shared(has);
         self.renderer.gather_paint(wanted.has_any(impasto_aovs::GATHERED));
         let frame = sequence.painting.at(job.frame_number as f64, &sequence.options);
-        // Bodies bend for the next frame while this one is drawn.
-        if let Some(next) = job.next {
+        // Bodies bend for the next frame while this one is drawn, unless another painter bends them already.
+        if let Some(next) = job.next.filter(|_| self.is_alone) {
             sequence.painting.foresee(next as f64);
         }
         let (picture, cost) = if sequence.timed {

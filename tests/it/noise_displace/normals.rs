@@ -85,6 +85,40 @@ fn displaced(normals: NoiseNormals) -> Arc<LoadedScene> {
     Arc::new(loaded)
 }
 
+/// How the ramp moves the sheet: along which step for each texture along U and along V, and how far along those a step on the sheet leads.
+#[derive(Clone, Copy)]
+struct Ramp {
+    along: [DVec3; 2],
+    textures: [DVec3; 2],
+}
+
+impl Ramp {
+    /// The ramp of this test, in the space of the model.
+    fn of_test() -> Self {
+        let model_from_world = impasto_scene::motion::poses_at(&scene(), 0.0)[0].matrix3.transpose();
+        let along = RISE.map(|rise| DVec3::from(rise) * (f64::from(TEXELS) / 255.0 * SCALE));
+        Self { along, textures: [model_from_world.x_axis * VALUE[0], model_from_world.y_axis * VALUE[1]] }
+    }
+
+    /// The normal of the sheet.
+    fn normal(&self) -> DVec3 {
+        let edge = |axis: DVec3| {
+            axis + self.along[0] * self.textures[0].dot(axis) + self.along[1] * self.textures[1].dot(axis)
+        };
+        edge(DVec3::X).cross(edge(DVec3::Y)).normalize()
+    }
+}
+
+/// A sheet that stands as the ramp shears it, and has another normal.
+fn modelled_with(normal: DVec3) -> Arc<LoadedScene> {
+    let mut sheet = LoadedScene::clone(&modelled());
+    for file in sheet.meshes.values_mut() {
+        let mesh = &mut Arc::make_mut(file).mesh;
+        mesh.normals.fill(normal.as_vec3());
+    }
+    Arc::new(sheet)
+}
+
 /// A sheet that was modelled as the ramp shears it.
 fn modelled() -> Arc<LoadedScene> {
     let scene = scene();
@@ -130,5 +164,30 @@ fn light_falls_on_a_displaced_sheet_as_on_one_that_was_modelled_so() {
         let at_rest = drawn(&mut renderer, displaced(NoiseNormals::Kept));
         let off = largest_difference(&at_rest, &modelled);
         assert!(off > 10, "the test does not notice normals at rest: {off} of 255");
+    }
+}
+
+/// The planted fault is a slope that is a third too small, along either axis of the noise or of the model.
+#[test]
+fn a_fault_of_displaced_normals_is_seen_in_the_light() {
+    let mut renderer = renderer(Driver::Egl);
+    let modelled = drawn(&mut renderer, modelled());
+    let mut off_with =
+        |ramp: &Ramp| largest_difference(&drawn(&mut renderer, modelled_with(ramp.normal())), &modelled);
+    let right = Ramp::of_test();
+    assert!(off_with(&right) <= 2, "the faults are planted into what is right");
+    let third = |axis: usize, fault: DVec3| {
+        let mut ramp = right;
+        ramp.textures[axis] *= fault;
+        ramp
+    };
+    for (what, ramp) in [
+        ("U", third(0, DVec3::splat(0.667))),
+        ("V", third(1, DVec3::splat(0.667))),
+        ("U along the model's X", third(0, DVec3::new(0.667, 1.0, 1.0))),
+        ("V along the model's Y", third(1, DVec3::new(1.0, 0.667, 1.0))),
+    ] {
+        let off = off_with(&ramp);
+        assert!(off > 3, "the test does not notice a small slope of {what}: {off} of 255");
     }
 }

@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use glam::{DMat3, DVec3, Mat3, Vec3};
 use rayon::prelude::*;
 
-use super::gradient::cofactors;
 use crate::TriangleMesh;
+use crate::cofactors::{cofactors, cofactors_f32};
 use crate::sampling::PackedParticle;
 use crate::solve::{BakedParticles, Bounds, ParticleView, WORD};
 use crate::wide::{Wide, widest};
@@ -78,8 +78,12 @@ pub struct CarriedPlace {
 impl CarriedPlace {
     /// The unit normal now of a side that had this normal at rest; that one where the surface has collapsed.
     pub fn normal(&self, at_rest: DVec3) -> DVec3 {
-        let DMat3 { x_axis: x, y_axis: y, z_axis: z } = self.gradient;
-        (y.cross(z) * at_rest.x + z.cross(x) * at_rest.y + x.cross(y) * at_rest.z).normalize_or(at_rest)
+        self.area_normal(at_rest).normalize_or(at_rest)
+    }
+
+    /// The same normal, as long as the surface has grown: the area now over that at rest. Zero where the surface has collapsed.
+    pub fn area_normal(&self, at_rest: DVec3) -> DVec3 {
+        cofactors(self.gradient) * at_rest
     }
 
     /// The rows of a Jacobian here, pulled back to the surface at rest: `J F`.
@@ -190,7 +194,7 @@ fn moved(baked: &BakedParticles, index: usize, record: &Record, height: f32) -> 
     let [x, y, z, columns @ ..] = *record;
     let gradient = Mat3::from_cols_array(&columns);
     let of = |arrays: &[Vec<f32>; 3]| Vec3::new(arrays[0][index], arrays[1][index], arrays[2][index]);
-    let normal = cofactors(&gradient) * of(&baked.normal);
+    let normal = cofactors_f32(gradient) * of(&baked.normal);
     let position = lifted(Vec3::new(x, y, z), normal, height);
     [position, normal, gradient * of(&baked.along), gradient * of(&baked.across)]
 }
@@ -236,7 +240,7 @@ impl Wide for Culling<'_> {
                 let columns = [3, 6, 9].map(|first| Vec3::new(at(first), at(first + 1), at(first + 2)));
                 let gradient = Mat3::from_cols(columns[0], columns[1], columns[2]);
                 let normal =
-                    cofactors(&gradient) * Vec3::new(normals[0][lane], normals[1][lane], normals[2][lane]);
+                    cofactors_f32(gradient) * Vec3::new(normals[0][lane], normals[1][lane], normals[2][lane]);
                 let mut position = Vec3::new(at(0), at(1), at(2));
                 if is_lifted {
                     position = lifted(position, normal, heights[lane]);

@@ -1,9 +1,13 @@
 //! The deformation gradient F at each vertex of a bent surface.
 
+use std::cmp::Ordering;
+
 use glam::{DMat2, DMat3, DVec2, DVec3, Mat3, Vec3};
 use rayon::prelude::*;
 
+use super::Bonds;
 use crate::TriangleMesh;
+use crate::cofactors::cofactors_f32;
 
 /// How many places one task measures.
 const CHUNK: usize = 1024;
@@ -12,8 +16,8 @@ const CHUNK: usize = 1024;
 ///
 /// At a vertex, the two tangential columns of F are fitted to the edges round it (least squares, edges of any length counting
 /// alike); the third takes the normal of the fitted plane to the unit normal of where that plane goes. So F is exact for any rigid
-/// motion and, on the surface, for any affine one, and it does not step at edges. Vertices with equal positions and normals,
-/// as along a seam of texture coordinates, are one place.
+/// motion and, on the surface, for any affine one, and it does not step at edges. Vertices with equal positions and normals
+/// that stay together, as along a seam of texture coordinates, are one place.
 #[derive(Debug)]
 pub struct Gradients {
     /// The place of each vertex.
@@ -41,9 +45,9 @@ struct Edge {
 }
 
 impl Gradients {
-    /// The weights for a mesh at rest.
-    pub fn new(mesh: &TriangleMesh) -> Self {
-        let (place_of_vertex, vertex_of_place) = places(&mesh.positions, &mesh.normals);
+    /// The weights for a mesh at rest; `bonds` tells which vertices stay together.
+    pub fn new(mesh: &TriangleMesh, bonds: Bonds<'_>) -> Self {
+        let (place_of_vertex, vertex_of_place) = places(mesh, bonds);
         // The corners at each place: three times the triangle's number, plus which of its corners.
         let place_of = |corner: u32| {
             let vertex = mesh.triangles[corner as usize / 3][corner as usize % 3];
@@ -106,28 +110,21 @@ impl Gradients {
     /// The normals of a mesh when its vertices are at these positions: each turns as the surface round it does.
     pub fn normals(&self, rest: &[Vec3], gradients: &[Mat3]) -> Vec<Vec3> {
         let turned = |(normal, gradient): (&Vec3, &Mat3)| {
-            (cofactors(gradient) * *normal).try_normalize().unwrap_or(*normal)
+            (cofactors_f32(*gradient) * *normal).try_normalize().unwrap_or(*normal)
         };
         rest.par_iter().zip(gradients).with_min_len(CHUNK).map(turned).collect()
     }
 }
 
-/// Takes normals where a matrix takes surfaces: its inverse transpose times its determinant. The length of what it makes of a unit normal
-/// is the area now over the area before.
-#[inline(always)]
-pub(super) fn cofactors(matrix: &Mat3) -> Mat3 {
-    let Mat3 { x_axis: x, y_axis: y, z_axis: z } = *matrix;
-    Mat3::from_cols(y.cross(z), z.cross(x), x.cross(y))
-}
-
 /// The place of each vertex, and for each place its first vertex.
-fn places(positions: &[Vec3], normals: &[Vec3]) -> (Vec<u32>, Vec<u32>) {
+fn places(TriangleMesh { positions, normals, .. }: &TriangleMesh, bonds: Bonds<'_>) -> (Vec<u32>, Vec<u32>) {
     let bits = |v: Vec3| v.to_array().map(f32::to_bits);
     let key = |vertex: u32| (bits(positions[vertex as usize]), bits(normals[vertex as usize]));
+    let compare = |a: u32, b: u32| key(a).cmp(&key(b)).then_with(|| bonds.compare(a, b));
     let mut sorted: Vec<u32> = (0..positions.len() as u32).collect();
-    sorted.par_sort_unstable_by_key(|&vertex| (key(vertex), vertex));
+    sorted.par_sort_unstable_by(|&a, &b| compare(a, b).then(a.cmp(&b)));
     let mut first_of_vertex = vec![0; positions.len()];
-    for alike in sorted.chunk_by(|&a, &b| key(a) == key(b)) {
+    for alike in sorted.chunk_by(|&a, &b| compare(a, b) == Ordering::Equal) {
         alike.iter().for_each(|&vertex| first_of_vertex[vertex as usize] = alike[0]);
     }
     let mut vertex_of_place = Vec::with_capacity(positions.len());

@@ -62,7 +62,7 @@ pub(super) fn check(
     }
 }
 
-/// A cache must move as many points as its mesh has.
+/// A cache must move as many points as its mesh has; only then are its places read.
 pub(super) fn check_caches(
     scene: &Scene,
     meshes: &BTreeMap<String, Arc<MeshFile>>,
@@ -74,8 +74,9 @@ pub(super) fn check_caches(
         let Some(name) = &object.cache else { continue };
         let (Some(cache), Some(mesh)) = (caches.get(name), meshes.get(&object.mesh)) else { continue };
         let Some(points) = &mesh.points else {
-            let message = format!("{} has no points that a cache could move", shown(&object.mesh));
-            findings.error(field_path, message, "give the object an OBJ file, or a node of a glTF file");
+            let message =
+                format!("a cache moves the points of an OBJ file, and {} is none", shown(&object.mesh));
+            findings.error(field_path, message, "export the object as an OBJ file together with its cache");
             continue;
         };
         if points.count != cache.count() {
@@ -87,6 +88,8 @@ pub(super) fn check_caches(
                 message,
                 "export both from the same mesh, without modifiers that add points",
             );
+        } else if let Some([message, mend]) = cache.fault_of_places() {
+            findings.error(field_path, format!("{}: {message}", shown(name)), mend);
         }
     }
 }

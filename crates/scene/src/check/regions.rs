@@ -164,6 +164,9 @@ fn check_guide(guide_path: &str, guide: &Guide, findings: &mut Findings) {
             let mend = "move one of them, or leave the view out";
             findings.error(path("view.target"), "eye and target are the same point", mend);
         }
+        if let Some(frame) = view.frame {
+            findings.frame(&path("view.frame"), frame);
+        }
     }
 }
 

@@ -290,6 +290,13 @@ fn guides_and_dabs_that_cannot_work_are_errors() {
     assert_finds(&guide(&format!("{flat}, radius: 1")), &[(Error, &at(".points[0].normal"))]);
     let view = "POINTS, radius: 1, view: (eye: (0, 1, 0), target: (0, 1, 0))";
     assert_finds(&guide(view), &[(Error, &at(".view.target"))]);
+    let framed = |frame: &str| {
+        guide(&format!("POINTS, radius: 1, view: (eye: (0, 1, 0), target: (0, 0, 0), frame: Some({frame}))"))
+    };
+    assert_finds(&framed("7.5"), &[]);
+    for frame in ["NaN", "inf", "-2e9"] {
+        assert_finds(&framed(frame), &[(Error, &at(".view.frame"))]);
+    }
     let everywhere = guide("POINTS, radius: 1").replace("Object(\"a\")", "Everything");
     assert_finds(&everywhere, &[(Error, "regions[0].guides[0]")]);
     let dabs = |dab: &str| format!("regions: [(name: \"r\", on: Dabs(\"a\", [{dab}]))]");

@@ -1,12 +1,15 @@
 //! What bends the mesh of a node: its morph targets and its joints, vertex by vertex as the mesh has them.
 
+use std::sync::Arc;
+
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use impasto_core::TriangleMesh;
 use impasto_core::bending::{Bend, BendPose, SkinWeights, Target};
+use impasto_core::cofactors::cofactors;
 use impasto_gltf::{Mesh, Posed, Primitive};
 
 use super::GltfFile;
-use super::joints::{blended, cofactors};
+use super::joints::blended;
 
 /// Consecutive vertices of a joined mesh that come from one primitive.
 #[derive(Debug)]
@@ -18,7 +21,7 @@ pub(super) struct Run {
     /// The number of the first of them in the joined mesh.
     pub first: usize,
     /// Which vertices of the primitive they are; all of them where it is empty.
-    pub kept: Vec<u32>,
+    pub kept: Arc<Vec<u32>>,
 }
 
 /// A vertex of a mesh: its primitive, its number there, and where it was placed.
@@ -84,7 +87,7 @@ pub(super) fn of(
         bend.bound.positions.push(placed.transform_point3(position).as_vec3() + Vec3::ZERO);
         bend.bound.normals.push((normal / length).as_vec3());
         for (target, of_file) in bend.targets.iter_mut().zip(&origin.primitive.targets) {
-            let delta = |list: &Option<std::sync::Arc<Vec<[f32; 3]>>>| {
+            let delta = |list: &Option<Arc<Vec<[f32; 3]>>>| {
                 list.as_ref().map_or(DVec3::ZERO, |list| wide(list[origin.vertex]))
             };
             let moved = placed.matrix3 * delta(&of_file.positions);

@@ -1,6 +1,6 @@
 //! Where joints take vertices and normals.
 
-use glam::{DAffine3, DMat3};
+use glam::DAffine3;
 use impasto_gltf::Influences;
 
 /// The mean of the joints that move a vertex.
@@ -16,10 +16,4 @@ pub(super) fn blended(joints: &[DAffine3], influences: &Influences, vertex: usiz
         sum.translation += joint.translation * weight;
     }
     sum
-}
-
-/// Takes normals where a matrix takes surfaces: the inverse transpose times the determinant, also of mirrored and flat matrices.
-pub(super) fn cofactors(matrix: DMat3) -> DMat3 {
-    let DMat3 { x_axis: x, y_axis: y, z_axis: z } = matrix;
-    DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y))
 }

@@ -110,7 +110,7 @@ impl GltfFile {
     ///
     /// # Errors
     /// There is no such node, or it shows no triangle.
-    pub fn of_node(&self, name: &str, with_points: bool) -> Result<MeshFile, Report> {
+    pub fn of_node(&self, name: &str) -> Result<MeshFile, Report> {
         let Some(node) = self.node(name) else {
             let names = self.gltf.nodes.iter().filter(|node| node.mesh.is_some());
             let mut report = self.bare(&format!("there is no node {name:?} in the file"));
@@ -119,7 +119,7 @@ impl GltfFile {
             return Err(report);
         };
         let stretch = DAffine3::from_mat3(self.stretch(node));
-        let mesh = surface::mesh_of_node(self, (node, stretch), with_points);
+        let mesh = surface::mesh_of_node(self, (node, stretch));
         mesh.ok_or_else(|| self.bare(&format!("the node {name:?} shows no triangle")))
     }
 

@@ -3,13 +3,14 @@
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3, Vec2, Vec3};
+use impasto_core::cofactors::cofactors;
 use impasto_core::color::srgb_from_linear;
 use impasto_gltf::{Mesh, Node, Primitive};
 
 use super::GltfFile;
 use super::bend::{self, Run};
-use super::joints::{blended, cofactors};
-use crate::mesh_file::{MeshFile, Points};
+use super::joints::blended;
+use crate::mesh_file::MeshFile;
 use crate::surface::{Builder, Built, Geometry};
 
 /// The mesh of several nodes, each placed; `None` where there is no triangle with an area. Groups are the nodes.
@@ -23,20 +24,15 @@ pub(super) fn mesh_of_nodes<'a>(
 }
 
 /// The mesh of one node, placed, with what bends it; `None` where there is no triangle with an area. Groups are the primitives.
-/// `with_points` where a point cache moves it.
-pub(super) fn mesh_of_node(file: &GltfFile, node: (usize, DAffine3), with_points: bool) -> Option<MeshFile> {
+pub(super) fn mesh_of_node(file: &GltfFile, node: (usize, DAffine3)) -> Option<MeshFile> {
     let mut joined = Joined::default();
     let bends = bend::bends(file, node.0);
-    joined.geometry.keeps_vertices = bends || with_points;
+    joined.geometry.keeps_vertices = bends;
     joined.add_node(file, node, false);
     let runs = std::mem::take(&mut joined.runs);
-    let count = joined.geometry.positions.len();
     let (mut mesh, source_of_vertex) = joined.finish(file)?;
     if bends {
         mesh.bend = Some(Arc::new(bend::of(file, node.0, &runs, &source_of_vertex, &mesh.mesh)));
-    }
-    if with_points {
-        mesh.points = Some(Arc::new(Points { count, of_vertex: source_of_vertex }));
     }
     Some(mesh)
 }
@@ -56,7 +52,11 @@ impl Joined {
             let vertices = Vertices::of(file, node, mesh, primitive);
             for copy in &copies {
                 let first = self.geometry.positions.len();
-                self.runs.push(Run { primitive: number, copy: *copy, first, kept: vertices.kept.clone() });
+                // Only what bends asks where its vertices come from.
+                if self.geometry.keeps_vertices {
+                    let kept = Arc::clone(&vertices.kept);
+                    self.runs.push(Run { primitive: number, copy: *copy, first, kept });
+                }
                 self.add(&vertices, *copy, [group, material as u32]);
             }
         }
@@ -83,7 +83,7 @@ struct Vertices {
     /// The corners of each triangle.
     triangles: Arc<Vec<[u32; 3]>>,
     /// Which vertices of the primitive these are; all of them where it is empty.
-    kept: Vec<u32>,
+    kept: Arc<Vec<u32>>,
 }
 
 impl Vertices {
@@ -120,7 +120,7 @@ impl Vertices {
         let opaque = |&[r, g, b, _]: &[f32; 4]| [r, g, b].map(byte);
         let colors = primitive.colors.as_ref().map(|list| list.iter().map(opaque).collect());
         let triangles = Arc::clone(&primitive.triangles);
-        let mut vertices = Self { positions, normals, uvs, colors, triangles, kept: Vec::new() };
+        let mut vertices = Self { positions, normals, uvs, colors, triangles, kept: Arc::default() };
         // Primitives may share their vertices: each takes those that it uses.
         if vertices.positions.len() > vertices.triangles.len() {
             vertices.drop_unused();
@@ -146,7 +146,7 @@ impl Vertices {
             list.retain(|_| used.next() == Some(&true));
             list.shrink_to_fit();
         }
-        self.kept = (0..is_used.len() as u32).filter(|&vertex| is_used[vertex as usize]).collect();
+        self.kept = Arc::new((0..is_used.len() as u32).filter(|&vertex| is_used[vertex as usize]).collect());
         keep(&mut self.positions, &is_used);
         self.normals.iter_mut().for_each(|list| keep(list, &is_used));
         self.uvs.iter_mut().for_each(|list| keep(list, &is_used));

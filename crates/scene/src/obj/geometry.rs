@@ -17,10 +17,15 @@ const LEAST_EXTENT: f64 = 1e-6;
 const MOST_EXTENT: f64 = 1e7;
 
 /// Reads the cleaned text of `checked`; a vertex is a triple of indices that a corner has. Call it only where the linter found no error.
+/// `with_points` where a cache moves the points: it goes with the size that the file has.
 ///
 /// # Errors
 /// Those of tobj; none is known that the linter does not find first.
-pub(super) fn read(checked: &mut Checked<'_>, findings: &mut Findings<'_>) -> Result<Geometry, LoadError> {
+pub(super) fn read(
+    checked: &mut Checked<'_>,
+    findings: &mut Findings<'_>,
+    with_points: bool,
+) -> Result<Geometry, LoadError> {
     // The cleaned text has no names and no materials, so all the faces are one model.
     let options = LoadOptions { single_index: true, ..LoadOptions::default() };
     let (models, _) = tobj::load_obj_buf(&mut checked.cleaned, &options, |_| Err(LoadError::OpenFileFailed))?;
@@ -56,7 +61,12 @@ pub(super) fn read(checked: &mut Checked<'_>, findings: &mut Findings<'_>) -> Re
         let what = if extent < 1.0 { "small for single precision" } else { "large for a scene" };
         let message = format!("the model is {extent:e} across, too {what}");
         let place = checked.faces.first().map_or(0, |face| face.offset as usize);
-        findings.warning(place, message, "it is scaled to a size of 1; export it in other units");
+        if with_points {
+            let mend = "it would be scaled, and its point cache not; export both in other units";
+            findings.error(place, message, mend);
+        } else {
+            findings.warning(place, message, "it is scaled to a size of 1; export it in other units");
+        }
     }
     // Adding 0 makes -0 and 0 the same.
     let positions = positions.iter().map(|at| Vec3::from_array(at.map(|value| value as f32 + 0.0))).collect();

@@ -112,7 +112,7 @@ fn build(
     with_points: bool,
 ) -> Option<(TriangleMesh, Option<Points>)> {
     let named = with_points.then(|| points::of(checked.cleaned.clone()));
-    let mut geometry = match geometry::read(checked, findings) {
+    let mut geometry = match geometry::read(checked, findings, with_points) {
         Ok(geometry) => geometry,
         Err(error) => {
             findings.error_of_file(format!("tobj can not read the file: {error}"), "export the model again");

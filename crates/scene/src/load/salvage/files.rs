@@ -30,6 +30,7 @@ pub(super) struct FileCache<'a> {
     path: &'a Path,
     options: &'a LoadOptions,
     meshes: BTreeMap<String, Read<MeshFile>>,
+    point_caches: BTreeMap<String, Result<Arc<PointCache>, Problem>>,
     textures: BTreeMap<String, Read<Texture>>,
     brushes: BTreeMap<String, Read<Texture>>,
     /// The files in the scene's folder and below, as paths relative to it; `None` until they are first needed.
@@ -53,8 +54,8 @@ pub(super) struct Found {
 
 impl<'a> FileCache<'a> {
     pub(super) fn new(path: &'a Path, options: &'a LoadOptions) -> Self {
-        let (meshes, textures, brushes) = Default::default();
-        Self { path, options, meshes, textures, brushes, nearby: None }
+        let (meshes, point_caches, textures, brushes) = Default::default();
+        Self { path, options, meshes, point_caches, textures, brushes, nearby: None }
     }
 
     /// Reads the files that a scene names.
@@ -97,7 +98,8 @@ impl<'a> FileCache<'a> {
             }
         }
         for (name, field_path) in first_uses(scene, |object| object.cache.as_ref(), "cache") {
-            match read_cache(path, name, folders) {
+            let read = self.point_caches.entry(name.to_owned());
+            match read.or_insert_with(|| read_cache(path, name, folders)).clone() {
                 Ok(cache) => drop(found.caches.insert(name.to_owned(), cache)),
                 Err(problem) => self.refuse(&mut found, problem, name, &field_path, located),
             }

@@ -1,0 +1,54 @@
+//! Which vertices that lie on each other at rest stay so when the surface bends.
+
+use std::cmp::Ordering;
+
+use glam::Vec3;
+
+use super::Bend;
+
+/// What tells vertices apart that lie on each other at rest.
+#[derive(Clone, Copy, Debug)]
+pub enum Bonds<'a> {
+    /// Nothing: they stay together.
+    All,
+    /// The points that a cache moves, one for each vertex: those of one point stay together.
+    Points(&'a [u32]),
+    /// Those stay together that targets and joints move alike.
+    Bend(&'a Bend),
+}
+
+impl Bonds<'_> {
+    /// Equal where two vertices stay together.
+    pub(super) fn compare(&self, a: u32, b: u32) -> Ordering {
+        match self {
+            Self::All => Ordering::Equal,
+            Self::Points(points) => points[a as usize].cmp(&points[b as usize]),
+            Self::Bend(bend) => bend.compare(a, b),
+        }
+    }
+}
+
+impl Bend {
+    fn compare(&self, a: u32, b: u32) -> Ordering {
+        let bound = |vertex: u32| ordered(self.bound.positions[vertex as usize]);
+        let steps = |vertex: u32| {
+            self.targets.iter().map(move |target| match target.vertices.binary_search(&vertex) {
+                Ok(entry) => ordered(target.positions[entry]),
+                Err(_) => ordered(Vec3::ZERO),
+            })
+        };
+        let joints = |vertex: u32| {
+            self.skin.iter().flat_map(move |skin| {
+                let range = vertex as usize * skin.per_vertex..(vertex as usize + 1) * skin.per_vertex;
+                let all = skin.joints[range.clone()].iter().zip(&skin.weights[range]);
+                all.filter(|(_, weight)| **weight > 0.0).map(|(joint, weight)| (*joint, weight.to_bits()))
+            })
+        };
+        bound(a).cmp(&bound(b)).then_with(|| joints(a).cmp(joints(b))).then_with(|| steps(a).cmp(steps(b)))
+    }
+}
+
+/// Numbers in an order, in which −0 and 0 are the same.
+fn ordered(vector: Vec3) -> [u32; 3] {
+    vector.to_array().map(|value| (value + 0.0).to_bits())
+}

@@ -1,0 +1,30 @@
+//! Fills cells that are filled once, by work that runs on many threads.
+
+use std::sync::OnceLock;
+
+/// What is in the cell; if it is empty, what `make` makes goes in. `make` must always make the same.
+///
+/// This is not `get_or_init`, under which `make` must never use rayon: a thread that waits for its own tasks takes up others meanwhile.
+/// If one of those asks for the same cell, it waits for a value that is made further up on its own stack, forever. Here nobody waits;
+/// two threads may make the value at once, and one of the two is dropped.
+pub(crate) fn made_once<T>(cell: &OnceLock<T>, make: impl FnOnce() -> T) -> &T {
+    match cell.get() {
+        Some(value) => value,
+        None => {
+            let made = make();
+            cell.get_or_init(|| made)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cell_may_be_asked_for_while_it_is_made() {
+        let cell = OnceLock::new();
+        assert_eq!(made_once(&cell, || *made_once(&cell, || 7)), &7);
+        assert_eq!(made_once(&cell, || unreachable!("it is made")), &7);
+    }
+}
