@@ -9,7 +9,7 @@ use impasto_scene::aovs::{Aov, AovSet};
 use rayon::prelude::*;
 
 use crate::cryptomatte::{Matte, id_bits};
-use crate::{Drawn, Found};
+use crate::drawn::{Drawn, Found};
 
 /// Less than this of a pixel is not kept.
 const LEAST_SHARE: f32 = 1.0 / 1024.0;

@@ -10,8 +10,8 @@ use impasto_frame_files::exr_file::{Channel, Samples};
 use impasto_gl_render::{PaintSurface, PaintedLayer};
 use impasto_painting::frame::LayerKind;
 
+use crate::drawn::{Drawn, Found};
 use crate::planes::planes;
-use crate::{Drawn, Found};
 
 /// A layer is made brighter by no more than this.
 const MOST_GAIN: f32 = 4.0;

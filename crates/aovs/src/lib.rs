@@ -8,32 +8,21 @@
 
 mod covering;
 pub mod cryptomatte;
+mod drawn;
 mod layers;
 mod of_paint;
 mod of_scene;
 mod of_strokes;
 mod planes;
 
-use impasto_frame_files::exr_file::{Channel, Note, Samples};
+use impasto_frame_files::exr_file::{Channel, Samples};
 use impasto_gl_render::{RenderError, Renderer};
-use impasto_painting::{Frame, FrameOptions, Painting, Quality};
-use impasto_scene::aovs::{Aov, AovSet};
+use impasto_painting::Quality;
+use impasto_scene::aovs::Aov;
 
 use covering::Covering;
 
-/// A picture that was drawn, and what is wanted of it.
-pub struct Drawn<'a> {
-    /// The painting.
-    pub painting: &'a Painting,
-    /// The frame, with its strokes, as the renderer drew it last.
-    pub frame: &'a Frame,
-    /// Its number.
-    pub number: f64,
-    /// How it was made.
-    pub options: &'a FrameOptions,
-    /// What is wanted; what the style lacks is left out.
-    pub wanted: AovSet,
-}
+pub use drawn::{Drawn, Found};
 
 /// Those that need the fragments of the paint: a renderer must gather paint (`Renderer::gather_paint`) while it draws the picture.
 pub const GATHERED: &[Aov] = &[
@@ -53,15 +42,6 @@ pub const GATHERED: &[Aov] = &[
     Aov::CryptoRegion,
     Aov::CryptoStroke,
 ];
-
-/// The channels of a picture, and the notes that belong to them.
-#[derive(Clone, Debug, Default)]
-pub struct Found {
-    /// R, G, B and A, then what was wanted.
-    pub channels: Vec<Channel>,
-    /// Notes by name.
-    pub notes: Vec<(String, Note)>,
-}
 
 /// Reads the colour of a renderer's last picture, which was of this frame, and all that is wanted beside it.
 ///

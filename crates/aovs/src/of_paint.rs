@@ -5,7 +5,7 @@ use impasto_frame_files::exr_file::{Channel, Samples};
 use impasto_gl_render::PaintSurface;
 use impasto_scene::aovs::{Aov, AovSet};
 
-use crate::Found;
+use crate::drawn::Found;
 
 pub(crate) fn add(wanted: AovSet, surface: &PaintSurface, found: &mut Found) {
     let plane =

@@ -8,8 +8,8 @@ use impasto_painting::Frame;
 use impasto_scene::aovs::{Aov, AovSet};
 use impasto_scene::motion;
 
+use crate::drawn::{Drawn, Found};
 use crate::planes::{in_steps, short};
-use crate::{Drawn, Found};
 
 /// The depth where nothing is, as others write it.
 const NOTHING: f32 = 1e10;

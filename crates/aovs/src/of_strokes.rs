@@ -10,8 +10,8 @@ use rayon::prelude::*;
 
 use crate::covering::{Covering, kind_of, stroke_names};
 use crate::cryptomatte::id_bits;
+use crate::drawn::{Drawn, Found};
 use crate::planes::in_steps;
-use crate::{Drawn, Found};
 
 /// How much shows of a layer is a multiple of this.
 const ALPHA_STEP: f32 = 1.0 / 512.0;

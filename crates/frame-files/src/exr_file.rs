@@ -162,7 +162,7 @@ pub fn read(path: &Path, channels: &[&str]) -> anyhow::Result<Planes> {
     anyhow::ensure!(crate::exr_header::is_whole(path), "it was cut, or has parts of other kinds");
     for name in channels {
         anyhow::ensure!(
-            header.channels.list.iter().any(|channel| channel.name.eq(*name)),
+            header.channels.list.iter().any(|channel| channel.name.eq(name)),
             "it has no channel {name}"
         );
     }
@@ -174,7 +174,7 @@ pub fn read(path: &Path, channels: &[&str]) -> anyhow::Result<Planes> {
         .all_attributes()
         .from_file(path)?;
     let values = channels.iter().map(|name| {
-        let channel = image.layer_data.channel_data.list.iter().find(|channel| channel.name.eq(*name));
+        let channel = image.layer_data.channel_data.list.iter().find(|channel| channel.name.eq(name));
         channel.map(|channel| channel.sample_data.values_as_f32().collect()).context("a channel is gone")
     });
     Ok(Planes { size_px: [width as u32, height as u32], values: values.collect::<Result<_, _>>()? })

@@ -58,8 +58,7 @@ pub struct Scene {
     /// The background over time, frames strictly increasing; then `background` itself is not used.
     #[serde(default, skip_serializing_if = "is_default")]
     pub background_keys: Vec<BackgroundKey>,
-    /// A glTF file beside the scene: its objects, camera, lights and motion are the scene's, and its frames where `timeline` states
-    /// none.
+    /// A glTF file beside the scene: its objects, camera, lights, motion, and its frames where `timeline` states none, are the scene's.
     #[serde(default, skip_serializing_if = "is_default")]
     pub shot: Option<String>,
     /// What the shot's file holds, once it was read; not part of the file.
@@ -229,8 +228,7 @@ pub struct CameraKey {
     /// Turns the camera about its gaze, degrees; the picture turns the other way.
     #[serde(default, skip_serializing_if = "is_default")]
     pub roll_deg: f64,
-    /// The lens's field of view from this key on, degrees, from 1 to 170; interpolated between keys. Not for parallel
-    /// lenses.
+    /// The lens's field of view from this key on, degrees, from 1 to 170; interpolated between keys. Not for parallel lenses.
     #[serde(default, skip_serializing_if = "is_default")]
     pub fov_y_deg: Option<f64>,
     /// How the pose moves from this key to the next.
