@@ -121,16 +121,19 @@ fn colour_and_layers_give_the_picture_which_no_data_changes() {
             }))
             .chain(["finish".to_owned()])
             .collect();
-        let mut largest = 0.0f32;
-        for index in 0..planes[0].len() {
-            let mut over = [0.0f32; 4];
-            for layer in &layers {
-                let own =
-                    ["R", "G", "B", "A"].map(|letter| shot.plane(&format!("layer.{layer}.{letter}"))[index]);
-                over = std::array::from_fn(|channel| own[channel] + (1.0 - own[3]) * over[channel]);
+        let mut laid = vec![[0.0f32; 4]; planes[0].len()];
+        for layer in &layers {
+            let own = ["R", "G", "B", "A"].map(|letter| shot.plane(&format!("layer.{layer}.{letter}")));
+            for (index, laid) in laid.iter_mut().enumerate() {
+                *laid = std::array::from_fn(|channel| {
+                    own[channel][index] + (1.0 - own[3][index]) * laid[channel]
+                });
             }
-            for channel in 0..4 {
-                largest = largest.max((over[channel] - planes[channel][index]).abs());
+        }
+        let mut largest = 0.0f32;
+        for (index, laid) in laid.iter().enumerate() {
+            for (laid, plane) in laid.iter().zip(planes) {
+                largest = largest.max((laid - plane[index]).abs());
             }
         }
         println!("{name}: layers are off by at most {largest}");
