@@ -10,8 +10,9 @@ use impasto_editor::rendering::Rendering;
 use impasto_editor_model::command::{Command, SceneEdit};
 use impasto_editor_model::document::Document;
 use impasto_editor_model::render_settings::{
-    Outcome, RenderDriver, RenderPlan, RenderSettings, Which, shell_words,
+    AovChoice, FileKind, Outcome, RenderDriver, RenderPlan, RenderSettings, Which, shell_words,
 };
+use impasto_scene::aovs::AovSet;
 use impasto_scene::load::LoadOptions;
 use impasto_tests::command::{impasto, root};
 
@@ -20,7 +21,7 @@ fn document(folder: &Path) -> Document {
     std::fs::create_dir(folder).unwrap();
     std::fs::copy(root().join("scenes/meshes/cube.obj"), folder.join("cube.obj")).unwrap();
     let text = r#"(
-        version: 1, size: (160, 90), timeline: (first: -1, last: 6, fps: 12), seed: 5,
+        version: 1, size: (160, 90), timeline: (first: -1, last: 6, fps: 12), seed: 5, aovs: ["depth", "crypto.object"],
         camera: (keys: [(frame: 0, eye: (0, 1, 5), target: (0, 0, 0))]),
         lights: [(name: "sun", kind: Sun, direction: (0.8, -0.8, -0.3))],
         objects: [
@@ -112,6 +113,52 @@ fn the_editors_frames_are_those_of_the_command_that_it_copies() {
     }
 }
 
+/// Whether an EXR file names a channel in its head.
+fn has_channel(bytes: &[u8], name: &str) -> bool {
+    // The list of channels comes before all pixels, and a zero ends each name.
+    let name = format!("\0{name}\0");
+    bytes[..bytes.len().min(8192)].windows(name.len()).any(|part| part == name.as_bytes())
+}
+
+#[test]
+fn every_kind_of_file_is_that_of_the_command() {
+    let place = tempfile::tempdir().unwrap();
+    let document = document(&place.path().join("scene"));
+    let png = RenderSettings {
+        which: Which::Listed,
+        list: "2".to_owned(),
+        size_px: [48, 27],
+        driver: RenderDriver::Osmesa,
+        ..RenderSettings::of(document.scene())
+    };
+    let of_kind = |kind: FileKind, aovs: AovChoice| {
+        let mut settings = RenderSettings { aovs, ..png.clone() };
+        settings.choose_kind(kind);
+        settings
+    };
+    let listed = AovSet::of_words(["normal", "stroke.id", "layers"]).unwrap();
+    let (png_name, exr_name) = ("frame_0002.png", "frame_0002.exr");
+    let none: &[&str] = &[];
+    for (settings, names, channels) in [
+        (of_kind(FileKind::Png16, AovChoice::OfScene), vec![png_name], none),
+        (of_kind(FileKind::Exr, AovChoice::NONE), vec![exr_name], none),
+        (of_kind(FileKind::Exr, AovChoice::All), vec![exr_name], &["shadow.X", "stroke.id.X", "Z"]),
+        (of_kind(FileKind::Exr, AovChoice::These(listed)), vec![exr_name], &["stroke.id.X"]),
+        (of_kind(FileKind::PngAndExr, AovChoice::OfScene), vec![exr_name, png_name], &["Z"]),
+    ] {
+        let plan = settings.plan(&document, 2.0).unwrap();
+        let by_command = commanded(&plan, &document);
+        assert_eq!(by_command.keys().collect::<Vec<_>>(), names);
+        if let Some(bytes) = by_command.get(exr_name) {
+            assert!(has_channel(bytes, "B") || has_channel(bytes, "R"), "its colour");
+            for name in ["shadow.X", "stroke.id.X", "Z"] {
+                assert_eq!(has_channel(bytes, name), channels.contains(&name), "{settings:?}: {name}");
+            }
+        }
+        assert!(rendered(plan) == by_command, "{settings:?}: other bytes");
+    }
+}
+
 #[test]
 fn what_is_rendered_is_the_document_as_it_was() {
     let place = tempfile::tempdir().unwrap();
@@ -142,8 +189,10 @@ fn frames_that_are_there_stay_by_the_command_as_well() {
     };
     let plan = settings.plan(&document, 0.0).unwrap().keeping();
     std::fs::create_dir_all(plan.folder()).unwrap();
-    std::fs::write(plan.path(0), "mine").unwrap();
+    // It ends as PNG files do, so it counts as whole.
+    let mine = b"mine\0\0\0\0IEND\xae\x42\x60\x82";
+    std::fs::write(plan.path(0), mine).unwrap();
     let files = commanded(&plan, &document);
-    assert_eq!(files["frame_0000.png"], b"mine");
+    assert_eq!(files["frame_0000.png"], mine);
     assert!(files.len() == 2 && files["frame_0001.png"].starts_with(b"\x89PNG"));
 }

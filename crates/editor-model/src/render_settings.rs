@@ -6,6 +6,7 @@
 //! ```
 
 mod command;
+mod file_kind;
 mod progress;
 #[cfg(test)]
 mod tests;
@@ -16,13 +17,17 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use impasto_frame_files::{FrameList, Pattern, PlaceError, not_an_input, ready_folder};
+use impasto_scene::aovs::AovSet;
 use impasto_scene::document::Scene;
 use impasto_scene::limits::{MAX_PIXELS, MAX_SIDE_PX};
 use impasto_scene::loaded::LoadedScene;
 
 use crate::document::Document;
 
+use file_kind::FileEnding;
+
 pub use command::shell_words;
+pub use file_kind::{AovChoice, AovGroup, FileKind};
 pub use progress::{Outcome, RenderProgress, Stage};
 
 /// Where frames go unless something else is chosen, relative to the scene's folder.
@@ -58,7 +63,7 @@ pub enum Existing {
     /// They are rendered again.
     #[default]
     Replace,
-    /// They stay, and their frames are left out.
+    /// Whole ones stay, and their frames are left out.
     Keep,
 }
 
@@ -71,7 +76,11 @@ pub struct RenderSettings {
     pub list: String,
     /// Width and height in pixels.
     pub size_px: [u32; 2],
-    /// The files, relative to the scene's folder: `####` stands for the frame number.
+    /// Which files each frame becomes.
+    pub kind: FileKind,
+    /// What EXR files hold beside the colour.
+    pub aovs: AovChoice,
+    /// The files, relative to the scene's folder: `####` stands for the frame number. Its ending is that of the kind.
     pub output: String,
     /// What draws.
     pub driver: RenderDriver,
@@ -114,6 +123,9 @@ pub struct RenderPlan {
     pub transparent: bool,
     /// What happens to files that are there.
     pub existing: Existing,
+    /// Which files each frame becomes.
+    pub kind: FileKind,
+    aovs: AovChoice,
     pattern: Pattern,
     output: PathBuf,
     list: String,
@@ -126,10 +138,29 @@ impl RenderSettings {
             which: Which::All,
             list: whole_range(scene),
             size_px: [scene.size.0, scene.size.1],
+            kind: FileKind::default(),
+            aovs: AovChoice::default(),
             output: OUTPUT.to_owned(),
             driver: RenderDriver::default(),
             transparent: false,
         }
+    }
+
+    /// Chooses the kind of the files; the ending of their names follows.
+    pub fn choose_kind(&mut self, kind: FileKind) {
+        self.kind = kind;
+        self.output = kind.renamed(&self.output);
+    }
+
+    /// Takes over a pattern for the files; the kind follows its ending.
+    pub fn choose_output(&mut self, output: String) {
+        self.kind = self.kind.fitting(&output);
+        self.output = output;
+    }
+
+    /// The ending of the names that [`Self::output`] stands for.
+    pub fn ending(&self) -> &'static str {
+        self.kind.endings()[0]
     }
 
     /// The chosen frames as a list.
@@ -159,6 +190,8 @@ impl RenderSettings {
             driver: self.driver,
             transparent: self.transparent,
             existing: Existing::Replace,
+            kind: self.kind.fitting(&self.output),
+            aovs: self.aovs,
             pattern,
             output,
             list,
@@ -167,14 +200,19 @@ impl RenderSettings {
 }
 
 impl RenderPlan {
-    /// The same plan, but files that are there already stay.
+    /// The same plan, but whole files that are there already stay.
     pub fn keeping(self) -> Self {
         Self { existing: Existing::Keep, ..self }
     }
 
-    /// The file of a frame.
+    /// The file of a frame; a frame that becomes two files has them under this name with either ending.
     pub fn path(&self, frame: i64) -> PathBuf {
         self.pattern.path(frame)
+    }
+
+    /// What EXR files hold beside the colour; `None` where none are written.
+    pub fn aovs(&self) -> Option<AovSet> {
+        self.kind.has_exr().then(|| self.aovs.set(&self.loaded.scene))
     }
 
     /// The pattern of all files, as an absolute path.
@@ -195,11 +233,12 @@ impl RenderPlan {
         self.output.strip_prefix(folder).map_or(true, goes_up)
     }
 
-    /// How many of its files are there already.
+    /// How many of its frames have a file already, whole or not.
     pub fn existing_count(&self) -> usize {
         let Ok(entries) = std::fs::read_dir(self.folder()) else { return 0 };
         let there: HashSet<OsString> = entries.flatten().map(|entry| entry.file_name()).collect();
-        let is_there = |frame: &i64| self.path(*frame).file_name().is_some_and(|name| there.contains(name));
+        let is_named = |path: PathBuf| path.file_name().is_some_and(|name| there.contains(name));
+        let is_there = |frame: &i64| self.kind.files(&self.path(*frame)).any(is_named);
         self.frames.iter().filter(is_there).count()
     }
 
@@ -210,8 +249,9 @@ impl RenderPlan {
     pub fn ready(&self) -> Result<(), PlaceError> {
         ready_folder(&self.output)?;
         let inputs = self.loaded.inputs();
-        // Frames are PNG files, so only a picture that the scene reads can be one of them.
-        let ours: HashSet<PathBuf> = self.frames.iter().map(|frame| self.path(frame)).collect();
+        // Frames are pictures, so only a picture that the scene reads can be one of them.
+        let files = |frame: i64| self.kind.files(&self.path(frame)).collect::<Vec<_>>();
+        let ours: HashSet<PathBuf> = self.frames.iter().flat_map(files).collect();
         let is_ours = |input: &&PathBuf| {
             let input = std::path::absolute(input).unwrap_or_else(|_| (*input).clone());
             ours.contains(&input)
@@ -273,8 +313,9 @@ fn output_file(typed: &str, folder: &Path) -> Result<PathBuf, String> {
     if typed.contains('\0') {
         return Err("a name cannot hold this character".to_owned());
     }
-    if !name.to_lowercase().ends_with(".png") {
-        return Err("let the name end in .png; movies are made by impasto render -o film.mp4".to_owned());
+    if FileEnding::of(&name).is_none() {
+        let words = "let the name end in .png or .exr; movies are made by impasto render -o film.mp4";
+        return Err(words.to_owned());
     }
     let path = folder.join(typed);
     let path = std::path::absolute(&path).map_err(|error| format!("{}: {error}", path.display()))?;

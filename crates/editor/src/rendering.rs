@@ -14,12 +14,12 @@ use std::time::{Duration, Instant};
 
 use egui::ColorImage;
 use impasto_editor_model::render_settings::{
-    Existing, Outcome, RenderDriver, RenderPlan, RenderProgress, Stage,
+    Existing, FileKind, Outcome, RenderDriver, RenderPlan, RenderProgress, Stage,
 };
 use impasto_gl_render::context::{self, Driver, OpenOptions};
 use impasto_gl_render::{Picture, Renderer, ShaderTexts};
 use impasto_painting::{FrameOptions, PrepareError, PrepareOptions, Preparer};
-use impasto_sequence::{Ending, FileOutcome, FrameFiles, Sequence, Wanted};
+use impasto_sequence::{Ending, FileOutcome, FrameFiles, PngDepth, Sequence, Wanted};
 
 #[cfg(test)]
 mod tests;
@@ -203,7 +203,7 @@ fn run(
         scene_name: plan.scene_name(),
         driver,
         shaders: shaders.clone(),
-        wanted: Wanted { picture: true, ..Wanted::PNG },
+        wanted: wanted(plan),
         timed: false,
         counted: false,
     };
@@ -240,6 +240,16 @@ fn run(
         Ending::Done(Some(fault)) => Err(format!("All frames are written, but {fault}")),
         Ending::Stopped => Ok(Outcome::Stopped),
     }
+}
+
+/// The files of each frame, and its pixels, of which the window shows a small copy.
+fn wanted(plan: &RenderPlan) -> Wanted {
+    let png = match plan.kind {
+        FileKind::Png8 | FileKind::PngAndExr => Some(PngDepth::Eight),
+        FileKind::Png16 => Some(PngDepth::Sixteen),
+        FileKind::Exr => None,
+    };
+    Wanted { picture: true, png, exr: plan.aovs() }
 }
 
 /// Every n-th pixel of every n-th row, so that no side is longer than [`SMALL_PX`].

@@ -4,6 +4,7 @@ mod headless;
 
 use std::path::{Path, PathBuf};
 
+use egui::accesskit::Toggled;
 use egui::{Color32, ColorImage, Key, Modifiers, TextureHandle, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, SnapshotOptions, SnapshotResults};
@@ -12,13 +13,16 @@ use impasto_editor::panels::render_sheet::{RenderAsk, RenderShown, render_sheet}
 use impasto_editor::panels::work::{Work, WorkKind};
 use impasto_editor::panels::{Ask, Numbers, PanelInput, status_line};
 use impasto_editor::theme::{self, Theme};
+use impasto_editor_model::command::{Command, SceneEdit};
 use impasto_editor_model::keymap::{Action, Preset};
 use impasto_editor_model::render_settings::{
-    Outcome, RenderDriver, RenderProgress, RenderSettings, Stage, Which,
+    AovChoice, FileKind, Outcome, RenderDriver, RenderProgress, RenderSettings, Stage, Which,
 };
 use impasto_editor_model::timeline::TimeHand;
 use impasto_editor_model::{Document, Session};
 use impasto_gl_render::context::Driver;
+use impasto_scene::aovs::AovSet;
+use impasto_scene::document::Style;
 
 struct Page {
     document: Document,
@@ -78,7 +82,7 @@ impl Page {
 
 fn harness(page: Page) -> Harness<'static, Page> {
     let mut harness = Harness::builder()
-        .with_size(vec2(1280.0, 500.0))
+        .with_size(vec2(1280.0, 560.0))
         .with_theme(egui::Theme::Dark)
         .with_render_cursor(false)
         .with_context_setup(|ctx| theme::apply(ctx, Theme::Dark, 1.0))
@@ -121,6 +125,57 @@ fn the_sheet_looks_as_it_did() {
         harness.snapshot_options(name, &SnapshotOptions::new().threshold(0.6));
         results.extend_harness(&mut harness);
     }
+}
+
+#[test]
+fn what_exr_files_hold_is_ticked_in_a_menu() {
+    let mut results = SnapshotResults::new();
+    let mut harness = harness(Page::saved());
+    assert!(harness.query_by_label("AOVs").is_none(), "PNG files hold none");
+    click(&mut harness, "PNG 16 bit");
+    assert_eq!(harness.state().settings.kind, FileKind::Png16);
+    click(&mut harness, "EXR");
+    let settings = &harness.state().settings;
+    assert_eq!((settings.kind, settings.output.as_str()), (FileKind::Exr, "out/frame_####.exr"));
+    let value = |harness: &Harness<'_, Page>| harness.get_by_label("AOVs").accesskit_node().value();
+    assert_eq!(value(&harness).as_deref(), Some("No AOVs"));
+
+    click(&mut harness, "AOVs");
+    assert!(!is_enabled(&harness, "AOVs of the scene"), "it names none");
+    for name in ["depth", "stroke.id", "layers", "crypto.object", "stroke.id"] {
+        click(&mut harness, name);
+    }
+    let three = AovSet::of_words(["depth", "layers", "crypto.object"]).expect("names");
+    assert_eq!(harness.state().settings.aovs, AovChoice::These(three));
+    assert_eq!(value(&harness).as_deref(), Some("3 AOVs"));
+    harness.snapshot_options("render_aovs_dark", &SnapshotOptions::new().threshold(0.6));
+    results.extend_harness(&mut harness);
+
+    click(&mut harness, "All AOVs");
+    assert_eq!(harness.state().settings.aovs, AovChoice::All);
+    click(&mut harness, "No AOVs");
+    assert_eq!(harness.state().settings.aovs, AovChoice::NONE);
+    harness.key_press(Key::Escape);
+    harness.run();
+    assert!(harness.query_by_label("depth").is_none(), "Esc closes the menu");
+    assert_eq!(asked(&mut harness), [], "and nothing else");
+    fill(&mut harness, "Output files", "f_##.png");
+    assert_eq!(harness.state().settings.kind, FileKind::Png8, "as its name ends");
+}
+
+#[test]
+fn what_the_style_lacks_cannot_be_ticked() {
+    let mut page = Page::saved();
+    let style = Style::named("reference").expect("a style");
+    let edit = SceneEdit::SetStyle(style, "Plain".to_owned());
+    page.document.apply(&Command::Scene(edit)).expect("applied");
+    page.settings.choose_kind(FileKind::PngAndExr);
+    page.settings.aovs = AovChoice::All;
+    let mut harness = harness(page);
+    click(&mut harness, "AOVs");
+    assert!(is_enabled(&harness, "depth") && !is_enabled(&harness, "stroke.id"));
+    let is_on = |name: &str| harness.get_by_label(name).accesskit_node().toggled() == Some(Toggled::True);
+    assert!(is_on("depth") && !is_on("stroke.id"));
 }
 
 #[test]

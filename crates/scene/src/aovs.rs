@@ -252,6 +252,9 @@ pub const AOVS: [AovRow; 26] = [
 pub struct AovSet(u32);
 
 impl AovSet {
+    /// None of them.
+    pub const NONE: Self = Self(0);
+
     /// All of them.
     pub const ALL: Self = Self((1 << AOVS.len()) - 1);
 
@@ -296,13 +299,14 @@ impl AovSet {
         AOVS.iter().filter(move |row| self.has(row.aov))
     }
 
-    /// The set that a word stands for: `all`, `scene`, the name of one, or what several names begin with, as `stroke`.
+    /// The set that a word stands for: `all`, `none`, `scene`, the name of one, or what several names begin with, as `stroke`.
     ///
     /// # Errors
     /// A name that is close to an unknown word, if there is one.
     pub fn named(word: &str) -> Result<Self, Option<&'static str>> {
         match word {
             "all" => return Ok(Self::ALL),
+            "none" => return Ok(Self::NONE),
             "scene" => return Ok(Self::OF_SCENE),
             _ => {}
         }
@@ -354,6 +358,7 @@ mod tests {
     #[test]
     fn words_name_one_or_several_and_a_slip_is_answered_with_the_nearest() {
         assert_eq!(AovSet::named("all"), Ok(AovSet::ALL));
+        assert_eq!(AovSet::named("none"), Ok(AovSet::NONE));
         assert_eq!(AovSet::named("stroke").unwrap().rows().count(), 5);
         assert_eq!(AovSet::named("crypto").unwrap().rows().count(), 4);
         assert!(AovSet::OF_SCENE.has(Aov::ObjectId) && !AovSet::OF_SCENE.has(Aov::StrokeId));

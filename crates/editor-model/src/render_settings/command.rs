@@ -1,6 +1,6 @@
 //! The `impasto render` command line that renders the same frames as the editor's render sheet, for the user to copy.
 
-use super::{Existing, RenderDriver, RenderPlan};
+use super::{Existing, FileKind, RenderDriver, RenderPlan};
 use crate::document::Document;
 
 impl RenderPlan {
@@ -23,6 +23,13 @@ impl RenderPlan {
         words.push(format!("--frames={}", self.list));
         words.extend(["--size".to_owned(), format!("{width}x{height}")]);
         words.extend(["--output".to_owned(), self.output.to_string_lossy().into_owned()]);
+        match self.kind {
+            FileKind::Png8 | FileKind::Exr => {}
+            FileKind::Png16 => words.extend(["--bits".to_owned(), "16".to_owned()]),
+            FileKind::PngAndExr => words.push("--exr".to_owned()),
+        }
+        let aovs = self.aovs.command_words(&self.loaded.scene).filter(|_| self.kind.has_exr());
+        words.extend(aovs.into_iter().flat_map(|names| ["--aov".to_owned(), names]));
         match self.driver {
             RenderDriver::Automatic => {}
             RenderDriver::Egl => words.extend(["--driver".to_owned(), "egl".to_owned()]),

@@ -1,5 +1,8 @@
 //! Tests of the render sheet: plans, faults, command lines and progress.
 
+use impasto_scene::aovs::{AOVS, Aov};
+use impasto_scene::document::Style;
+
 use super::*;
 
 fn document() -> Document {
@@ -121,4 +124,135 @@ fn sizes_keep_the_shape_of_the_scene() {
     assert_eq!(size_4k(&scene), [3840, 2160]);
     scene.size = (500, 1000);
     assert_eq!(size_4k(&scene), [1920, 3840]);
+}
+
+/// The apple with these words as its `aovs`, saved in a folder.
+fn document_with_aovs(folder: &Path, aovs: &[&str]) -> Document {
+    let mut document = Document::empty(folder);
+    document.save_as(&folder.join("s.ron")).unwrap();
+    let text = std::fs::read_to_string(folder.join("s.ron")).unwrap();
+    let text = text.replacen("version: 1,", &format!("version: 1, aovs: {aovs:?},"), 1);
+    std::fs::write(folder.join("s.ron"), text).unwrap();
+    let document = Document::open(&folder.join("s.ron"), &Default::default()).unwrap();
+    assert_eq!(document.scene().aovs, aovs);
+    document
+}
+
+#[test]
+fn the_ending_follows_the_kind_and_the_kind_a_typed_ending() {
+    let document = document();
+    let mut settings = RenderSettings::of(document.scene());
+    for (kind, output) in [
+        (FileKind::Exr, "out/frame_####.exr"),
+        (FileKind::PngAndExr, "out/frame_####.png"),
+        (FileKind::Png16, "out/frame_####.png"),
+    ] {
+        settings.choose_kind(kind);
+        assert_eq!((settings.output.as_str(), settings.ending()), (output, &output[15..]));
+    }
+    for (typed, kind) in [
+        ("b/f.PNG", FileKind::Png16),
+        ("b/f", FileKind::Png16),
+        ("b/f.exr ", FileKind::Exr),
+        ("b/f.ex", FileKind::Exr),
+        ("b/f.png", FileKind::Png8),
+    ] {
+        settings.choose_output(typed.to_owned());
+        assert_eq!(settings.kind, kind, "{typed}");
+    }
+    for (output, renamed) in [("f", "f.exr"), ("f.0001", "f.0001.exr"), ("d.png/", "d.png/"), ("", "")] {
+        let mut settings = RenderSettings { output: output.to_owned(), ..settings.clone() };
+        settings.choose_kind(FileKind::Exr);
+        assert_eq!(settings.output, renamed);
+    }
+}
+
+#[test]
+fn exr_files_hold_what_the_scene_says_until_something_else_is_chosen() {
+    let folder = tempfile::tempdir().unwrap();
+    let document = document_with_aovs(folder.path(), &["depth", "stroke.id"]);
+    let scene = document.scene();
+    let mut settings = RenderSettings::of(scene);
+    assert_eq!(settings.plan(&document, 0.0).unwrap().aovs(), None, "PNG files hold none");
+    settings.choose_kind(FileKind::Exr);
+    let of_scene = AovSet::of_words(["depth", "stroke.id"]).unwrap();
+    assert_eq!(settings.plan(&document, 0.0).unwrap().aovs(), Some(of_scene));
+    let ticked = settings.aovs.with(Aov::Normal, true, scene).with(Aov::StrokeId, false, scene);
+    let depth = ticked.with(Aov::Normal, false, scene);
+    for (choice, words) in [
+        (settings.aovs, "The scene\u{2019}s 2 AOVs"),
+        (AovChoice::All, "All 26 AOVs"),
+        (AovChoice::NONE, "No AOVs"),
+        (ticked, "2 AOVs"),
+        (depth, "AOV depth"),
+    ] {
+        assert_eq!(choice.words(scene), words);
+    }
+    // A style without strokes has what needs no paint, and nothing else.
+    let mut plain = scene.clone();
+    plain.style = Style::named("reference").unwrap();
+    assert_eq!(AovChoice::All.set(&plain), AovSet::OF_SCENE);
+    assert_eq!(settings.aovs.words(&plain), "The scene\u{2019}s 1 AOV");
+    let none = AovChoice::OfScene.words(self::document().scene());
+    assert_eq!(none, "No AOVs", "the apple names none");
+}
+
+#[test]
+fn a_command_names_the_kind_and_what_is_beside_the_colour() {
+    let folder = tempfile::tempdir().unwrap();
+    let document = document_with_aovs(folder.path(), &["scene"]);
+    let these = AovChoice::These(AovSet::of_words(["layers", "depth"]).unwrap());
+    for (kind, aovs, words) in [
+        (FileKind::Png8, AovChoice::All, "out/frame_####.png"),
+        (FileKind::Png16, AovChoice::All, "out/frame_####.png --bits 16"),
+        (FileKind::Exr, AovChoice::OfScene, "out/frame_####.exr"),
+        (FileKind::Exr, AovChoice::NONE, "out/frame_####.exr --aov none"),
+        (FileKind::Exr, AovChoice::All, "out/frame_####.exr --aov all"),
+        (FileKind::PngAndExr, these, "out/frame_####.png --exr --aov depth,layers"),
+    ] {
+        let mut settings = RenderSettings { aovs, ..RenderSettings::of(document.scene()) };
+        settings.choose_kind(kind);
+        let command = settings.plan(&document, 0.0).unwrap().command(&document).unwrap();
+        let line = command.join(" ");
+        assert!(line.ends_with(words), "{line}");
+    }
+}
+
+#[test]
+fn a_frame_of_two_files_is_there_when_either_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let document = Document::empty(folder.path());
+    let mut settings = RenderSettings {
+        which: Which::Listed,
+        list: "0-9".to_owned(),
+        output: "f_##.png".to_owned(),
+        ..RenderSettings::of(document.scene())
+    };
+    for name in ["f_03.png", "f_03.exr", "f_07.exr"] {
+        std::fs::write(folder.path().join(name), "x").unwrap();
+    }
+    for (kind, count) in [(FileKind::Png8, 1), (FileKind::Exr, 2), (FileKind::PngAndExr, 2)] {
+        settings.choose_kind(kind);
+        assert_eq!(settings.plan(&document, 0.0).unwrap().existing_count(), count, "{kind:?}");
+    }
+    let mut own = settings.plan(&document, 0.0).unwrap();
+    let mut loaded = (*own.loaded).clone();
+    loaded.path = folder.path().join("f_07.exr");
+    own.loaded = Arc::new(loaded);
+    assert!(own.ready().unwrap_err().to_string().contains("f_07.exr"));
+}
+
+#[test]
+fn every_aov_is_in_one_group_under_words_of_its_own() {
+    let groups = AovGroup::all();
+    let labels = groups.map(|group| group.label);
+    assert_eq!(labels, ["Scene", "Strokes", "Paint", "Mattes"]);
+    let all: Vec<_> = groups.into_iter().flat_map(AovGroup::rows).map(|(_, row)| row.aov).collect();
+    assert_eq!(all, AOVS.map(|row| row.aov), "in the order of the table");
+    for group in groups {
+        let mut words: Vec<_> = group.rows().map(|(words, _)| words).collect();
+        words.sort_unstable();
+        words.dedup();
+        assert_eq!(words.len(), group.rows().count(), "{group:?}");
+    }
 }

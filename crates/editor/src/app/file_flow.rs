@@ -277,6 +277,11 @@ impl EditorApp {
             self.files.waiting = None;
             return;
         };
+        if !answer.ask.is_save()
+            && let Err(words) = answer.ask.fits(&path)
+        {
+            return self.toast(words, None, true);
+        }
         match answer.ask {
             FileAsk::Open => self.open_asking(&path),
             FileAsk::ImportMesh => self.take_step(Step::Import(path)),
@@ -291,7 +296,7 @@ impl EditorApp {
             FileAsk::SaveCopy if self.editor.document().loss_count() > 0 => drop(self.save(Some(&path))),
             FileAsk::SaveCopy => self.save_copy(&path),
             FileAsk::LocateMesh => self.replace_mesh(&path),
-            FileAsk::RenderOutput => self.render_to(&path),
+            FileAsk::RenderOutput { .. } => self.render_to(&path),
         }
     }
 

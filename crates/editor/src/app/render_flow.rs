@@ -181,12 +181,12 @@ impl EditorApp {
             }
             Some(RenderAsk::CopyCommand) => self.copy_render_command(ctx),
             Some(RenderAsk::Browse) => {
-                if let Some(Ok(plan)) = self.render_plan() {
-                    self.files.dialogs.open(ctx, FileAsk::RenderOutput, plan.output());
-                } else {
-                    let start = self.editor.document().folder().join("frame_####.png");
-                    self.files.dialogs.open(ctx, FileAsk::RenderOutput, &start);
-                }
+                let ending = self.render.settings.as_ref().map_or("png", RenderSettings::ending);
+                let start = match self.render_plan() {
+                    Some(Ok(plan)) => plan.output().to_owned(),
+                    _ => self.editor.document().folder().join(format!("frame_####.{ending}")),
+                };
+                self.files.dialogs.open(ctx, FileAsk::RenderOutput { ending }, &start);
             }
         }
     }
@@ -266,7 +266,7 @@ impl EditorApp {
         let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
         if let Some(settings) = &mut self.render.settings {
             let shown = file.strip_prefix(&folder).unwrap_or(file);
-            settings.output = shown.to_string_lossy().into_owned();
+            settings.choose_output(shown.to_string_lossy().into_owned());
         }
     }
 }

@@ -197,7 +197,7 @@ fn choose_on_desktop(ask: FileAsk, start: &Path) -> Option<PathBuf> {
             dialog.add_filter("Meshes", &["obj", "OBJ", "gltf", "glb", "GLB"])
         }
         FileAsk::SaveAs | FileAsk::SaveCopy => dialog.add_filter("Scenes", &["ron"]),
-        FileAsk::RenderOutput => dialog.add_filter("Pictures", &["png"]),
+        FileAsk::RenderOutput { .. } => dialog.add_filter("Pictures", &["png", "exr"]),
     };
     if !ask.is_save() {
         return dialog.set_directory(start).pick_file();

@@ -1,8 +1,8 @@
 //! The purposes for which the user is asked for a file, and the kinds of files that fit each.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use super::incoming::Kind;
+use super::incoming::{Kind, name_of, refusal};
 
 /// The purpose of a file that the user is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -18,7 +18,10 @@ pub enum FileAsk {
     /// Find a mesh that the scene names.
     LocateMesh,
     /// Choose where rendered frames go.
-    RenderOutput,
+    RenderOutput {
+        /// The ending for a name without one.
+        ending: &'static str,
+    },
 }
 
 impl FileAsk {
@@ -30,7 +33,7 @@ impl FileAsk {
             Self::SaveAs => "Save the scene as",
             Self::SaveCopy => "Save a copy of the scene",
             Self::LocateMesh => "Locate the mesh",
-            Self::RenderOutput => "Choose where the frames go",
+            Self::RenderOutput { .. } => "Choose where the frames go",
         }
     }
 
@@ -40,30 +43,43 @@ impl FileAsk {
             Self::Open => &[Kind::Scene, Kind::Mesh],
             Self::ImportMesh | Self::LocateMesh => &[Kind::Mesh],
             Self::SaveAs | Self::SaveCopy => &[Kind::Scene],
-            Self::RenderOutput => &[Kind::Picture],
+            Self::RenderOutput { .. } => &[Kind::Picture, Kind::Exr],
         }
     }
 
     /// The path with the ending that a saved file needs, added if it is missing.
     pub(super) fn completed(self, path: PathBuf) -> PathBuf {
         match self {
-            Self::SaveAs | Self::SaveCopy => as_file(path, Kind::Scene, ".ron"),
-            Self::RenderOutput => as_file(path, Kind::Picture, ".png"),
+            Self::SaveAs | Self::SaveCopy => self.as_file(path, "ron"),
+            Self::RenderOutput { ending } => self.as_file(path, ending),
             Self::Open | Self::ImportMesh | Self::LocateMesh => path,
         }
     }
 
     /// Whether the file will be written.
     pub fn is_save(self) -> bool {
-        matches!(self, Self::SaveAs | Self::SaveCopy | Self::RenderOutput)
+        matches!(self, Self::SaveAs | Self::SaveCopy | Self::RenderOutput { .. })
     }
-}
 
-fn as_file(path: PathBuf, kind: Kind, ending: &str) -> PathBuf {
-    if Kind::of(&path) == Some(kind) {
-        return path;
+    /// Whether a file is of a kind that fits.
+    ///
+    /// # Errors
+    /// Why it does not fit, in words to show.
+    pub(crate) fn fits(self, path: &Path) -> Result<(), String> {
+        match Kind::of(path) {
+            Some(kind) if self.kinds().contains(&kind) => Ok(()),
+            None | Some(Kind::Exr) => Err(refusal(path)),
+            Some(_) => Err(format!("{} is not what is asked for: {}", name_of(path), self.title())),
+        }
     }
-    let mut name = path.into_os_string();
-    name.push(ending);
-    PathBuf::from(name)
+
+    fn as_file(self, path: PathBuf, ending: &str) -> PathBuf {
+        if self.fits(&path).is_ok() {
+            return path;
+        }
+        let mut name = path.into_os_string();
+        name.push(".");
+        name.push(ending);
+        PathBuf::from(name)
+    }
 }

@@ -23,14 +23,17 @@ pub enum Kind {
     Mesh,
     /// A picture, one of [`PICTURES`].
     Picture,
+    /// A rendered picture that only other programs read, `.exr`.
+    Exr,
 }
 
 impl Kind {
-    /// The kind of a file, by its extension; none if Impasto does not read such files.
+    /// The kind of a file, by its extension; none if Impasto neither reads nor writes such files.
     pub fn of(path: &Path) -> Option<Self> {
         let ending = path.extension()?.to_str()?.to_ascii_lowercase();
         match ending.as_str() {
             "ron" => Some(Self::Scene),
+            "exr" => Some(Self::Exr),
             _ if mesh_format::is_mesh(path) => Some(Self::Mesh),
             ending => PICTURES.contains(&ending).then_some(Self::Picture),
         }
@@ -143,10 +146,10 @@ pub fn taken(path: &Path) -> Result<Kind, String> {
     if !path.is_file() {
         return Err(format!("{name} is a device or a pipe, not a file"));
     }
-    Kind::of(path).ok_or_else(|| refusal(path))
+    Kind::of(path).filter(|kind| *kind != Kind::Exr).ok_or_else(|| refusal(path))
 }
 
-/// Why a file of no known kind is not taken.
+/// Why a file that Impasto does not read is not taken.
 pub(super) fn refusal(path: &Path) -> String {
     let name = name_of(path);
     let ending =
@@ -155,6 +158,7 @@ pub(super) fn refusal(path: &Path) -> String {
         "blend" | "fbx" | "ply" | "stl" | "dae" | "abc" | "usd" | "usda" | "usdc" | "usdz" => {
             format!("{name} is a model that Impasto does not read: export it as glTF or OBJ")
         }
+        "exr" => format!("{name} is a rendered picture: Impasto writes EXR files and does not read them"),
         "mtl" => format!("{name} holds materials only: open the OBJ file that names it"),
         _ => format!("{name} is no scene (.ron), mesh (.obj, .glb) or picture (.png, .jpg)"),
     }

@@ -12,7 +12,7 @@ use egui::{
 };
 
 use super::file_ask::FileAsk;
-use super::incoming::{self, Kind, name_of};
+use super::incoming::{Kind, name_of};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{Button, Dialog, dialog, sheet};
@@ -255,11 +255,7 @@ impl PathSheet {
         if !path.is_file() {
             return Err(format!("There is no file {} in {}", name_of(&path), folder.display()));
         }
-        match Kind::of(&path) {
-            Some(kind) if self.ask.kinds().contains(&kind) => Ok(Judged::File(path)),
-            Some(_) => Err(format!("{} is not what is asked for: {}", name_of(&path), self.ask.title())),
-            None => Err(incoming::refusal(&path)),
-        }
+        self.ask.fits(&path).map(|()| Judged::File(path))
     }
 }
 

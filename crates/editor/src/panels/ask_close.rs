@@ -169,8 +169,9 @@ pub fn ask(ctx: &egui::Context, question: &Question) -> Option<Answer> {
             ],
         ),
         Question::FramesThere { there, total } => (
-            format!("{there} of {} there already", files_are(*total)),
-            "What is replaced cannot be had back.".to_owned(),
+            format!("{there} of {} there already", frames_are(*total)),
+            "What is replaced cannot be had back. Frames with missing or cut files are rendered in any case."
+                .to_owned(),
             &[
                 ("Replace all", Answer::ReplaceFrames),
                 ("Cancel", Answer::Cancel),
@@ -199,8 +200,8 @@ pub fn ask(ctx: &egui::Context, question: &Question) -> Option<Answer> {
     verbs.get(chosen).map(|(_, answer)| *answer)
 }
 
-fn files_are(count: u64) -> String {
-    if count == 1 { "1 file is".to_owned() } else { format!("{count} files are") }
+fn frames_are(count: u64) -> String {
+    if count == 1 { "1 frame is".to_owned() } else { format!("{count} frames are") }
 }
 
 fn counted(count: usize, what: &str) -> String {

@@ -1,5 +1,6 @@
 //! The sheet for rendering. The user chooses frames, their size and files there, and sees the progress of rendering.
 
+mod format;
 mod progress;
 
 use egui::{Layout, Margin, Rect, RichText, Role, Sense, TextEdit, TextureHandle, Ui, WidgetInfo, vec2};
@@ -62,6 +63,8 @@ pub fn render_sheet(
     shown: &RenderShown<'_>,
     settings: &mut RenderSettings,
 ) -> Option<RenderAsk> {
+    // A menu takes `Esc` and `Enter` for itself.
+    let has_menu = egui::Popup::is_any_open(ctx);
     sheet(ctx, "Render settings", WIDTH, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
         let runs = shown.progress.is_some_and(|progress| progress.outcome.is_none());
@@ -74,6 +77,7 @@ pub fn render_sheet(
             fault_under(ui, fault, Field::Frames);
             size(ui, shown, settings);
             fault_under(ui, fault, Field::Size);
+            format::format(ui, shown.document.scene(), settings);
             ask = files(ui, settings, fault).or(ask);
             match &plan {
                 Ok(plan) => place(ui, plan),
@@ -89,7 +93,7 @@ pub fn render_sheet(
         ask = foot(ui, shown, &plan).or(ask);
         let (escape, enter) =
             ui.input(|input| (input.key_pressed(egui::Key::Escape), input.key_pressed(egui::Key::Enter)));
-        let is_typing = ui.memory(|memory| memory.focused()).is_some();
+        let is_typing = has_menu || ui.memory(|memory| memory.focused()).is_some();
         match ask {
             None if escape && !is_typing => Some(if runs { RenderAsk::WorkOn } else { RenderAsk::Close }),
             None if enter && !is_typing && !runs && plan.is_ok() => Some(RenderAsk::Render),
@@ -222,7 +226,10 @@ fn files(ui: &mut Ui, settings: &mut RenderSettings, fault: Option<&Fault>) -> O
     labelled(ui, "Files", |ui| {
         let wrong = fault.is_some_and(|fault| fault.field == Field::Output);
         let wide = ui.available_width() - 88.0;
-        text(ui, "Output files", wide, &mut settings.output, wrong);
+        let mut output = settings.output.clone();
+        if text(ui, "Output files", wide, &mut output, wrong).changed() {
+            settings.choose_output(output);
+        }
         let browse = Button::new("Browse\u{2026}").name("Browse for output files");
         browse.show(ui).clicked().then_some(RenderAsk::Browse)
     })

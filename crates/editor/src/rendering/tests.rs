@@ -21,7 +21,7 @@ fn plan(folder: &Path, frames: &str) -> RenderPlan {
         size_px: [64, 36],
         output: folder.join("f_##.png").to_string_lossy().into_owned(),
         driver: RenderDriver::Osmesa,
-        transparent: false,
+        ..RenderSettings::of(document.scene())
     };
     settings.plan(&document, 0.0).unwrap()
 }
@@ -41,8 +41,12 @@ fn is_whole(path: &Path) -> bool {
 #[test]
 fn frames_are_written_and_those_that_are_there_can_stay() {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("f_01.png"), "mine").unwrap();
+    // A file that ends as PNG files do stays; one that was cut does not.
+    let mine = b"mine\0\0\0\0IEND\xae\x42\x60\x82";
+    std::fs::write(folder.path().join("f_01.png"), mine).unwrap();
+    std::fs::write(folder.path().join("f_02.png"), "cut").unwrap();
     let plan = plan(folder.path(), "0-2").keeping();
+    assert_eq!(plan.existing_count(), 2);
     let rendering = Rendering::start(plan, Default::default(), || ()).unwrap();
     assert!(rendering.wait(LONG));
     let progress = rendering.progress();
@@ -51,7 +55,7 @@ fn frames_are_written_and_those_that_are_there_can_stay() {
     assert_eq!(progress.last, Some(folder.path().join("f_02.png")));
     assert_eq!(rendering.take_picture().unwrap().size, [64, 36]);
     assert_eq!(files(folder.path()), ["f_00.png", "f_01.png", "f_02.png"]);
-    assert_eq!(std::fs::read(folder.path().join("f_01.png")).unwrap(), b"mine");
+    assert_eq!(std::fs::read(folder.path().join("f_01.png")).unwrap(), mine);
     assert!(is_whole(&folder.path().join("f_00.png")) && is_whole(&folder.path().join("f_02.png")));
 }
 

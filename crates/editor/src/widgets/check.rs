@@ -10,7 +10,12 @@ const BOX: f32 = 16.0;
 
 /// A box to tick, with its name beside it.
 pub fn checkbox(ui: &mut Ui, name: &str, on: &mut bool) -> Response {
-    let (mark, mut response) = row(ui, name);
+    checkbox_named(ui, name, name, on)
+}
+
+/// As [`checkbox`], but shows `words`; `name` is for screen readers.
+pub fn checkbox_named(ui: &mut Ui, words: &str, name: &str, on: &mut bool) -> Response {
+    let (mark, mut response) = row(ui, words);
     if response.clicked() {
         *on = !*on;
         response.mark_changed();
@@ -51,11 +56,11 @@ pub fn radio_named(ui: &mut Ui, words: &str, name: &str, on: bool) -> Response {
     response
 }
 
-fn row(ui: &mut Ui, name: &str) -> (Rect, Response) {
-    let size = vec2(BOX + measure::GAP + draw::width(ui, name, type_face::body()), measure::HIT);
+fn row(ui: &mut Ui, words: &str) -> (Rect, Response) {
+    let size = vec2(BOX + measure::GAP + draw::width(ui, words, type_face::body()), measure::HIT);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     let mark = Rect::from_center_size(pos2(rect.left() + BOX / 2.0, rect.center().y), vec2(BOX, BOX));
     let at = pos2(mark.right() + measure::GAP, rect.center().y);
-    draw::words(ui.painter(), at, Align2::LEFT_CENTER, name, type_face::body(), Tokens::of(ui).text);
+    draw::words(ui.painter(), at, Align2::LEFT_CENTER, words, type_face::body(), Tokens::of(ui).text);
     (mark, response)
 }

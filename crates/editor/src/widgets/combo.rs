@@ -1,6 +1,6 @@
-//! A control that picks one of several from a menu.
+//! Controls that open a menu: one that picks one of several, and one with a menu of other controls.
 
-use egui::{Align2, Color32, Popup, Response, Role, Sense, Ui, vec2};
+use egui::{Align2, Color32, Popup, PopupCloseBehavior, Response, Role, Sense, Ui, vec2};
 
 use super::draw;
 use crate::icons::{self, Icon};
@@ -11,13 +11,40 @@ use crate::theme::{Tokens, measure, type_face};
 ///
 /// The response is changed when another one is picked.
 pub fn combo(ui: &mut Ui, name: &str, icon: Option<Icon>, choices: &[&str], chosen: &mut usize) -> Response {
-    let tokens = Tokens::of(ui);
     let shown = choices.get(*chosen).copied().unwrap_or_default();
+    let mut response = face(ui, name, icon, shown);
+    let wide = response.rect.width().max(120.0);
+    let mut picked = None;
+    Popup::menu(&response).width(wide).show(|ui| {
+        for (index, choice) in choices.iter().enumerate() {
+            if menu_row(ui, choice, index == *chosen).clicked() {
+                picked = Some(index);
+            }
+        }
+    });
+    if let Some(index) = picked.filter(|index| index != chosen) {
+        *chosen = index;
+        response.mark_changed();
+    }
+    response
+}
+
+/// Shows `shown`, and opens a menu with other controls, which stays until something outside it is clicked.
+pub fn drop_down(ui: &mut Ui, name: &str, shown: &str, contents: impl FnOnce(&mut Ui)) -> Response {
+    let response = face(ui, name, None, shown);
+    let menu = Popup::menu(&response).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    menu.show(contents);
+    response
+}
+
+/// The control while its menu is closed.
+fn face(ui: &mut Ui, name: &str, icon: Option<Icon>, shown: &str) -> Response {
+    let tokens = Tokens::of(ui);
     let before = icon.map_or(0.0, |_| measure::SMALL_ICON + 6.0);
     let padding = if icon.is_some() { 7.0 } else { 8.0 };
     let size =
         vec2(draw::width(ui, shown, type_face::body()) + before + 2.0 * padding + 18.0, measure::FIELD);
-    let (rect, mut response) = ui.allocate_exact_size(size, Sense::click());
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     let rest = if icon.is_some() { Color32::TRANSPARENT } else { tokens.wid };
     let fill = draw::fill(tokens, &response, rest);
     let painter = ui.painter();
@@ -42,18 +69,6 @@ pub fn combo(ui: &mut Ui, name: &str, icon: Option<Icon>, choices: &[&str], chos
         info.current_text_value = Some(shown.to_owned());
         info
     });
-    let mut picked = None;
-    Popup::menu(&response).width(rect.width().max(120.0)).show(|ui| {
-        for (index, choice) in choices.iter().enumerate() {
-            if menu_row(ui, choice, index == *chosen).clicked() {
-                picked = Some(index);
-            }
-        }
-    });
-    if let Some(index) = picked.filter(|index| index != chosen) {
-        *chosen = index;
-        response.mark_changed();
-    }
     response
 }
 

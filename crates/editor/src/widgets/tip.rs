@@ -1,6 +1,6 @@
 //! Tooltips of one form: name, key, effect, range.
 
-use egui::{Response, RichText};
+use egui::{Response, RichText, Ui};
 
 use crate::theme::{Tokens, type_face};
 
@@ -20,19 +20,26 @@ pub struct Tip<'a> {
 impl Tip<'_> {
     /// Shows the tooltip while the pointer rests on `response`.
     pub fn on(self, response: Response) -> Response {
-        response.on_hover_ui(|ui| {
-            let tokens = Tokens::of(ui);
-            ui.horizontal(|ui| {
-                ui.label(RichText::new(self.name).font(type_face::head()).color(tokens.text));
-                if !self.key.is_empty() {
-                    ui.label(RichText::new(self.key).font(type_face::number()).color(tokens.weak));
-                }
-            });
-            for (line, colour) in [(self.effect, tokens.text), (self.range, tokens.weak)] {
-                if !line.is_empty() {
-                    ui.label(RichText::new(line).font(type_face::small()).color(colour));
-                }
+        response.on_hover_ui(|ui| self.show(ui))
+    }
+
+    /// Shows the tooltip while the pointer rests on `response`, a control that is disabled.
+    pub fn on_disabled(self, response: Response) -> Response {
+        response.on_disabled_hover_ui(|ui| self.show(ui))
+    }
+
+    fn show(self, ui: &mut Ui) {
+        let tokens = Tokens::of(ui);
+        ui.horizontal(|ui| {
+            ui.label(RichText::new(self.name).font(type_face::head()).color(tokens.text));
+            if !self.key.is_empty() {
+                ui.label(RichText::new(self.key).font(type_face::number()).color(tokens.weak));
             }
-        })
+        });
+        for (line, colour) in [(self.effect, tokens.text), (self.range, tokens.weak)] {
+            if !line.is_empty() {
+                ui.label(RichText::new(line).font(type_face::small()).color(colour));
+            }
+        }
     }
 }

@@ -173,7 +173,12 @@ fn files_that_cannot_be_read_are_refused_with_words() {
     let home = Home::new();
     home.write("chair.fbx", "");
     home.write("looks.mtl", "");
+    home.write("shot_0001.EXR", "");
     for (name, words) in [
+        (
+            "shot_0001.EXR",
+            "shot_0001.EXR is a rendered picture: Impasto writes EXR files and does not read them",
+        ),
         ("models/diary.txt", "no scene"),
         ("chair.fbx", "export it as glTF or OBJ"),
         ("looks.mtl", "the OBJ file"),

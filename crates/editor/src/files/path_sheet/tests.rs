@@ -19,9 +19,15 @@ struct Page {
 /// A sheet over a folder with two scenes, a mesh, a text, a hidden file and a folder with a scene.
 fn sheet(ask: FileAsk, start: &str) -> (Harness<'static, Page>, tempfile::TempDir) {
     let home = tempfile::tempdir().expect("a temporary folder");
-    for name in
-        ["still_life.ron", "still_water.ron", "Apple.OBJ", "diary.txt", ".hidden.ron", "shots/roll.ron"]
-    {
+    for name in [
+        "still_life.ron",
+        "still_water.ron",
+        "Apple.OBJ",
+        "diary.txt",
+        "f_1.exr",
+        ".hidden.ron",
+        "shots/roll.ron",
+    ] {
         let path = home.path().join(name);
         fs::create_dir_all(path.parent().expect("a parent")).expect("made");
         fs::write(path, "").expect("written");
@@ -133,6 +139,8 @@ fn a_bad_choice_is_explained_under_the_field() {
         (FileAsk::Open, "gone.ron", "There is no file gone.ron"),
         (FileAsk::Open, "nowhere/gone.ron", "There is no folder"),
         (FileAsk::Open, "diary.txt", "no scene"),
+        (FileAsk::Open, "f_1.exr", "f_1.exr is a rendered picture"),
+        (FileAsk::LocateMesh, "f_1.exr", "does not read them"),
         (FileAsk::ImportMesh, "still_life.ron", "not what is asked for"),
         (FileAsk::SaveAs, "nowhere/new", "There is no folder"),
     ] {
@@ -188,6 +196,18 @@ fn a_save_gives_the_name_its_ending() {
     harness.get_by_label("Save").click();
     harness.run();
     harness.get_by_label("Replace");
+}
+
+#[test]
+fn frames_keep_the_ending_that_is_typed_and_get_the_usual_one_otherwise() {
+    let ask = FileAsk::RenderOutput { ending: "exr" };
+    for (start, file) in [("f_##", "f_##.exr"), ("f_##.exr", "f_##.exr"), ("f_##.png", "f_##.png")] {
+        let (mut harness, home) = sheet(ask, start);
+        harness.get_by_label("f_1.exr");
+        harness.get_by_label("Save").click();
+        harness.run();
+        assert_eq!(harness.state().picked, Some(Picked::File(home.path().join(file))));
+    }
 }
 
 #[test]
