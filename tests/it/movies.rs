@@ -253,7 +253,7 @@ fn an_interrupt_between_frames_leaves_no_movie() {
     let programs = folder.path("programs");
     std::fs::create_dir(&programs).unwrap();
     let script = "#!/bin/sh\ncase \"$*\" in *-encoders*) echo ' V libx264 H.264'; exit;; esac\n\
-        : > began\nwhile /bin/dd bs=9216 count=1 2>/dev/null | /bin/grep -q .; do /bin/sleep 0.02; done\n";
+        : > began\nwhile [ \"$(/bin/dd bs=9216 count=1 2>/dev/null | /usr/bin/wc -c)\" -gt 0 ]; do /bin/sleep 0.02; done\n";
     std::fs::write(programs.join("ffmpeg"), script).unwrap();
     std::fs::set_permissions(programs.join("ffmpeg"), std::fs::Permissions::from_mode(0o755)).unwrap();
     let list = "1-3,".repeat(20_000) + "1";
