@@ -1,7 +1,7 @@
-"""Reads an EXR file of ours in Blender's compositor: its passes, a matte by name, a layer laid over the others.
+"""Reads an EXR file of ours in Blender's compositor: its passes, and a matte by name.
 
-Usage: python compositing.py FRAME.exr OUT_FOLDER OBJECT
-Writes matte.exr (the matte of OBJECT), and passes.json (what Blender calls the passes).
+Usage: python compositing.py FRAME.exr OUT_FOLDER OBJECT WIDTH HEIGHT
+Writes matte.exr (the matte of OBJECT), and passes.json (what the Image node calls the passes).
 """
 
 import json
@@ -10,7 +10,7 @@ import sys
 
 import bpy
 
-frame, folder, name = sys.argv[-3:]
+frame, folder, name, width, height = sys.argv[-5:]
 bpy.ops.wm.read_factory_settings(use_empty=True)
 scene = bpy.context.scene
 image = bpy.data.images.load(frame)
@@ -25,11 +25,7 @@ matte.source = "IMAGE"
 matte.image = image
 result = tree.nodes.new("NodeGroupOutput")
 
-width, height = image.size
-if width == 0:
-    # A file of several layers tells its size only when it is drawn.
-    width, height = json.loads(os.environ["SIZE_PX"])
-scene.render.resolution_x, scene.render.resolution_y = width, height
+scene.render.resolution_x, scene.render.resolution_y = int(width), int(height)
 scene.render.resolution_percentage = 100
 scene.render.image_settings.file_format = "OPEN_EXR"
 scene.render.image_settings.color_depth = "32"
@@ -37,7 +33,6 @@ scene.render.filepath = os.path.join(folder, "matte.exr")
 scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
 scene.collection.objects.link(scene.camera)
 
-print("layers", [item.name for item in matte.bl_rna.properties["layer_name"].enum_items] or matte.layer_name)
 matte.layer_name = "CryptoObject"
 matte.matte_id = name
 tree.links.new(matte.outputs["Matte"], result.inputs["Image"])

@@ -1,4 +1,5 @@
-//! Tests against a real Blender, which makes shots, exports them, and says where everything is: `tests/blender/shots.py`.
+//! Tests against a real Blender, which makes shots, exports them, and says where everything is (`tests/blender/shots.py`), and reads our
+//! EXR files in its compositor (`tests/blender/compositing.py`).
 //!
 //! They run where `IMPASTO_BPY` names a Python that has Blender as a module (`pip install bpy`), and are skipped elsewhere.
 
@@ -114,4 +115,54 @@ fn shots_stand_where_blender_has_them() {
             "{name}: {px} px, {rad} rad, {share}"
         );
     }
+}
+
+/// The Cryptomatte node finds an object with a name in two scripts by its name, and gives the coverage that the file states.
+#[test]
+fn the_compositor_reads_passes_and_mattes() {
+    let Some(python) = std::env::var_os("IMPASTO_BPY") else {
+        return eprintln!("skipped: IMPASTO_BPY names no Python with Blender");
+    };
+    const NAME: &str = "Café 日";
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    std::fs::write(at("sheet.obj"), "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n").unwrap();
+    let scene = format!(
+        "#![enable(implicit_some)]\n(version: 1, size: (96, 54), \
+         camera: (keys: [(frame: 0, eye: (0, 0, 5), target: (0, 0, 0))]), \
+         objects: [(name: \"{NAME}\", mesh: \"sheet.obj\", particles: 400)], strokes: (length_px: 16, width_px: 5))"
+    );
+    std::fs::write(at("a.ron"), scene).unwrap();
+    let mut render = Command::new(impasto_tests::command::impasto());
+    render.current_dir(folder.path()).args(["render", "a.ron", "-f", "0", "-o", "a.exr", "--aov", "all"]);
+    assert!(render.status().unwrap().success());
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("blender/compositing.py");
+    let mut blender = Command::new(python);
+    blender.arg(script).arg(at("a.exr")).arg(folder.path()).args([NAME, "96", "54"]);
+    let done = blender.output().unwrap();
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    assert!(
+        !String::from_utf8_lossy(&done.stderr).contains("report this as a bug"),
+        "a pass that Blender cannot read"
+    );
+    let passes: Value = serde_json::from_slice(&std::fs::read(at("passes.json")).unwrap()).unwrap();
+    for wanted in ["Combined", "Depth", "N", "P", "motion", "light", "objectid", "CryptoStroke00"] {
+        assert!(
+            passes["outputs"].as_array().unwrap().iter().any(|name| name == wanted),
+            "{wanted}: {passes}"
+        );
+    }
+    let read = |file: &str, channels: &[&str]| {
+        impasto_frame_files::exr_file::read(&at(file), channels).unwrap().values
+    };
+    let stated = read("a.exr", &["CryptoObject00.R", "CryptoObject00.G"]);
+    let matte = read("matte.exr", &["R"]);
+    let bits = impasto_aovs::cryptomatte::id_bits(NAME);
+    let covered = stated[0].iter().zip(&stated[1]);
+    let covered: Vec<f32> =
+        covered.map(|(id, amount)| if id.to_bits() == bits { *amount } else { 0.0 }).collect();
+    assert!(covered.iter().sum::<f32>() > 500.0, "the sheet shows");
+    let off = covered.iter().zip(&matte[0]).map(|(stated, found)| (stated - found).abs()).fold(0.0, f32::max);
+    println!("Blender's matte is off by at most {off}");
+    assert!(off < 1e-6, "{off}");
 }

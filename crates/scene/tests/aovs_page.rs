@@ -1,7 +1,5 @@
 //! Tests that `docs/compositing.md` lists what EXR files can hold, as the source does. `IMPASTO_BLESS=1` rewrites its table.
 
-#![expect(clippy::unwrap_used, reason = "a test fails by it")]
-
 use std::fmt::Write;
 
 use impasto_scene::aovs::AOVS;
