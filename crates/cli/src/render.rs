@@ -186,11 +186,9 @@ fn destination(arguments: &RenderArguments, frames: &FrameList) -> Result<Destin
         if has_ending(&arguments.output, ".exr") {
             return Err(Failure::Usage("--apng writes a PNG file: let -o end in .png".to_owned()));
         }
-        let has_place = arguments.output.contains('#')
-            || arguments.output.contains('%')
-            || arguments.output.contains("$F");
-        let pattern = Pattern::parse(&arguments.output, frames.count());
-        return Ok(Destination::Animation(if has_place {
+        // It is one file, whose name needs no number.
+        let pattern = Pattern::parse(&arguments.output, 1);
+        return Ok(Destination::Animation(if pattern.has_place() {
             pattern.beside("all")
         } else {
             PathBuf::from(&arguments.output)

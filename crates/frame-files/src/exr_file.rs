@@ -14,6 +14,7 @@ use half::f16;
 use impasto_scene::limits::MAX_PIXELS;
 
 use crate::exr_header::sort_attributes;
+use crate::frame_rate::fraction;
 use crate::picture_file::Provenance;
 
 /// The values of a channel, row by row from the top.
@@ -104,10 +105,10 @@ pub fn encode(picture: ExrPicture, provenance: &Provenance, parallel: bool) -> a
             AnyChannel { quantize_linearly: true, ..AnyChannel::new(text(&name), samples) }
         })
         .collect();
-    let (numerator, denominator) = rate(picture.fps);
+    let [over, under] = fraction(picture.fps);
     let attributes = LayerAttributes {
         software_name: Some(text(concat!("Impasto ", env!("CARGO_PKG_VERSION")))),
-        frames_per_second: Some((numerator, denominator)),
+        frames_per_second: Some((over as i32, under)),
         world_to_camera: Some(picture.from_world[0]),
         world_to_normalized_device: Some(picture.from_world[1]),
         ..LayerAttributes::default()
@@ -194,17 +195,6 @@ fn attribute(note: Note) -> AttributeValue {
     }
 }
 
-/// Frames per second as a fraction: 24000/1001 where that is meant.
-fn rate(fps: f64) -> (i32, u32) {
-    for under in [1u32, 1001, 1000] {
-        let over = fps * f64::from(under);
-        if (over - over.round()).abs() < 0.02 * f64::from(under.min(2) - 1) + 1e-6 && over < 2e9 {
-            return (over.round() as i32, under);
-        }
-    }
-    ((fps * 1000.0).round().min(2e9) as i32, 1000)
-}
-
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeMap;
@@ -266,7 +256,8 @@ mod tests {
                 _ => panic!("{name} has another type"),
             }
         }
-        let other = &image.attributes.other;
+        // The library gives notes of its users to the layer.
+        let other = &image.layer_data.attributes.other;
         assert_eq!(other.get(&text("Scene")), Some(&AttributeValue::Text(text("Café.ron"))));
         assert_eq!(other.get(&text("note 4")), Some(&AttributeValue::Text(text("Äpfel 日"))));
         assert_eq!(other.get(&text("Frame")), Some(&AttributeValue::I32(-3)));
@@ -278,15 +269,6 @@ mod tests {
         let once = encode(picture(), &provenance(), true).unwrap();
         for parallel in [true, false, true] {
             assert!(encode(picture(), &provenance(), parallel).unwrap() == once);
-        }
-    }
-
-    #[test]
-    fn rates_of_film_and_television_are_fractions() {
-        for (fps, fraction) in
-            [(24.0, (24, 1)), (23.976, (24000, 1001)), (29.97, (30000, 1001)), (12.5, (12500, 1000))]
-        {
-            assert_eq!(rate(fps), fraction, "{fps}");
         }
     }
 }

@@ -4,6 +4,7 @@
 pub mod exr_file;
 mod exr_header;
 mod frame_list;
+mod frame_rate;
 pub mod frame_reader;
 mod pattern;
 pub mod picture_file;

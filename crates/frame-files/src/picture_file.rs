@@ -6,6 +6,8 @@ use std::path::Path;
 
 use impasto_scene::whole_file::WholeFile;
 
+use crate::frame_rate::fraction;
+
 /// Where a picture comes from; noted in the file.
 #[derive(Clone, Debug)]
 pub struct Provenance {
@@ -99,8 +101,12 @@ pub fn begin_animation<'a>(
 ) -> anyhow::Result<png::Writer<&'a mut dyn Write>> {
     let mut encoder = encoder(file, size_px, provenance)?;
     encoder.set_animated(pictures, 0)?;
-    // In whole milliseconds, so 24 frames a second become 23.8.
-    encoder.set_frame_delay((1000.0 / fps).round().clamp(1.0, 65535.0) as u16, 1000)?;
+    // Both numbers have 16 bits in the file.
+    let delay_s = match fraction(fps).map(u16::try_from) {
+        [Ok(over), Ok(under)] => [under, over],
+        _ => [(1000.0 / fps).round().clamp(1.0, 65535.0) as u16, 1000],
+    };
+    encoder.set_frame_delay(delay_s[0], delay_s[1])?;
     Ok(encoder.write_header()?)
 }
 
@@ -133,6 +139,20 @@ mod tests {
 
     fn provenance() -> Provenance {
         Provenance { scene: "a.ron".to_owned(), frame: "1".to_owned(), driver: "a driver".to_owned() }
+    }
+
+    #[test]
+    fn an_animation_keeps_the_rate_of_film() {
+        for (fps, delay) in [(24.0, (1, 24)), (23.976, (1001, 24000)), (12.5, (2, 25))] {
+            let mut bytes = Vec::new();
+            let mut writer = begin_animation(&mut bytes, [1, 1], 2, fps, &provenance()).unwrap();
+            writer.write_image_data(&[0; 4]).unwrap();
+            writer.write_image_data(&[0; 4]).unwrap();
+            writer.finish().unwrap();
+            let reader = png::Decoder::new(io::Cursor::new(&bytes)).read_info().unwrap();
+            let control = reader.info().frame_control().unwrap();
+            assert_eq!((control.delay_num, control.delay_den), delay, "{fps}");
+        }
     }
 
     #[test]
