@@ -69,6 +69,9 @@ fn is_whole_png(path: &Path) -> bool {
     bytes.starts_with(b"\x89PNG\r\n\x1a\n") && bytes.ends_with(b"IEND\xaeB`\x82")
 }
 
+/// A file that ends as a PNG file does, and that no command has written.
+const MINE: &[u8] = b"mine\0\0\0\0IEND\xae\x42\x60\x82";
+
 #[test]
 fn render_writes_whole_frames_by_their_pattern() {
     let folder = Folder::new();
@@ -79,19 +82,22 @@ fn render_writes_whole_frames_by_their_pattern() {
     for name in folder.names("out") {
         assert!(is_whole_png(&folder.path("out").join(name)));
     }
-    // Existing frames stay; the missing ones are rendered.
-    std::fs::write(folder.path("out/f_01.png"), "mine").unwrap();
+    // Existing frames stay; the missing ones are rendered, and so are those that were cut.
+    std::fs::write(folder.path("out/f_01.png"), MINE).unwrap();
     std::fs::remove_file(folder.path("out/f_02.png")).unwrap();
+    let first = std::fs::read(folder.path("out/f_00.png")).unwrap();
+    std::fs::write(folder.path("out/f_00.png"), &first[..first.len() - 1]).unwrap();
     let output =
         folder.run(&["render", "scene.ron", "-o", "out/f_##.png", "--skip-existing", "--json", "-q"]);
     assert_eq!(code(&output), 0);
-    assert_eq!(std::fs::read(folder.path("out/f_01.png")).unwrap(), b"mine");
+    assert_eq!(std::fs::read(folder.path("out/f_01.png")).unwrap(), MINE);
+    assert_eq!(std::fs::read(folder.path("out/f_00.png")).unwrap(), first);
     assert!(is_whole_png(&folder.path("out/f_02.png")));
     let events: Vec<serde_json::Value> =
         words(&output.stdout).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     let frames: Vec<_> =
         events.iter().filter(|event| event["event"] == "frame").map(|event| &event["frame"]).collect();
-    assert_eq!(frames, [2]);
+    assert_eq!(frames, [0, 2]);
 }
 
 /// Whether one thread paints the frames or three do, the files have the same bytes and frames are reported in order.
@@ -123,7 +129,7 @@ fn frames_do_not_depend_on_how_many_draw_them() {
             .collect::<Vec<_>>()
     };
     std::fs::create_dir(folder.path("three")).unwrap();
-    std::fs::write(folder.path("three/f_05.png"), "mine").unwrap();
+    std::fs::write(folder.path("three/f_05.png"), MINE).unwrap();
     assert_eq!(render("1", "one/f_##.png"), (0..14).collect::<Vec<_>>());
     assert_eq!(render("3", "three/f_##.png"), (0..14).filter(|&frame| frame != 5).collect::<Vec<_>>());
     assert_eq!(folder.names("one"), folder.names("three"));

@@ -274,7 +274,7 @@ pub(crate) struct RenderArguments {
     /// Keep strokes at their size in pixels, whatever the size of the picture.
     #[arg(long)]
     pub(crate) keep_stroke_px: bool,
-    /// Skip frames whose files exist.
+    /// Skip frames whose files exist and are whole.
     #[arg(long)]
     pub(crate) skip_existing: bool,
     /// Also write a sheet of small copies of all frames, beside the frames.
