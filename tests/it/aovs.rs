@@ -300,7 +300,7 @@ fn mattes_cover_what_is_painted() {
         let off: f32 = matte.iter().zip(&counted).map(|(matte, counted)| (matte - counted).abs()).sum();
         let mean = off / matte.len() as f32;
         println!("{}: off by {mean:.4} in the mean", object.name);
-        assert!(mean < 0.02, "{}: {mean}", object.name);
+        assert!(mean < 0.01, "{}: {mean}", object.name);
         for (sum, part) in sums.iter_mut().zip(&matte) {
             *sum += part;
         }
@@ -314,13 +314,15 @@ fn mattes_cover_what_is_painted() {
             .map(|at| all.iter().map(|plane| plane[at]).sum::<f32>());
         let mean = low.clone().sum::<f32>() / low.clone().count() as f32;
         println!("{kind}: {mean:.4} of what is painted in the mean, at least {}", low.fold(1.0, f32::min));
-        assert!(mean > 0.95, "{kind}: {mean}");
+        // Six ranks cannot hold all strokes of a pixel.
+        let least = if kind == "CryptoStroke" { 0.99 } else { 0.999 };
+        assert!(mean > least, "{kind}: {mean}");
     }
     let covered = (0..sums.len()).filter(|&at| painted[at] > 0.0);
     let (least, most) =
         covered.map(|at| sums[at]).fold((1.0f32, 0.0f32), |(low, high), sum| (low.min(sum), high.max(sum)));
     println!("sums of all objects where a body is: {least} to {most}");
-    assert!(least > 0.97 && most < 1.01, "{least} to {most}");
+    assert!(least > 0.99 && most < 1.01, "{least} to {most}");
 }
 
 /// Without a background alpha is what paint covers, and so is the sum of all mattes.
@@ -430,4 +432,46 @@ fn exposure_brightens_what_is_shown_and_leaves_the_linear_picture() {
         let wanted = srgb_from_linear((2.0 * plain.plane("G")[index]).min(1.0)) * 255.0;
         assert!((wanted - f32::from(pixel[1])).abs() < 1.5, "pixel {index}: {} for {wanted}", pixel[1]);
     }
+}
+
+#[test]
+fn paint_is_lit_anew_and_a_file_that_is_none_is_one_error() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let run = |arguments: &[&str]| {
+        Command::new(impasto()).arg("relight").args(arguments).current_dir(path).output().unwrap()
+    };
+    let painted = render(path, "roll.ron", &["-o", "a.exr", "--aov", "paint.color,paint.normal"]);
+    assert!(painted.status.success() && render(path, "roll.ron", &["-o", "bare.exr"]).status.success());
+    let done = run(&["a.exr", "--light", "1,0.5,0.5", "-o", "lit.png"]);
+    assert!(done.status.success() && path.join("lit.png").exists(), "{}", said(&done));
+    let whole = std::fs::read(path.join("a.exr")).unwrap();
+    // A head that claims a picture of 10,000 x 10,000: its data window ends there.
+    let window = whole.windows(11).position(|name| name == b"dataWindow\0").unwrap() + 11 + 6 + 4 + 8;
+    let mut huge = whole.clone();
+    huge[window..window + 8].copy_from_slice(&[9999u32.to_le_bytes(), 9999u32.to_le_bytes()].concat());
+    for (name, bytes) in [
+        ("text.exr", b"no picture".to_vec()),
+        ("empty.exr", Vec::new()),
+        ("cut.exr", whole[..whole.len() * 2 / 3].to_vec()),
+        ("head.exr", whole[..200].to_vec()),
+        ("huge.exr", huge),
+    ] {
+        std::fs::write(path.join(name), bytes).unwrap();
+        let done = run(&[name, "--light", "1,1,1", "-o", "none.png"]);
+        let words = said(&done);
+        assert!(done.status.code().is_some_and(|code| code != 0 && code < 100), "{name}: {words}");
+        assert_eq!(words.matches("error").count(), 1, "{name}: {words}");
+        assert!(words.contains(name) && !words.contains("panicked"), "{name}: {words}");
+    }
+    for (arguments, words) in [
+        (&["bare.exr", "--light", "1,1,1", "-o", "none.png"][..], "--aov paint.color,paint.normal"),
+        (&["a.exr", "--light", "1,1,-1", "-o", "none.png"], "X,Y,Z"),
+        (&["a.exr", "--light", "1,1,1", "-o", "none.jpg"], ".png"),
+        (&["gone.exr", "--light", "1,1,1", "-o", "none.png"], "gone.exr"),
+    ] {
+        let done = run(arguments);
+        assert!(!done.status.success() && said(&done).contains(words), "{arguments:?}: {}", said(&done));
+    }
+    assert!(!path.join("none.png").exists());
 }

@@ -43,8 +43,11 @@ fn a_text_takes_the_place_of_a_file_and_a_broken_one_leaves_the_last_good() {
     let words = renderer.replace_shaders(&texts(&broken)).unwrap_err().to_string();
     assert!(words.contains("shared/encode.glsl:5") && words.contains("lower"), "{words}");
     // A shader that is broken only in drafts is refused at once.
-    let draft_only = format!("{ENCODE}\n#ifdef DRAFT\nbroken\n#endif\n");
-    renderer.replace_shaders(&texts(&draft_only)).unwrap_err();
+    // So is one that is broken only where data beside the colour is wanted.
+    for only in ["DRAFT", "DATA"] {
+        let broken = format!("{ENCODE}\n#ifdef {only}\nbroken\n#endif\n");
+        renderer.replace_shaders(&texts(&broken)).unwrap_err();
+    }
     assert!(renderer.render(&exact).unwrap().rgba8.starts_with(&[255, 0, 0, 255]));
     renderer.replace_shaders(&ShaderTexts::default()).unwrap();
     assert!(renderer.render(&exact).unwrap() == own);

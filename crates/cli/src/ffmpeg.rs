@@ -32,6 +32,8 @@ pub(crate) struct Encoding {
     encoder: &'static str,
     /// The name that people use.
     codec: &'static str,
+    /// ffmpeg's name of the layout of pixels in the file.
+    pixels: &'static str,
     /// The remaining arguments for the file.
     arguments: &'static [&'static str],
     /// Whether both sides of the picture must be even.
@@ -42,18 +44,27 @@ pub(crate) struct Encoding {
 
 /// What every player takes, at a quality where strokes stay strokes.
 const fn h264(arguments: &'static [&'static str]) -> Encoding {
-    Encoding { encoder: "libx264", codec: "H.264", arguments, even_sides: true, deep: false }
+    Encoding {
+        encoder: "libx264",
+        codec: "H.264",
+        pixels: "yuv420p",
+        arguments,
+        even_sides: true,
+        deep: false,
+    }
 }
 
 /// What programs that edit films take. All colours are kept at every pixel: where a quarter or a half of them is dropped, as
 /// in ProRes 422, saturated strokes fray.
-const fn prores_4444(arguments: &'static [&'static str]) -> Encoding {
-    Encoding { encoder: "prores_ks", codec: "ProRes 4444", arguments, even_sides: false, deep: true }
+const fn prores_4444(pixels: &'static str) -> Encoding {
+    let arguments = &["-profile:v", "4", "-vendor", "apl0", "-movflags", "+faststart", "-f", "mov"];
+    Encoding { encoder: "prores_ks", codec: "ProRes 4444", pixels, arguments, even_sides: false, deep: true }
 }
 
 /// What browsers take.
-const fn vp9(arguments: &'static [&'static str]) -> Encoding {
-    Encoding { encoder: "libvpx-vp9", codec: "VP9", arguments, even_sides: false, deep: false }
+const fn vp9(pixels: &'static str) -> Encoding {
+    let arguments = &["-crf", "20", "-b:v", "0", "-cpu-used", "4", "-row-mt", "1", "-f", "webm"];
+    Encoding { encoder: "libvpx-vp9", codec: "VP9", pixels, arguments, even_sides: false, deep: false }
 }
 
 /// A kind of movie file.
@@ -70,72 +81,16 @@ pub(crate) struct Kind {
 static KINDS: [Kind; 4] = [
     Kind {
         ending: "mp4",
-        opaque: h264(&["-crf", "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4"]),
+        opaque: h264(&["-crf", "18", "-movflags", "+faststart", "-f", "mp4"]),
         transparent: None,
     },
-    Kind {
-        ending: "mkv",
-        opaque: h264(&["-crf", "18", "-pix_fmt", "yuv420p", "-f", "matroska"]),
-        transparent: None,
-    },
+    Kind { ending: "mkv", opaque: h264(&["-crf", "18", "-f", "matroska"]), transparent: None },
     Kind {
         ending: "mov",
-        opaque: prores_4444(&[
-            "-profile:v",
-            "4",
-            "-vendor",
-            "apl0",
-            "-pix_fmt",
-            "yuv444p10le",
-            "-movflags",
-            "+faststart",
-            "-f",
-            "mov",
-        ]),
-        transparent: Some(prores_4444(&[
-            "-profile:v",
-            "4",
-            "-vendor",
-            "apl0",
-            "-pix_fmt",
-            "yuva444p10le",
-            "-movflags",
-            "+faststart",
-            "-f",
-            "mov",
-        ])),
+        opaque: prores_4444("yuv444p10le"),
+        transparent: Some(prores_4444("yuva444p10le")),
     },
-    Kind {
-        ending: "webm",
-        opaque: vp9(&[
-            "-crf",
-            "20",
-            "-b:v",
-            "0",
-            "-cpu-used",
-            "4",
-            "-row-mt",
-            "1",
-            "-pix_fmt",
-            "yuv420p",
-            "-f",
-            "webm",
-        ]),
-        transparent: Some(vp9(&[
-            "-crf",
-            "20",
-            "-b:v",
-            "0",
-            "-cpu-used",
-            "4",
-            "-row-mt",
-            "1",
-            "-pix_fmt",
-            "yuva420p",
-            "-f",
-            "webm",
-        ])),
-    },
+    Kind { ending: "webm", opaque: vp9("yuv420p"), transparent: Some(vp9("yuva420p")) },
 ];
 
 impl Kind {
@@ -260,6 +215,7 @@ impl Movie {
             .args(["-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", pixel_format])
             .args(["-s", &format!("{width}x{height}"), "-r", &frames.fps.to_string(), "-i", "-"])
             .args(["-an", "-vf", &format!("{even}{COLOR_FILTERS}"), "-c:v", encoding.encoder])
+            .args(["-pix_fmt", encoding.pixels])
             .args(encoding.arguments)
             .arg(file.part_path())
             .stdin(Stdio::piped())

@@ -79,6 +79,9 @@ pub struct ExrPicture {
     pub notes: Vec<(String, Note)>,
 }
 
+/// No byte of a ZIP holds more than this many.
+const MOST_SHRUNK: u64 = 1032;
+
 /// Rec. 709 with the white of D65.
 const REC_709: Chromaticities = Chromaticities {
     red: Vec2(0.64, 0.33),
@@ -159,7 +162,13 @@ pub fn read(path: &Path, channels: &[&str]) -> anyhow::Result<Planes> {
         (width as u64).saturating_mul(height as u64) <= MAX_PIXELS,
         "{width} x {height} pixels are too many"
     );
-    // The file's blocks take space in it, however well they are compressed.
+    let sample_bytes: usize = header.channels.list.iter().map(|it| it.sample_type.bytes_per_sample()).sum();
+    let claimed = (width as u64 * height as u64).saturating_mul(sample_bytes as u64);
+    let length = path.metadata()?.len();
+    anyhow::ensure!(
+        claimed <= length.saturating_mul(MOST_SHRUNK),
+        "it claims more than its {length} bytes can hold"
+    );
     anyhow::ensure!(crate::exr_header::is_whole(path), "it was cut, or has parts of other kinds");
     for name in channels {
         anyhow::ensure!(

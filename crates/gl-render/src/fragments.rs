@@ -103,10 +103,8 @@ impl FragmentGatherer {
                 ),
             });
         }
-        let bytes = MOST_BYTES.min(limits.max_storage_bytes);
-        let mut buffer = Buffer::new(gpu, BufferUse::ReadBack)?;
-        buffer.reserve(bytes)?;
-        let capacity = (bytes - COUNT_BYTES) / FRAGMENT_BYTES;
+        let capacity = (MOST_BYTES.min(limits.max_storage_bytes) - COUNT_BYTES) / FRAGMENT_BYTES;
+        let buffer = Buffer::new(gpu, BufferUse::ReadBack)?;
         Ok(Self { buffer, capacity, fragments: Vec::new(), layers: Vec::new() })
     }
 
@@ -115,10 +113,11 @@ impl FragmentGatherer {
         self.capacity
     }
 
-    /// Forgets the picture before.
-    pub(crate) fn clear(&mut self) {
+    /// Forgets the picture before, and makes room for the next one.
+    pub(crate) fn clear(&mut self) -> Result<(), GlError> {
         self.fragments.clear();
         self.layers.clear();
+        self.buffer.reserve(COUNT_BYTES + self.capacity * FRAGMENT_BYTES)
     }
 
     /// Begins to note fragments.

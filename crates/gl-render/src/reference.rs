@@ -108,10 +108,8 @@ impl ReferencePass {
         lights: &LightSetup,
         targets: &ReferenceTargets,
     ) -> Result<[Vec<[f16; 4]>; 2], GlError> {
-        let program = match self.light_parts.take() {
-            Some(program) => program,
-            None => Program::new(&self.gpu, FILES, &LIGHT_PARTS)?,
-        };
+        self.ready_light_parts()?;
+        let Some(program) = &self.light_parts else { return Ok(Default::default()) };
         let target =
             || Texture::target(&self.gpu, Format::Rgba16F, frame.size_px, Filter::Nearest).map(Rc::new);
         let pass = Framebuffer::new(&self.gpu, &[&target()?, &target()?], None)?;
@@ -119,16 +117,24 @@ impl ReferencePass {
         let lens = LensSetup::new(&frame.view, frame.size_px);
         let bound = targets.set(lights.set(lens.set(program.bind(), &LENS_UNIFORMS)));
         self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
-        self.light_parts = Some(program);
         Ok([pass.read_halves(0), pass.read_halves(1)])
     }
 
     /// Creates at once every program that is otherwise created when it is first needed.
     pub(crate) fn ready_all(&mut self) -> Result<(), GlError> {
         self.ready_drafts()?;
+        self.ready_light_parts()?;
         self.shadow.program().ready_all()?;
         self.surface.ready_all()?;
         self.noise.ready_all()
+    }
+
+    /// Creates the program for the parts of light, unless it exists.
+    fn ready_light_parts(&mut self) -> Result<(), GlError> {
+        if self.light_parts.is_none() {
+            self.light_parts = Some(Program::new(&self.gpu, FILES, &LIGHT_PARTS)?);
+        }
+        Ok(())
     }
 
     /// Creates the program for drafts, unless it exists.

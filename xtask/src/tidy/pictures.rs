@@ -13,7 +13,8 @@ const FILE_LIMIT_BYTES: u64 = 1024 * 1024;
 /// Whether the file is bigger than its kind may be.
 pub fn check(file: &str, bytes: u64) -> Option<Finding> {
     let is_picture = matches!(extension(file), "png" | "jpg" | "jpeg" | "webp" | "gif" | "svg");
-    let (limit, mend) = if is_picture && file.split('/').any(|part| part == "goldens") {
+    let (limit, mend) = if is_picture && file.split('/').any(|part| part == "goldens" || part == "snapshots")
+    {
         (GOLDEN_LIMIT_BYTES, "compare a smaller picture")
     } else if is_picture && file.starts_with("docs/") {
         (DOCS_LIMIT_BYTES, "show it smaller (`cargo xtask gallery` finds a size that fits)")

@@ -113,6 +113,7 @@ fn a_lint_exception_says_why() {
 fn big_pictures_are_named() {
     let bytes = |kilobytes: usize| "x".repeat(kilobytes * 1024);
     found(&[("tests/goldens/a.png", &bytes(65))], "tests/goldens/a.png:1: 65 KB, where at most 64");
+    found(&[("a/snapshots/b.png", &bytes(65))], "a/snapshots/b.png:1: 65 KB, where at most 64");
     found(&[("docs/pictures/a.png", &bytes(401))], "docs/pictures/a.png:1: 401 KB");
     found(&[("scenes/meshes/a.bin", &bytes(1025))], "scenes/meshes/a.bin:1: 1025 KB");
     assert_eq!(verdict(&[("tests/goldens/a.png", &bytes(64)), ("docs/pictures/a.png", &bytes(400))]), Ok(()));

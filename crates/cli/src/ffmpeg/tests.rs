@@ -212,6 +212,7 @@ fn an_encoder_that_is_missing_is_named_with_what_does_without_it() {
     let none = Encoding {
         encoder: "libnothing",
         codec: "Nothing",
+        pixels: "yuv420p",
         arguments: &["-f", "mp4"],
         even_sides: false,
         deep: false,

@@ -373,6 +373,9 @@ impl StyleRenderer for RotatingStrokes {
         for quality in [Quality::Exact, Quality::Draft] {
             self.ready(quality)?.ready_shaped(&gpu, quality)?;
         }
+        if self.data.is_none() && gpu.limits().has_storage {
+            self.data = Some(PaintData::new(&gpu)?);
+        }
         Ok(())
     }
 

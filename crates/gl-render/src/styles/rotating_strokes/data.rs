@@ -31,14 +31,13 @@ impl PaintData {
 
     /// Begins a picture.
     pub(super) fn begin(&mut self, frame: &Frame) -> Result<(), GlError> {
-        self.gatherer.clear();
         if frame.strokes.len() > MOST_STROKES {
             return Err(GlError::Resource {
                 what: "data of strokes".to_owned(),
                 reason: format!("{} strokes, {MOST_STROKES} can be told apart", frame.strokes.len()),
             });
         }
-        Ok(())
+        self.gatherer.clear()
     }
 
     /// Strokes whose quads cover this many pixels leave no more fragments than can be noted at a time. A quad is larger than its
