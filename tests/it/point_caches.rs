@@ -250,7 +250,7 @@ fn a_cache_is_refused_where_it_can_not_go_with_the_mesh() {
     let path = scene(folder.path(), &raised(PARTING), &glb);
     std::fs::copy(root().join("scenes/meshes/parade.glb"), folder.path().join("parade.glb")).expect("copied");
     let told = errors(&path);
-    assert!(told.len() == 1 && told[0].contains("a cache moves the points of an OBJ file"), "{told:?}");
+    assert!(told.len() == 1 && told[0].contains("does not say which points a cache moves"), "{told:?}");
 
     let path = scene(folder.path(), &raised(PARTING), &moved("plate", ""));
     let tiny = PLATE.replace("v 1 ", "v 1e-8 ").replace("1 0\n", "1e-8 0\n");

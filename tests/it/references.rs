@@ -46,7 +46,8 @@ fn found_deg(facing: f64) -> f64 {
     let turned_deg = facing.acos().to_degrees();
     scene.objects[0].keys = vec![ObjectKey { rotation_deg: [0.0, turned_deg, 0.0], ..ObjectKey::at(0.0) }];
     let painting = prepare(shapes::loaded(scene, [shapes::sheet(4)])).unwrap();
-    let later = CameraPose { eye: LATER_EYE, target: DVec3::ZERO, roll_rad: 0.0, lens: LENS };
+    let later =
+        CameraPose { eye: LATER_EYE, target: DVec3::ZERO, roll_rad: 0.0, shift: DVec2::ZERO, lens: LENS };
     let frame = painting.seen_by(&later, 0.0, &FrameOptions::new([640, 360]));
     let body = frame.layers.iter().find(|run| run.kind == LayerKind::Body).unwrap();
     let strokes = &frame.strokes[body.first as usize..(body.first + body.count) as usize];

@@ -30,6 +30,10 @@ pub(crate) enum Command {
     Movie(MovieArguments),
     /// Write the scene that `render MODEL` would use to a file.
     New(NewArguments),
+    /// Write values into a scene file; the rest of its text stays as it is.
+    Set(SetArguments),
+    /// Render what another program asks for, by lines of JSON on standard input.
+    Serve(ServeArguments),
     /// List every problem of scenes, with its line and column.
     Check(CheckArguments),
     /// Show what is in a scene or a mesh.
@@ -342,6 +346,27 @@ pub(crate) struct NewArguments {
     /// Replace a file that is there already.
     #[arg(long)]
     pub(crate) force: bool,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct SetArguments {
+    /// The scene file.
+    pub(crate) scene: PathBuf,
+    /// What is written: strokes.scale=1.5 sets a value, strokes.scale= takes it out, regions+=(…) adds to a list.
+    #[arg(value_name = "PATH=VALUE")]
+    pub(crate) values: Vec<String>,
+    /// Print the scene as JSON, as it then is.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct ServeArguments {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// What draws.
+    #[arg(long, value_enum, default_value_t = DriverChoice::Auto)]
+    pub(crate) driver: DriverChoice,
 }
 
 #[derive(Args, Debug)]

@@ -16,7 +16,9 @@ mod new;
 mod picture_args;
 mod relight;
 mod render;
+mod serve;
 mod session;
+mod set;
 mod sheet;
 mod strokes;
 #[cfg(feature = "editor")]
@@ -30,7 +32,22 @@ use clap::{CommandFactory as _, Parser as _};
 use args::{Arguments, Command};
 use failure::Failure;
 
+/// What other programs ask before they use this one: `impasto --version --json`.
+fn version_as_json() -> Option<String> {
+    let words: Vec<_> = std::env::args_os().skip(1).collect();
+    let is = |wanted: &[&str]| words.iter().any(|word| wanted.iter().any(|wanted| word == wanted));
+    let asked = words.len() == 2 && is(&["--version", "-V"]) && is(&["--json"]);
+    asked.then(|| {
+        let version = env!("CARGO_PKG_VERSION");
+        serde_json::json!({ "name": "impasto", "version": version, "serve": serve::VERSION }).to_string()
+    })
+}
+
 fn main() -> ExitCode {
+    if let Some(line) = version_as_json() {
+        let written = writeln!(std::io::stdout(), "{line}");
+        return if written.is_ok() { ExitCode::SUCCESS } else { ExitCode::FAILURE };
+    }
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => {
@@ -46,6 +63,8 @@ fn main() -> ExitCode {
         Command::Render(arguments) => render::run(&arguments),
         Command::Movie(arguments) => movie::run(&arguments),
         Command::New(arguments) => new::run(&arguments),
+        Command::Set(arguments) => set::run(&arguments),
+        Command::Serve(arguments) => serve::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Strokes(arguments) => strokes::run(&arguments),

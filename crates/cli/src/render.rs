@@ -150,7 +150,7 @@ fn wanted(arguments: &RenderArguments, destination: &Destination, scene: &Scene)
     };
     let png = Some(picture.bits).filter(|_| !only_exr);
     Ok(match destination {
-        Destination::Files(_) => Wanted { picture: arguments.contact_sheet, png, exr },
+        Destination::Files(_) => Wanted { picture: arguments.contact_sheet, png, exr, ..Wanted::default() },
         Destination::Stream => Wanted { png, ..Wanted::default() },
         Destination::Animation(_) | Destination::Movie(..) => Wanted::PICTURE,
     })

@@ -59,10 +59,7 @@ pub(crate) fn prepare_scene(
         ..PrepareOptions::default()
     };
     let prepared = Preparer::default().prepare_with(Arc::new(loaded), &options);
-    let painting = prepared.map_err(|error| match error {
-        PrepareError::Memory { .. } => Failure::Refused(format!("{error}, or more with --memory")),
-        _ => Failure::Refused(error.to_string()),
-    })?;
+    let painting = prepared.map_err(unprepared)?;
     if verbose {
         let total: f64 = painting.steps().iter().map(|step| step.seconds).sum();
         let particles = painting.particle_total();
@@ -74,6 +71,24 @@ pub(crate) fn prepare_scene(
         }
     }
     Ok(painting)
+}
+
+/// As [`prepare_scene`], by a preparer that knows an earlier state of the scene.
+pub(crate) fn prepare_by(
+    preparer: &mut Preparer,
+    loaded: Arc<LoadedScene>,
+    arguments: &SceneArguments,
+) -> Result<Painting, Failure> {
+    let memory_bytes = arguments.memory.or_else(memory::available_bytes);
+    let options = PrepareOptions { memory_bytes, ..PrepareOptions::default() };
+    preparer.prepare_with(loaded, &options).map_err(unprepared)
+}
+
+fn unprepared(error: PrepareError) -> Failure {
+    match error {
+        PrepareError::Memory { .. } => Failure::Refused(format!("{error}, or more with --memory")),
+        _ => Failure::Refused(error.to_string()),
+    }
 }
 
 /// Opens a renderer. Where `verbose`, tells on stderr which driver was taken and why.

@@ -59,6 +59,16 @@ impl ScreenMap {
         Self { row_x: x * scale, row_y: y * scale, row_w, row_depth: depth, uneven }
     }
 
+    /// The same map with this added to where everything shows, pixels: the shift of a lens.
+    #[must_use]
+    pub fn shifted(self, offset_px: DVec2) -> Self {
+        if offset_px == DVec2::ZERO {
+            return self;
+        }
+        let (row_x, row_y) = (self.row_x + self.row_w * offset_px.x, self.row_y + self.row_w * offset_px.y);
+        Self { row_x, row_y, ..self }
+    }
+
     /// As [`facing`], also where the body's pose scales directions differently.
     #[inline]
     pub fn facing(&self, jacobian: [DVec3; 2], normal_in_model: DVec3) -> f64 {

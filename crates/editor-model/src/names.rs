@@ -52,7 +52,7 @@ pub(crate) fn rename_object(scene: &mut Scene, old: &str, new: &str) {
 
 fn rename_in(selector: &mut Selector, old: &str, new: &str) {
     match selector {
-        Selector::Everything => {}
+        Selector::Everything | Selector::Collection(_) | Selector::EachMaterial(_) => {}
         Selector::Object(name)
         | Selector::Group(name, _)
         | Selector::Material(name, _)

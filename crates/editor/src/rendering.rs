@@ -249,7 +249,7 @@ fn wanted(plan: &RenderPlan) -> Wanted {
         FileKind::Png16 => Some(PngDepth::Sixteen),
         FileKind::Exr => None,
     };
-    Wanted { picture: true, png, exr: plan.aovs() }
+    Wanted { picture: true, png, exr: plan.aovs(), ..Wanted::default() }
 }
 
 /// Every n-th pixel of every n-th row, so that no side is longer than [`SMALL_PX`].

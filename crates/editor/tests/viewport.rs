@@ -49,6 +49,7 @@ fn camera() -> CameraPose {
         eye: DVec3::new(1.0, 1.5, 4.0),
         target: DVec3::ZERO,
         roll_rad: 0.0,
+        shift: DVec2::ZERO,
         lens: Lens::Perspective { fov_y_deg: 35.0, near: 0.1, far: 100.0 },
     }
 }

@@ -15,6 +15,8 @@ pub struct Mesh {
     pub weights: Vec<f32>,
     /// Names of the morph targets, where the exporter wrote them (`extras.targetNames`): `target_count` or none.
     pub target_names: Vec<String>,
+    /// Names of the groups that primitives refer to (`extras.groupNames`).
+    pub group_names: Vec<String>,
 }
 
 /// A part of a mesh with one material. Lists that several primitives read from one accessor are one list in memory.
@@ -37,6 +39,10 @@ pub struct Primitive {
     pub targets: Vec<MorphTarget>,
     /// Index into the file's materials; `None`: the default one. With KHR_materials_variants, that of the first variant.
     pub material: Option<usize>,
+    /// The point of the modelling program at which each vertex lies (the attribute `_POINT`), counted from 0.
+    pub points: Option<Arc<Vec<u32>>>,
+    /// The group of each vertex (the attribute `_GROUP`): 0 for none, else a number of [`Mesh::group_names`] from 1.
+    pub groups: Option<Arc<Vec<u32>>>,
     /// Vertex indices, each less than `positions.len()`, counter-clockwise seen from outside.
     pub triangles: Arc<Vec<[u32; 3]>>,
 }

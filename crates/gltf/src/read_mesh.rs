@@ -81,7 +81,14 @@ impl MeshReader<'_, '_, '_, '_> {
         }
         let target_count = target_count.unwrap_or(0);
         let weights = weights(cursor, target_count)?.unwrap_or_else(|| vec![0.0; target_count]);
-        Ok(Mesh { name, primitives, target_count, weights, target_names: target_names(cursor, target_count) })
+        Ok(Mesh {
+            name,
+            primitives,
+            target_count,
+            weights,
+            target_names: target_names(cursor, target_count),
+            group_names: group_names(cursor),
+        })
     }
 
     fn primitive(&mut self, cursor: &Cursor<'_, '_>, index: usize) -> Checked<Option<Primitive>> {
@@ -123,6 +130,8 @@ impl MeshReader<'_, '_, '_, '_> {
         let uvs = [self.uvs(&attributes, "TEXCOORD_0", count)?, self.uvs(&attributes, "TEXCOORD_1", count)?];
         let colors = self.colors(&attributes, count)?;
         let influences = influences::read(self, &attributes, count)?;
+        let points = self.numbers(&attributes, "_POINT", count)?;
+        let groups = self.numbers(&attributes, "_GROUP", count)?;
         let targets = self.targets(cursor, count)?;
         Ok(Some(Primitive {
             index,
@@ -133,6 +142,8 @@ impl MeshReader<'_, '_, '_, '_> {
             influences,
             targets,
             material,
+            points,
+            groups,
             triangles,
         }))
     }
@@ -231,6 +242,33 @@ impl MeshReader<'_, '_, '_, '_> {
         Ok(self.finite_or_left_out(&member, index, colors))
     }
 
+    /// Whole numbers of vertices, which stand as floats since attributes have no others. What an attribute of this name means to
+    /// others is not known: numbers that are not whole are left out.
+    fn numbers(
+        &mut self,
+        attributes: &Cursor<'_, '_>,
+        name: &'static str,
+        count: usize,
+    ) -> Checked<Option<Arc<Vec<u32>>>> {
+        /// Whole numbers below this are exact as floats.
+        const MOST: f32 = 16_777_216.0;
+        let Some(member) = attributes.member(name) else { return Ok(None) };
+        let index = self.accessors.index(&member)?;
+        let accessor = self.accessors.get(index);
+        if accessor.shape != Shape::Scalar || accessor.component != Component::F32 || accessor.count != count
+        {
+            return Ok(None);
+        }
+        let values = self.accessors.floats::<1>(index, Integers::AsStated, self.findings)?;
+        if values.iter().any(|[value]| !(0.0..MOST).contains(value) || value.fract() != 0.0) {
+            let message = format!("{name} holds what is no whole number below {MOST}: it is left out");
+            self.findings.add(member.warning(message, EXPORT_ANEW));
+            return Ok(None);
+        }
+        self.accessors.take_memory(count, 4, &member)?;
+        Ok(Some(Arc::new(values.iter().map(|[value]| *value as u32).collect())))
+    }
+
     fn finite_or_left_out<const N: usize>(
         &mut self,
         member: &Cursor<'_, '_>,
@@ -285,6 +323,13 @@ pub(crate) fn weights(cursor: &Cursor<'_, '_>, target_count: usize) -> Checked<O
     }
     let weights = list.iter().map(|item| Ok(item.number()? as f32)).collect::<Checked<Vec<f32>>>()?;
     Ok(Some(weights))
+}
+
+/// Names of groups of vertices. What stands in `extras` is nobody's rule, so nothing there is an error.
+fn group_names(cursor: &Cursor<'_, '_>) -> Vec<String> {
+    let Some(extras) = cursor.member("extras") else { return Vec::new() };
+    let Ok(names) = extras.list("groupNames") else { return Vec::new() };
+    names.iter().map(|name| name.text().unwrap_or_default().to_owned()).collect()
 }
 
 /// Names of morph targets. What stands in `extras` is nobody's rule, so nothing there is an error.

@@ -26,7 +26,7 @@ pub fn zoomed(camera: &CameraPose, factor: f64) -> CameraPose {
         }
         Lens::Orthographic { height, near, far } => Lens::Orthographic { height: height / factor, near, far },
     };
-    CameraPose { lens, ..camera.clone() }
+    CameraPose { lens, shift: camera.shift * factor, ..camera.clone() }
 }
 
 /// The camera with its eye and its target moved together. `right` and `up` are shares of the distance between the two.
@@ -47,6 +47,7 @@ mod tests {
             eye: DVec3::new(1.0, 2.0, 4.0),
             target: DVec3::new(0.0, 0.5, 0.0),
             roll_rad: 0.1,
+            shift: glam::DVec2::ZERO,
             lens: Lens::Perspective { fov_y_deg: 35.0, near: 0.1, far: 50.0 },
         }
     }

@@ -65,6 +65,7 @@ pub fn camera(tilt_deg: f64) -> CameraPose {
         eye: DVec3::new(0.0, -8.0 * sin, 8.0 * cos),
         target: DVec3::ZERO,
         roll_rad: 0.0,
+        shift: glam::DVec2::ZERO,
         lens: Lens::Orthographic { height: 2.0, near: 0.1, far: 20.0 },
     }
 }

@@ -38,8 +38,9 @@ impl TrueView {
             }
             Lens::Orthographic { height, .. } => (2.0 / height, DVec4::W),
         };
+        let shift = camera.shift * DVec2::new(size.y / size.x, 1.0);
         Self {
-            rows: [row(axes[0], scale * size.y / size.x), row(axes[1], scale), w],
+            rows: [row(axes[0], scale * size.y / size.x) + w * shift.x, row(axes[1], scale) + w * shift.y, w],
             half_px: size * 0.5,
             eye: camera.eye,
             parallel: matches!(camera.lens, Lens::Orthographic { .. }).then_some(gaze),
@@ -202,6 +203,7 @@ mod tests {
             eye,
             target: DVec3::new(0.1, 0.2, 0.0),
             roll_rad: roll_deg.to_radians(),
+            shift: DVec2::ZERO,
             lens: Lens::Perspective { fov_y_deg: 35.0, near: 0.1, far: 50.0 },
         }
     }

@@ -31,6 +31,7 @@ impl Painting {
         let view = PictureView { pose: camera.clone(), size_px: options.size_px };
         let poses = motion::poses_at(scene, frame);
         let bent = self.bent_at(frame);
+        let of_shot = scene.stage.shot.as_ref().map_or(0.0, |shot| shot.exposure_stops());
         let noises = self.noises_at(frame);
         let hidden = motion::hidden_at(scene, frame);
         Frame {
@@ -61,7 +62,7 @@ impl Painting {
             finish: self.finish.at(&view, f64::from(options.shot_height_px())),
             style: self.style.clone(),
             quality: options.quality,
-            exposure: options.exposure_stops.exp2(),
+            exposure: (options.exposure_stops + of_shot).exp2(),
         }
     }
 

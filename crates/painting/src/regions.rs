@@ -8,7 +8,7 @@ use impasto_core::direction::guide::{Falloff as GuideFalloff, Guide as SurfaceGu
 use impasto_core::flood::flooded;
 use impasto_core::sampling::Particle;
 use impasto_scene::document::{
-    Dab, Direction, Falloff, Guide, GuideMode, PatchRef, Scene, Seam, Selector, Sense, StrokesKey,
+    Dab, Direction, Falloff, Guide, GuideMode, PatchRef, Scene, Seam, Sense, StrokesKey,
 };
 use impasto_scene::mesh_file::MeshFile;
 use impasto_scene::presets::{self, ResolvedStrokes};
@@ -175,7 +175,7 @@ impl BodyRegions {
         let mut regions =
             Self { of_triangle: vec![implicit; mesh.triangles.len()], dabbed: Vec::new(), implicit };
         for (index, region) in scene.regions.iter().enumerate() {
-            if region.on != Selector::Everything && region.on.object() != Some(object) {
+            if !region.on.reaches(&scene.stage, object) {
                 continue;
             }
             let index = index as u16;

@@ -106,6 +106,7 @@ impl Ray {
         // −1 to 1 across the picture.
         let place = |index: usize, count: usize| ((index as f64 + 0.5) / count as f64 * 2.0 - 1.0) * MARGIN;
         let (x, y) = (place(column, PLACES[0]) * width / height, place(row, PLACES[1]));
+        let (x, y) = (x - view.pose.shift.x, y - view.pose.shift.y);
         let (from, along) = match view.pose.lens {
             Lens::Perspective { fov_y_deg, .. } => {
                 let half = (0.5 * fov_y_deg.to_radians()).tan();
@@ -159,6 +160,7 @@ mod tests {
             eye: DVec3::new(0.0, 2.0, 8.0),
             target: DVec3::new(0.0, 0.5, 0.0),
             roll_rad: 0.0,
+            shift: glam::DVec2::ZERO,
             lens: Lens::Perspective { fov_y_deg: 35.0, near: 0.1, far: 5000.0 },
         };
         let views = [(PictureView { pose, size_px: [1280, 720] }, vec![DAffine3::IDENTITY])];

@@ -36,6 +36,7 @@ impl PictureView {
             Lens::Orthographic { height, .. } => PixelLens::Orthographic { px_per_unit: height_px / height },
         };
         ScreenMap::new(self.pose.view_from_world(), world_from_model, lens)
+            .shifted(self.pose.shift * (0.5 * height_px))
     }
 
     /// The same map as [`PictureView::screen_map`], but by way of OpenGL's matrices, as the paper's own solve needs
@@ -61,7 +62,7 @@ impl PictureView {
     fn clip_from_view(&self) -> DMat4 {
         let aspect = f64::from(self.size_px[0]) / f64::from(self.size_px[1]);
         let (near, far) = self.near_far();
-        match self.pose.lens {
+        let centred = match self.pose.lens {
             Lens::Perspective { fov_y_deg, .. } => {
                 glam::dcamera::rh::proj::opengl::perspective(fov_y_deg.to_radians(), aspect, near, far)
             }
@@ -76,7 +77,10 @@ impl PictureView {
                     far,
                 )
             }
-        }
+        };
+        // Added after the division by w, as in `ScreenMap::shifted`.
+        let shift = self.pose.shift / DVec2::new(aspect, 1.0);
+        if shift == DVec2::ZERO { centred } else { DMat4::from_translation(shift.extend(0.0)) * centred }
     }
 }
 
@@ -96,6 +100,7 @@ mod tests {
                     eye: DVec3::new(1.0, 2.0, 4.0),
                     target: DVec3::new(0.1, 0.5, -0.2),
                     roll_rad: 0.6,
+                    shift: DVec2::new(0.3, -0.7),
                     lens: lens.clone(),
                 };
                 let view = PictureView { pose, size_px };

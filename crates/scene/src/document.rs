@@ -33,7 +33,7 @@ pub use regions::{
     Seed, Selector, Sense,
 };
 pub use rotating_strokes::{Canvas, RotatingStrokes, SAMPLES};
-pub use stage::{Brought, Lost, Stage};
+pub use stage::{Brought, Lost, Seen, Stage};
 pub(crate) use strokes::PresetNumbers;
 pub use strokes::{InspectorPlace, ResolvedStrokes, STROKE_NUMBERS, Shown, StrokeNumber, StrokeSettings};
 pub use style::Style;

@@ -26,6 +26,7 @@ mod source;
 
 use files::{Files, Readers, as_scene_problem};
 use overrides::Applied;
+pub use overrides::edited_text;
 use parse::Parsed;
 use source::error_in;
 

@@ -39,6 +39,11 @@ impl LoadedScene {
         let others =
             self.textures.keys().chain(self.brushes.keys()).chain(self.caches.keys()).chain(&self.scene.shot);
         let named: BTreeSet<&str> = meshes.chain(others.map(String::as_str)).collect();
-        std::iter::once(self.path.clone()).chain(named.into_iter().map(|name| folder.join(name))).collect()
+        let named = named.into_iter().map(|name| folder.join(name));
+        let with_sidecars = named.flat_map(|path| {
+            let sidecar = mesh_format::sidecar_of(&path).filter(|sidecar| sidecar.is_file());
+            std::iter::once(path).chain(sidecar)
+        });
+        std::iter::once(self.path.clone()).chain(with_sidecars).collect()
     }
 }

@@ -48,6 +48,11 @@ pub fn companions(path: &Path, root: &Path) -> Result<BTreeSet<PathBuf>, Report>
     if gltf::is_gltf(path) { gltf::companions(path, root) } else { obj::companions(path, root) }
 }
 
+/// Where the sidecar of a mesh file lies, if this kind has one.
+pub fn sidecar_of(path: &Path) -> Option<PathBuf> {
+    gltf::is_gltf(path).then(|| gltf::sidecar_beside(path))
+}
+
 /// The file and the node of a mesh's name in a scene. The node is `None` for a whole file; only glTF files have nodes.
 pub fn file_and_node(name: &str) -> (&str, Option<&str>) {
     match name.split_once(NODE) {

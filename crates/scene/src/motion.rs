@@ -6,7 +6,7 @@ mod values;
 
 use std::collections::HashMap;
 
-use glam::{DAffine3, DMat3, DMat4, DVec3, EulerRot};
+use glam::{DAffine3, DMat3, DMat4, DVec2, DVec3, EulerRot};
 use impasto_core::bending::BendPose;
 use impasto_gltf::Posed;
 
@@ -25,16 +25,18 @@ pub struct CameraPose {
     pub target: DVec3,
     /// Turn of the camera about its gaze, radians in (−π, π], counter-clockwise as seen from behind it.
     pub roll_rad: f64,
+    /// Shift of the lens: added to where things show, in half heights of the picture, Y up.
+    pub shift: DVec2,
     /// The lens, with the field of view of this frame.
     pub lens: Lens,
 }
 
 impl CameraPose {
     /// The camera that stands at a matrix, world from view: −Z forward, Y up, without scale.
-    fn of_matrix(world_from_view: DMat4, lens: Lens) -> Self {
+    fn of_matrix(world_from_view: DMat4, lens: Lens, shift: DVec2) -> Self {
         let eye = world_from_view.w_axis.truncate();
         let [up, back] = [world_from_view.y_axis, world_from_view.z_axis].map(|axis| axis.truncate());
-        let unrolled = Self { eye, target: eye - back, roll_rad: 0.0, lens };
+        let unrolled = Self { eye, target: eye - back, roll_rad: 0.0, shift, lens };
         // The camera's up in a view without roll: straight up is no roll, to the left is a turn counter-clockwise.
         let up = unrolled.view_from_world().transform_vector3(up);
         Self { roll_rad: (-up.x).atan2(up.y), ..unrolled }
@@ -62,9 +64,9 @@ pub fn camera_at(scene: &Scene, frame: f64) -> CameraPose {
     let keys = &scene.camera.keys;
     if keys.is_empty()
         && let Some(shot) = &scene.stage.shot
-        && let Some((world_from_view, lens)) = shot.camera(&shot.at(frame / scene.timeline.fps), scene.size)
+        && let Some(seen) = shot.camera(frame / scene.timeline.fps, scene.size)
     {
-        return CameraPose::of_matrix(world_from_view, lens);
+        return CameraPose::of_matrix(seen.world_from_view, seen.lens, seen.shift);
     }
     let span = Span::at(keys, frame);
     let Some(span) = span else {
@@ -72,6 +74,7 @@ pub fn camera_at(scene: &Scene, frame: f64) -> CameraPose {
             eye: DVec3::Z,
             target: DVec3::ZERO,
             roll_rad: 0.0,
+            shift: DVec2::ZERO,
             lens: scene.camera.lens.clone(),
         };
     };
@@ -87,6 +90,7 @@ pub fn camera_at(scene: &Scene, frame: f64) -> CameraPose {
         eye: span.mix_vec3(left.eye, right.eye),
         target: span.mix_vec3(left.target, right.target),
         roll_rad: wrap_deg(span.mix(left.roll_deg, right.roll_deg)).to_radians(),
+        shift: DVec2::ZERO,
         lens,
     }
 }
@@ -103,7 +107,16 @@ pub fn referred_to(scene: &Scene, reference: &Reference) -> (CameraPose, f64) {
                 lens @ Lens::Orthographic { .. } => lens,
             };
             let roll_rad = wrap_deg(roll_deg).to_radians();
-            (CameraPose { eye: DVec3::from(eye), target: DVec3::from(target), roll_rad, lens }, frame as f64)
+            (
+                CameraPose {
+                    eye: DVec3::from(eye),
+                    target: DVec3::from(target),
+                    roll_rad,
+                    shift: DVec2::ZERO,
+                    lens,
+                },
+                frame as f64,
+            )
         }
     }
 }

@@ -13,11 +13,11 @@ use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
-use glam::{DAffine3, DMat3, DMat4};
+use glam::{DAffine3, DMat3};
 use impasto_core::bending::BendPose;
 use impasto_gltf::{Animator, Playing, Posed};
 
-use crate::document::{Brought, Lens, Light, Lost, Object, Scene};
+use crate::document::{Brought, Light, Lost, Object, Scene, Seen};
 use crate::gltf::GltfFile;
 use crate::mesh_format;
 use crate::nearest::nearest;
@@ -32,6 +32,8 @@ pub struct Shot {
     object_of_name: HashMap<String, usize>,
     /// The node of the camera that is looked through.
     camera: Option<usize>,
+    /// Whether the scene chose it, so that no cut leads to another.
+    is_chosen: bool,
     /// The lights as they are at rest, each with its node; the soft light all around has none.
     lights: Vec<(Light, Option<usize>)>,
     /// Our intensity of a light over that of the file.
@@ -97,6 +99,7 @@ impl Shot {
             }
             let object = Object {
                 hidden: !(hides || file.rest.is_visible[index]),
+                cache: file.sidecar.caches.get(&node.name).map(|cache| name_beside(name, cache)),
                 ..Object::new(node.name.clone(), mesh_format::name_of_node(name, &node.name))
             };
             objects.push(ShotObject { object, node: index, unstretched: file.stretch(index).inverse() });
@@ -104,12 +107,14 @@ impl Shot {
         let object_of_name =
             objects.iter().enumerate().map(|(index, object)| (object.object.name.clone(), index)).collect();
         let camera = camera::chosen(&file, &animator, choice.camera.as_deref(), &mut odd);
+        let is_chosen = choice.camera.is_some();
         let (lights, key_factors) = (Vec::new(), vec![1.0; file.gltf.lights.len()]);
         let mut shot = Self {
             animator,
             objects,
             object_of_name,
             camera,
+            is_chosen,
             lights,
             exposure: 1.0,
             around: 0.0,
@@ -118,6 +123,11 @@ impl Shot {
         };
         (shot.exposure, shot.around) = shot.found_exposure();
         shot.lights = shot.lights_at_rest();
+        let cached = shot.file.sidecar.caches.keys();
+        for name in cached.filter(|name| !shot.object_of_name.contains_key(*name)) {
+            let message = format!("its sidecar has a point cache for {name:?}, and there is no such object");
+            odd.push([message, "export the shot again".to_owned()]);
+        }
         if !shot.has_lights() {
             let mend = "tick lights in the export dialog (in Blender, Punctual Lights)";
             odd.push(["there are no lights: it is lit from one side".to_owned(), mend.to_owned()]);
@@ -141,18 +151,34 @@ impl Shot {
         !self.lights.is_empty()
     }
 
-    /// Frames per second at which all keys lie on whole frames; `None` where there are too few keys to tell.
+    /// Frames per second at which all keys lie on whole frames; `None` where there are too few keys to tell, and where the rate is
+    /// stated.
     pub(crate) fn rate_of_keys(&self) -> Option<f64> {
-        rate_of(self.animator.key_times_s())
+        if self.file.sidecar.fps.is_some() { None } else { rate_of(self.animator.key_times_s()) }
     }
 
-    /// Frames per second: those of its keys, or else 24.
+    /// Frames per second that are stated.
+    fn stated_rate(&self) -> Option<f64> {
+        self.file.sidecar.fps
+    }
+
+    /// The size of the picture that is stated, pixels.
+    pub fn size_px(&self) -> Option<[u32; 2]> {
+        self.file.sidecar.size
+    }
+
+    /// Frames per second: those stated, or those of its keys, or else 24.
     pub fn rate(&self) -> f64 {
-        self.rate_of_keys().unwrap_or(24.0)
+        self.stated_rate().or_else(|| self.rate_of_keys()).unwrap_or(24.0)
     }
 
-    /// The first and the last frame in which it moves, at this rate: frame = time · rate.
+    /// The first and the last frame: those stated, or those between which it moves, at this rate: frame = time · rate.
     pub fn frames(&self, fps: f64) -> (i64, i64) {
+        if let Some([first, last]) =
+            self.file.sidecar.frames.filter(|_| self.stated_rate().is_none_or(|rate| rate == fps))
+        {
+            return (first, last);
+        }
         let [first, last] = self.span_s().unwrap_or_default().map(|time_s| f64::from(time_s) * fps);
         // What rounding of times to 32 bits leaves over is no frame.
         let last = (last - 1e-3).ceil().max(0.0) as i64;
@@ -213,10 +239,16 @@ impl Brought for Shot {
         object.is_none_or(|object| posed.is_visible[object.node])
     }
 
-    fn camera(&self, posed: &Posed, size: (u32, u32)) -> Option<(DMat4, Lens)> {
-        let node = self.camera?;
-        let camera = self.file.gltf.nodes[node].camera?;
-        Some((posed.world_from_view(node), camera::lens_in(posed.lenses[camera], size)))
+    fn camera(&self, time_s: f64, size: (u32, u32)) -> Option<Seen> {
+        self.seen(time_s, size)
+    }
+
+    fn in_collection(&self, collection: &str, object: &str) -> Option<bool> {
+        self.file.sidecar.collections.get(collection).map(|names| names.contains(object))
+    }
+
+    fn exposure_stops(&self) -> f32 {
+        self.file.sidecar.exposure_stops
     }
 
     fn light(&self, light: &Light, posed: &Posed) -> Light {
@@ -229,6 +261,14 @@ impl Brought for Shot {
 
     fn left(&self, scene: &Scene) -> Scene {
         enter::left(self, scene)
+    }
+}
+
+/// The name in a scene of a file that a shot of this name has beside it.
+fn name_beside(shot: &str, file: &str) -> String {
+    match shot.rfind(['/', '\\']) {
+        Some(end) => format!("{}{file}", &shot[..=end]),
+        None => file.to_owned(),
     }
 }
 

@@ -1,7 +1,7 @@
 //! The EXR file of a frame: its channels, and what the file notes of the frame.
 
 use impasto_aovs::Drawn;
-use impasto_frame_files::exr_file::{self, ExrPicture, Note};
+use impasto_frame_files::exr_file::{self, ExrPicture, Note, Packing};
 use impasto_frame_files::picture_file::Provenance;
 use impasto_gl_render::Renderer;
 
@@ -12,6 +12,7 @@ pub(crate) fn encode(
     renderer: &mut Renderer,
     drawn: &Drawn<'_>,
     provenance: &Provenance,
+    packing: Packing,
 ) -> Result<Vec<u8>, FrameError> {
     let found = impasto_aovs::read(renderer, drawn)?;
     let scene = drawn.painting.scene();
@@ -39,5 +40,5 @@ pub(crate) fn encode(
             .map(|matrix| matrix.to_cols_array()),
         notes,
     };
-    exr_file::encode(picture, provenance, true).map_err(FrameError::Encode)
+    exr_file::encode(picture, provenance, packing).map_err(FrameError::Encode)
 }

@@ -118,7 +118,7 @@ impl<'a> Painter<'a> {
                 options: &sequence.options,
                 wanted,
             };
-            files.push(("exr", exr::encode(self.renderer, &drawn, &provenance)?));
+            files.push(("exr", exr::encode(self.renderer, &drawn, &provenance, sequence.wanted.packing)?));
         }
         Ok(files)
     }

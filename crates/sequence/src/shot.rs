@@ -2,6 +2,7 @@
 
 use std::io;
 
+use impasto_frame_files::exr_file::Packing;
 use impasto_frame_files::picture_file::Provenance;
 use impasto_gl_render::context::Driver;
 use impasto_gl_render::{Cost, Picture, RenderError, Renderer, ShaderTexts};
@@ -17,14 +18,17 @@ pub struct Wanted {
     pub png: Option<PngDepth>,
     /// An EXR file, with these beside the colour, where the style has them.
     pub exr: Option<AovSet>,
+    /// How small EXR files are made.
+    pub packing: Packing,
 }
 
 impl Wanted {
     /// A PNG file of 8 bits.
-    pub const PNG: Self = Self { picture: false, png: Some(PngDepth::Eight), exr: None };
+    pub const PNG: Self =
+        Self { picture: false, png: Some(PngDepth::Eight), exr: None, packing: Packing::Small };
 
     /// The pixels alone.
-    pub const PICTURE: Self = Self { picture: true, png: None, exr: None };
+    pub const PICTURE: Self = Self { picture: true, png: None, exr: None, packing: Packing::Small };
 
     /// The files, by the ending of their names.
     pub(crate) fn endings(self) -> impl Iterator<Item = &'static str> {

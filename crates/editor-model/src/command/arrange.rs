@@ -349,7 +349,12 @@ fn carry_selector(
                 }
             }
         }
-        Selector::Everything | Selector::Object(_) | Selector::Group(..) | Selector::Material(..) => {}
+        Selector::Everything
+        | Selector::Object(_)
+        | Selector::Collection(_)
+        | Selector::EachMaterial(_)
+        | Selector::Group(..)
+        | Selector::Material(..) => {}
     }
 }
 

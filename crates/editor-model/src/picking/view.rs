@@ -34,7 +34,7 @@ impl View {
     /// The ray through a pixel.
     pub fn ray(&self, at_px: DVec2) -> Ray {
         let world_from_view: DMat4 = self.camera.view_from_world().inverse();
-        let from_centre = (at_px - self.size_px * 0.5) * DVec2::new(1.0, -1.0);
+        let from_centre = (at_px - self.size_px * 0.5) * DVec2::new(1.0, -1.0) - self.shift_px();
         let (origin, direction) = match self.camera.lens {
             Lens::Perspective { near, .. } => {
                 let direction = from_centre.extend(-self.focal_px());
@@ -83,7 +83,7 @@ impl View {
                 PixelLens::Orthographic { px_per_unit: self.size_px.y / height }
             }
         };
-        ScreenMap::new(self.camera.view_from_world(), world_from_model, lens)
+        ScreenMap::new(self.camera.view_from_world(), world_from_model, lens).shifted(self.shift_px())
     }
 
     /// The point that shows at a pixel, at the depth of another point.
@@ -95,6 +95,11 @@ impl View {
 
     fn viewport_px(&self, from_centre_px: DVec2) -> DVec2 {
         self.size_px * 0.5 + from_centre_px * DVec2::new(1.0, -1.0)
+    }
+
+    /// The shift of the lens, pixels, Y up.
+    fn shift_px(&self) -> DVec2 {
+        self.camera.shift * (0.5 * self.size_px.y)
     }
 
     fn focal_px(&self) -> f64 {

@@ -97,7 +97,8 @@ fn added(on: &Selector, object: &str, patch: Patch) -> Option<Selector> {
         Selector::Material(_, material) => vec![Patch::Material(material)],
         Selector::Dabs(_, dabs) => vec![Patch::Dabs(dabs)],
         Selector::Flood(_, seed, sharp_deg) => vec![Patch::Flood(seed, sharp_deg)],
-        Selector::Object(_) | Selector::Everything => vec![Patch::Whole],
+        Selector::EachMaterial(material) => vec![Patch::Material(material)],
+        Selector::Object(_) | Selector::Everything | Selector::Collection(_) => vec![Patch::Whole],
     };
     patches.push(patch);
     Some(Selector::Several(object.to_owned(), patches))

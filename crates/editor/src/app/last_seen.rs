@@ -50,6 +50,7 @@ fn free_view(view: &LastView, shot: &CameraPose) -> FreeView {
         eye: DVec3::from(view.eye),
         target: DVec3::from(view.target),
         roll_rad: view.roll_deg.to_radians(),
+        shift: glam::DVec2::ZERO,
         lens: shot.lens.clone(),
     });
     if view.orthographic != matches!(shot.lens, Lens::Orthographic { .. }) {
@@ -63,7 +64,13 @@ mod tests {
     use super::*;
 
     fn shot(lens: Lens) -> CameraPose {
-        CameraPose { eye: DVec3::new(0.0, 0.0, 4.0), target: DVec3::ZERO, roll_rad: 0.0, lens }
+        CameraPose {
+            eye: DVec3::new(0.0, 0.0, 4.0),
+            target: DVec3::ZERO,
+            roll_rad: 0.0,
+            shift: glam::DVec2::ZERO,
+            lens,
+        }
     }
 
     #[test]

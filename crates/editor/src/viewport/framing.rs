@@ -53,7 +53,7 @@ impl Framing {
                 Lens::Orthographic { height: height * more, near, far }
             }
         };
-        CameraPose { lens, ..camera.clone() }
+        CameraPose { lens, shift: camera.shift / more, ..camera.clone() }
     }
 
     /// The view through a camera in this viewport, for picking and tools; places count in points from its upper left
@@ -113,6 +113,7 @@ mod tests {
                     eye: DVec3::new(0.3, 1.0, 4.0),
                     target: DVec3::new(0.1, 0.2, 0.0),
                     roll_rad: 0.4,
+                    shift: DVec2::ZERO,
                     lens: lens.clone(),
                 };
                 let shot = framing.shot();

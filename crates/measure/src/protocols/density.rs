@@ -160,7 +160,7 @@ fn on_sheet(context: &mut MeasureContext<'_>, object: usize, row: &mut Row) -> R
     let name = &scene.objects[object].name;
     let region = scene.regions.iter().rposition(|region| match &region.on {
         Selector::Everything => true,
-        Selector::Object(other) => other == name,
+        Selector::Object(_) | Selector::Collection(_) => region.on.reaches(&scene.stage, name),
         _ => false,
     });
     let Some(version) = sheet::sheet(context.loaded, region, SHEET_PX) else { return Ok(false) };

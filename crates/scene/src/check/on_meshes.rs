@@ -74,8 +74,7 @@ pub(super) fn check_caches(
         let Some(name) = &object.cache else { continue };
         let (Some(cache), Some(mesh)) = (caches.get(name), meshes.get(&object.mesh)) else { continue };
         let Some(points) = &mesh.points else {
-            let message =
-                format!("a cache moves the points of an OBJ file, and {} is none", shown(&object.mesh));
+            let message = format!("{} does not say which points a cache moves", shown(&object.mesh));
             findings.error(field_path, message, "export the object as an OBJ file together with its cache");
             continue;
         };

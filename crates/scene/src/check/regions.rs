@@ -17,6 +17,14 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
         if let Some(object) = region.on.object().filter(|object| !object_names.contains(object)) {
             unknown_object(&format!("{region_path}.on"), object, scene, findings);
         }
+        if let Selector::Collection(name) = &region.on
+            && scene.stage.shot.as_ref().is_none_or(|shot| shot.in_collection(name, "").is_none())
+        {
+            let message = format!("there is no collection {name:?}: the region covers nothing");
+            let mend =
+                "collections come from Blender, with the shot: check the name, or name objects one by one";
+            findings.warning(format!("{region_path}.on"), message, mend);
+        }
         check_patches(&format!("{region_path}.on"), &region.on, findings);
         let turn = limits::MAX_ANGLE_DEG;
         findings.number(&format!("{region_path}.turn_deg"), region.turn_deg, -turn..=turn);
@@ -182,7 +190,11 @@ fn check_covered(scene: &Scene, findings: &mut Findings) {
             Selector::Object(object) => cover(format!("o{object}"), index),
             Selector::Group(object, group) => cover(format!("g{object}\0{group}"), index),
             Selector::Material(object, material) => cover(format!("m{object}\0{material}"), index),
-            Selector::Dabs(..) | Selector::Flood(..) | Selector::Several(..) => None,
+            Selector::EachMaterial(_)
+            | Selector::Collection(_)
+            | Selector::Dabs(..)
+            | Selector::Flood(..)
+            | Selector::Several(..) => None,
         };
     }
     for (index, region) in scene.regions.iter().enumerate() {

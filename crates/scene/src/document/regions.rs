@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Color, Reference, StrokeSettings, is_default, is_one, one};
+use super::{Color, Reference, Stage, StrokeSettings, is_default, is_one, one};
 
 /// A part of the scene with settings of its own.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
@@ -53,6 +53,10 @@ pub enum Selector {
     Everything,
     /// A whole object, by name.
     Object(String),
+    /// A collection of the shot: all objects that the program which wrote it had in a collection of this name.
+    Collection(String),
+    /// A material of this name, on every object that has it.
+    EachMaterial(String),
     /// A group of an object's mesh: object, group.
     Group(String, String),
     /// A material of an object's mesh: object, material.
@@ -289,10 +293,10 @@ impl Patch {
 }
 
 impl Selector {
-    /// The object that it lies on; none for `Everything`.
+    /// The object that it lies on; none where it may lie on several.
     pub fn object(&self) -> Option<&str> {
         match self {
-            Self::Everything => None,
+            Self::Everything | Self::Collection(_) | Self::EachMaterial(_) => None,
             Self::Object(object)
             | Self::Group(object, _)
             | Self::Material(object, _)
@@ -302,10 +306,22 @@ impl Selector {
         }
     }
 
+    /// Whether it may cover a part of an object.
+    pub fn reaches(&self, stage: &Stage, object: &str) -> bool {
+        match self {
+            Self::Everything | Self::EachMaterial(_) => true,
+            Self::Collection(name) => {
+                stage.shot.as_ref().is_some_and(|shot| shot.in_collection(name, object) == Some(true))
+            }
+            _ => self.object() == Some(object),
+        }
+    }
+
     /// The patches that it covers on each object that it lies on, in order: one, or those of `Several`.
     pub fn patches(&self) -> Vec<PatchRef<'_>> {
         match self {
-            Self::Everything | Self::Object(_) => vec![PatchRef::Whole],
+            Self::Everything | Self::Object(_) | Self::Collection(_) => vec![PatchRef::Whole],
+            Self::EachMaterial(material) => vec![PatchRef::Material(material)],
             Self::Group(_, group) => vec![PatchRef::Group(group)],
             Self::Material(_, material) => vec![PatchRef::Material(material)],
             Self::Dabs(_, dabs) => vec![PatchRef::Dabs(dabs)],

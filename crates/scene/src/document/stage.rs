@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use glam::{DAffine3, DMat4};
+use glam::{DAffine3, DMat4, DVec2};
 use impasto_core::bending::BendPose;
 use impasto_gltf::Posed;
 
@@ -38,6 +38,17 @@ pub struct Lost {
     pub near: Option<String>,
 }
 
+/// What a shot is looked at through.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Seen {
+    /// World from view: −Z forward, Y up.
+    pub world_from_view: DMat4,
+    /// The lens.
+    pub lens: Lens,
+    /// Shift of the lens: added to where things show, in half heights of the picture, Y up.
+    pub shift: DVec2,
+}
+
 /// What a shot brings into a scene, at any time.
 pub trait Brought: Debug + Send + Sync {
     /// Whether it has a camera to look through.
@@ -67,9 +78,15 @@ pub trait Brought: Debug + Send + Sync {
     /// Whether an object shows; one that the shot does not bring does.
     fn is_visible(&self, posed: &Posed, name: &str) -> bool;
 
-    /// World from view (−Z forward, Y up) and lens of the camera, in a picture of this size; `None` where the shot has none. What the
+    /// The camera that is looked through at a time, seconds, in a picture of this size; `None` where the shot has none. What the
     /// camera's own picture shows is all inside: a picture of another aspect shows more at two sides.
-    fn camera(&self, posed: &Posed, size: (u32, u32)) -> Option<(DMat4, Lens)>;
+    fn camera(&self, time_s: f64, size: (u32, u32)) -> Option<Seen>;
+
+    /// Whether a collection holds an object; `None` where the shot knows no such collection.
+    fn in_collection(&self, collection: &str, object: &str) -> Option<bool>;
+
+    /// How much brighter the finished picture is shown, stops.
+    fn exposure_stops(&self) -> f32;
 
     /// A light of the scene: what the document changed stays, the rest is as the shot has it.
     fn light(&self, light: &Light, posed: &Posed) -> Light;

@@ -10,6 +10,7 @@ use impasto_gltf::{Mesh, Posed, Primitive};
 
 use super::GltfFile;
 use super::joints::blended;
+use crate::mesh_file::Points;
 
 /// Consecutive vertices of a joined mesh that come from one primitive.
 #[derive(Debug)]
@@ -97,6 +98,19 @@ pub(super) fn of(
     }
     bend.rest = rest;
     bend
+}
+
+/// The points at which the vertices of a node's mesh lie.
+pub(super) fn points(file: &GltfFile, node: usize, runs: &[Run], source_of_vertex: &[u32]) -> Option<Points> {
+    let mesh = &*file.gltf.meshes[file.gltf.nodes[node].mesh?];
+    let all = mesh.primitives.iter().filter_map(|primitive| primitive.points.as_ref());
+    let count = all.flat_map(|points| points.iter()).max().map_or(0, |&last| last as usize + 1);
+    let point = |&source: &u32| {
+        let origin = origin(mesh, runs, source as usize);
+        origin.primitive.points.as_ref().map(|points| points[origin.vertex])
+    };
+    let of_vertex = source_of_vertex.iter().map(point).collect::<Option<Vec<u32>>>()?;
+    Some(Points { count, of_vertex })
 }
 
 fn wide(vector: [f32; 3]) -> DVec3 {

@@ -7,6 +7,7 @@
 mod bend;
 mod joints;
 mod materials;
+mod sidecar;
 mod stretch;
 mod surface;
 
@@ -23,6 +24,7 @@ use crate::mesh_file::{Material, MeshFile};
 use crate::nearest;
 use crate::problem::{Problem, Report, Severity};
 
+pub(crate) use sidecar::{Sidecar, path_beside as sidecar_beside};
 pub(crate) use stretch::stretch_of;
 
 /// The largest glTF file that is read, in bytes.
@@ -39,6 +41,8 @@ pub(crate) struct GltfFile {
     in_scene: Vec<bool>,
     /// The file's materials, and last the default one.
     materials: Vec<Material>,
+    /// What the file itself cannot say.
+    pub sidecar: Sidecar,
 }
 
 /// Reads a glTF file with the files that it names. As everywhere, those come from `root`, the scene's folder, and from `folders`.
@@ -51,6 +55,7 @@ pub(crate) fn open(
     folders: &AssetFolders,
 ) -> Result<(GltfFile, Vec<Problem>), Report> {
     let bytes = assets::read_regular_file(path, MAX_FILE_BYTES).map_err(|error| unread(path, &error))?;
+    let sidecar = sidecar::read(path, root, folders)?;
     let mut open = |name: &str, max_bytes: u64| {
         let request = AssetRequest { beside: path, root, name, max_bytes };
         folders.open(&request).map(|asset| asset.bytes).map_err(|error| error.to_string())
@@ -71,7 +76,7 @@ pub(crate) fn open(
         in_scene[node] = true;
         open.extend(&gltf.nodes[node].children);
     }
-    Ok((GltfFile { path: path.to_owned(), gltf, rest, in_scene, materials }, warnings))
+    Ok((GltfFile { path: path.to_owned(), gltf, rest, in_scene, materials, sidecar }, warnings))
 }
 
 /// The files that a glTF file in `root` names and that are found there.
@@ -90,6 +95,7 @@ pub(crate) fn companions(path: &Path, root: &Path) -> Result<BTreeSet<PathBuf>, 
     let read = impasto_gltf::read(bytes, &mut open);
     let problem = |finding: &Finding| in_file(path, finding);
     read.map(|_| ()).map_err(|findings| Report(findings.iter().map(problem).collect()))?;
+    found.extend(sidecar::companions(path, root)?);
     Ok(found)
 }
 

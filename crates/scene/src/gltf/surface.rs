@@ -27,12 +27,22 @@ pub(super) fn mesh_of_nodes<'a>(
 pub(super) fn mesh_of_node(file: &GltfFile, node: (usize, DAffine3)) -> Option<MeshFile> {
     let mut joined = Joined::default();
     let bends = bend::bends(file, node.0);
-    joined.geometry.keeps_vertices = bends;
+    // Points are those of one mesh: of copies, only the first would move.
+    let of_file = &file.gltf.nodes[node.0];
+    let has_points = of_file.instances.is_none()
+        && of_file.mesh.is_some_and(|mesh| {
+            let primitives = &file.gltf.meshes[mesh].primitives;
+            !primitives.is_empty() && primitives.iter().all(|primitive| primitive.points.is_some())
+        });
+    joined.geometry.keeps_vertices = bends || has_points;
     joined.add_node(file, node, false);
     let runs = std::mem::take(&mut joined.runs);
     let (mut mesh, source_of_vertex) = joined.finish(file)?;
     if bends {
         mesh.bend = Some(Arc::new(bend::of(file, node.0, &runs, &source_of_vertex, &mesh.mesh)));
+    }
+    if has_points {
+        mesh.points = bend::points(file, node.0, &runs, &source_of_vertex).map(Arc::new);
     }
     Some(mesh)
 }
@@ -50,6 +60,7 @@ impl Joined {
             let group = self.group(group);
             let material = primitive.material.unwrap_or(file.gltf.materials.len());
             let vertices = Vertices::of(file, node, mesh, primitive);
+            let groups = self.groups_of_faces(mesh, primitive, group);
             for copy in &copies {
                 let first = self.geometry.positions.len();
                 // Only what bends asks where its vertices come from.
@@ -57,7 +68,8 @@ impl Joined {
                     let kept = Arc::clone(&vertices.kept);
                     self.runs.push(Run { primitive: number, copy: *copy, first, kept });
                 }
-                self.add(&vertices, *copy, [group, material as u32]);
+                self.add(&vertices, *copy, material as u32);
+                self.group_of_face.extend(&groups);
             }
         }
     }
@@ -188,7 +200,18 @@ impl Joined {
         }) as u32
     }
 
-    fn add(&mut self, vertices: &Vertices, placed: DAffine3, [group, material]: [u32; 2]) {
+    /// The group of each triangle of a primitive: that of its first corner, or else `whole`.
+    fn groups_of_faces(&mut self, mesh: &Mesh, primitive: &Primitive, whole: u32) -> Vec<u32> {
+        let Some(groups) = &primitive.groups else { return vec![whole; primitive.triangles.len()] };
+        let known: Vec<u32> = mesh.group_names.iter().map(|name| self.group(name.clone())).collect();
+        let of = |&[corner, ..]: &[u32; 3]| {
+            let number = (groups[corner as usize] as usize).checked_sub(1);
+            number.and_then(|number| known.get(number).copied()).unwrap_or(whole)
+        };
+        primitive.triangles.iter().map(of).collect()
+    }
+
+    fn add(&mut self, vertices: &Vertices, placed: DAffine3, material: u32) {
         let first = self.geometry.positions.len() as u32;
         // Adding 0 makes −0 and 0 the same.
         self.geometry
@@ -221,7 +244,6 @@ impl Joined {
             self.geometry.ends.push(self.geometry.corners.len() as u32);
         }
         let faces = vertices.triangles.len();
-        self.group_of_face.extend(std::iter::repeat_n(group, faces));
         self.material_of_face.extend(std::iter::repeat_n(material, faces));
     }
 

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use super::parse::{self, Parsed};
 use super::source::error_in;
+use crate::check::{self, Finding};
 use crate::locate::{Inside, Located, Node, Step};
 use crate::nearest::nearest;
 use crate::problem::{Problem, Report};
@@ -45,14 +46,117 @@ pub(super) fn apply(
     Ok((parsed, applied))
 }
 
+/// The text of a scene with values put in, as a person would: nothing else of it changes. A path that ends in `+` adds the value to a
+/// list; an empty value takes the field out, so that it is as if it had never been stated.
+///
+/// # Errors
+/// The text is no scene, or a value does not fit.
+pub fn edited_text(path: &Path, text: &str, values: &[(String, String)]) -> Result<String, Report> {
+    let mut parsed = parse::parse(path, text)?;
+    let known: Vec<Finding> = fatal_findings(&parsed);
+    for (field_path, value) in values {
+        let option = PathBuf::from(format!("{field_path}={value}"));
+        let refused = |(message, mend): Fault| Report(vec![error_in(&option, None, message, mend)]);
+        let field_path = field_path.trim();
+        parsed = if let Some(list) = field_path.strip_suffix('+') {
+            let spot = end_of_list(&parsed.located, list.trim()).map_err(refused)?;
+            put_at(&parsed, &spot, value, &option)?
+        } else if value.trim().is_empty() {
+            let Some(without) = without_field(&parsed.located, field_path).map_err(refused)? else {
+                continue;
+            };
+            parse::parse(&option, &without)?
+        } else {
+            put_in(&parsed, field_path, value, &option)?.0
+        };
+    }
+    // What is stated must make sense with the rest; what was wrong before stays for its own mend.
+    let found = fatal_findings(&parsed).into_iter().find(|finding| !known.contains(finding));
+    match found {
+        None => Ok(parsed.located.text().to_owned()),
+        Some(Finding { field_path, message, mend, .. }) => {
+            Err(Report(vec![error_in(path, None, format!("{field_path}: {message}"), mend)]))
+        }
+    }
+}
+
+/// What makes the document unusable, its files left aside.
+fn fatal_findings(parsed: &Parsed) -> Vec<Finding> {
+    check::check(&parsed.scene).into_iter().filter(|finding| finding.severity.is_fatal()).collect()
+}
+
+/// Where another item of a list goes.
+fn end_of_list(located: &Located, field_path: &str) -> Result<Spot, Fault> {
+    let spot = find_spot(located, field_path)?;
+    if spot.start == spot.end {
+        // The file leaves the list out.
+        return Ok(Spot { before: spot.before + "[", after: format!("]{}", spot.after), ..spot });
+    }
+    let text = &located.text()[spot.start..spot.end];
+    let Some(inside) = text.strip_prefix('[').and_then(|rest| rest.strip_suffix(']')) else {
+        return Err((format!("`{field_path}` is no list"), "set it as a whole, without `+`".to_owned()));
+    };
+    // The last item may be followed by a comma, and by a comment.
+    let last = match located.node_at(&spot.field_path).map(|node| &located.through_some(node).inside) {
+        Some(Inside::Items(items)) => items.last().map(|item| item.end as usize),
+        _ => None,
+    };
+    let Some(last) = last else {
+        return Ok(Spot { start: spot.start + 1, end: spot.end - 1, ..spot });
+    };
+    let indent: String = match inside.trim_start_matches([' ', '\t']).starts_with(['\n', '\r']) {
+        true => {
+            let lead = inside.trim_start_matches([' ', '\t', '\r', '\n']);
+            let blank = &inside[..inside.len() - lead.len()];
+            format!("\n{}", blank.rsplit('\n').next().unwrap_or_default())
+        }
+        false => " ".to_owned(),
+    };
+    Ok(Spot { start: last, end: last, before: format!(",{indent}"), ..spot })
+}
+
+/// The text without a field; `None` where it is not stated.
+fn without_field(located: &Located, field_path: &str) -> Result<Option<String>, Fault> {
+    let spot = find_spot(located, field_path)?;
+    if spot.start == spot.end {
+        return Ok(None);
+    }
+    let text = located.text();
+    let head = text[..spot.start].trim_end();
+    let Some(head) = head.strip_suffix(':') else {
+        return Err((format!("`{field_path}` is no field"), "name the field to take out".to_owned()));
+    };
+    let name = head.trim_end_matches(|letter: char| letter.is_alphanumeric() || letter == '_');
+    let (mut start, mut end) = (name.len(), spot.end);
+    let behind = &text[end..];
+    if let Some(rest) = behind.trim_start().strip_prefix(',') {
+        end = text.len() - rest.len();
+        // A line of its own goes as a whole.
+        let line = text[..start].trim_end_matches([' ', '\t']);
+        if line.ends_with('\n') && rest.trim_start_matches([' ', '\t', '\r']).starts_with('\n') {
+            start = line.len();
+            end = text.len() - rest.len() + rest.find('\n').map_or(0, |at| at + 1);
+        } else {
+            end += rest.len() - rest.trim_start_matches(' ').len();
+        }
+    } else if let Some(before) = text[..start].trim_end().strip_suffix(',') {
+        start = before.len();
+    }
+    Ok(Some(format!("{}{}", &text[..start], &text[end..])))
+}
+
 fn put_in(parsed: &Parsed, field_path: &str, value: &str, option: &Path) -> Result<(Parsed, String), Report> {
     let refused = |(message, mend): Fault| Report(vec![error_in(option, None, message, mend)]);
     let spot = find_spot(&parsed.located, field_path.trim()).map_err(refused)?;
+    Ok((put_at(parsed, &spot, value, option)?, spot.field_path))
+}
+
+fn put_at(parsed: &Parsed, spot: &Spot, value: &str, option: &Path) -> Result<Parsed, Report> {
     let mut first_report = None;
     for candidate in candidates(value) {
         let text = spot.with(parsed.located.text(), &candidate);
         match parse::parse(option, &text) {
-            Ok(parsed) => return Ok((parsed, spot.field_path)),
+            Ok(parsed) => return Ok(parsed),
             Err(report) => {
                 first_report.get_or_insert(report);
             }

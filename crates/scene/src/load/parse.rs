@@ -411,7 +411,7 @@ fn what_goes_into(field: &str) -> Option<&'static str> {
         "kind" => "Sun, Point or Ambient",
         "up" => "Y or Z",
         "on" => {
-            "Everything, Object(\"apple\"), Group(\"apple\", \"leaf\"), Material(\"apple\", \"wood\"), Dabs(\"apple\", [(at: …, normal: …, radius: 0.1)]), Flood(\"apple\", (at: …, normal: …), 30) or Several(\"apple\", [Whole, Group(\"leaf\"), Dabs(…)])"
+            "Everything, Object(\"apple\"), Collection(\"fruit\"), EachMaterial(\"wood\"), Group(\"apple\", \"leaf\"), Material(\"apple\", \"wood\"), Dabs(\"apple\", [(at: …, normal: …, radius: 0.1)]), Flood(\"apple\", (at: …, normal: …), 30) or Several(\"apple\", [Whole, Group(\"leaf\"), Dabs(…)])"
         }
         "direction" => {
             "a direction: Auto, Angle(35), Crossing(-58, 4), Along((1, 0, 0)), Around((0, 1, 0)), Toward((0, 1, 0)), Curvature(Min) or Up in a region, (x, y, z) in a light"

@@ -163,8 +163,13 @@ fn cycles_and_unknown_parents_do_not_hang() {
 #[test]
 fn the_view_is_finite_even_where_check_would_refuse_it() {
     for (eye, target) in [([0.0, 5.0, 0.0], [0.0; 3]), ([1.0; 3], [1.0; 3])] {
-        let pose =
-            CameraPose { eye: eye.into(), target: target.into(), roll_rad: 0.0, lens: Lens::default() };
+        let pose = CameraPose {
+            eye: eye.into(),
+            target: target.into(),
+            roll_rad: 0.0,
+            shift: DVec2::ZERO,
+            lens: Lens::default(),
+        };
         assert!(pose.view_from_world().is_finite());
     }
     assert!(camera_at(&scene(vec![], vec![]), 3.0).view_from_world().is_finite());
@@ -213,7 +218,7 @@ fn any_turn_of_a_camera_matrix_is_kept() {
     ] {
         let turn = glam::DQuat::from_axis_angle(axis.normalize(), angle_deg.to_radians());
         let world_from_view = DMat4::from_rotation_translation(turn, DVec3::new(1.0, -2.0, 0.5));
-        let pose = CameraPose::of_matrix(world_from_view, Lens::default());
+        let pose = CameraPose::of_matrix(world_from_view, Lens::default(), DVec2::ZERO);
         let again = pose.view_from_world() * world_from_view;
         assert!(again.abs_diff_eq(DMat4::IDENTITY, 1e-9), "{axis} {angle_deg}: {again}");
     }

@@ -7,6 +7,7 @@ use super::axes::Axes;
 use super::scheme::{self, Scheme};
 use super::{bare, object_name};
 use crate::document::{Brought, Color, Scene, StrokeSettings};
+use crate::limits;
 use crate::mesh_file::MeshFile;
 use crate::motion;
 use crate::shot::Shot;
@@ -26,8 +27,10 @@ pub fn for_shot(path: &Path, meshes: &[Arc<MeshFile>], shot: &Arc<Shot>) -> Scen
     // Movies need even sides.
     let even = |side: f64| 2 * (side / 2.0).round() as u32;
     let [width, height] = [aspect, 1.0].map(|side| even(LONGER_PX * side / aspect.max(1.0)));
+    let fits = |side: u32| (1..=limits::MAX_SIDE_PX).contains(&side);
+    let stated = shot.size_px().filter(|size| size.iter().all(|&side| fits(side)));
     let mut scene = Scene {
-        size: (width, height),
+        size: stated.map_or((width, height), |[width, height]| (width, height)),
         // A shot with lights brings a sky.
         background: if shot.has_lights() { Color::default() } else { scheme.plain_ground() },
         shot: Some(path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()),

@@ -1,10 +1,10 @@
 //! The lens of a shot's camera, as the lenses of scenes are stated.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use impasto_gltf::{Animator, Lens as ShotLens, Posed};
 
 use super::Shot;
-use crate::document::Lens;
+use crate::document::{Lens, Seen};
 use crate::gltf::GltfFile;
 
 /// The depth that an infinite camera sees, over its nearest one.
@@ -23,6 +23,24 @@ pub(super) fn lens_in(lens: ShotLens, (width, height): (u32, u32)) -> Lens {
         ShotLens::Orthographic { xmag, ymag, znear, zfar } => {
             Lens::Orthographic { height: 2.0 * ymag.max(xmag / aspect), near: znear, far: zfar }
         }
+    }
+}
+
+/// Half of what a lens shows.
+struct HalfSize {
+    /// `None` where the file leaves it to the picture.
+    x: Option<f64>,
+    y: f64,
+}
+
+/// Half of what a lens shows, at depth one; or anywhere, of parallel rays.
+fn half_size(lens: ShotLens) -> HalfSize {
+    match lens {
+        ShotLens::Perspective { yfov_rad, aspect, .. } => {
+            let half = (0.5 * yfov_rad).tan();
+            HalfSize { x: aspect.map(|aspect| aspect * half), y: half }
+        }
+        ShotLens::Orthographic { xmag, ymag, .. } => HalfSize { x: Some(xmag), y: ymag },
     }
 }
 
@@ -60,7 +78,13 @@ pub(super) fn chosen(
     let named = name.map(|name| all.iter().copied().find(|&node| nodes[node].name == name));
     let posed = animator.pose(animator.span_s().map_or(0.0, |[first, _]| f64::from(first)));
     // Of equals, `min_by_key` keeps the first.
-    let first = all.iter().copied().min_by_key(|&node| std::cmp::Reverse(seen(file, &posed, node)))?;
+    let most = all.iter().copied().min_by_key(|&node| std::cmp::Reverse(seen(file, &posed, node)))?;
+    let of_cut = file
+        .sidecar
+        .cuts
+        .first()
+        .and_then(|cut| all.iter().copied().find(|&node| nodes[node].name == cut.camera));
+    let first = of_cut.unwrap_or(most);
     let names: Vec<&str> = all.iter().map(|&node| nodes[node].name.as_str()).collect();
     let is_first = format!("{:?} is looked through", nodes[first].name);
     let mend = || format!("choose one in the scene, as in camera: (of_shot: {:?})", names[names.len() - 1]);
@@ -69,7 +93,7 @@ pub(super) fn chosen(
         (Some(None), Some(name)) => {
             odd.push([format!("there is no camera {name:?}; there are {names:?}, and {is_first}"), mend()]);
         }
-        _ if all.len() > 1 => {
+        _ if all.len() > 1 && of_cut.is_none() => {
             odd.push([format!("there are {} cameras, {names:?}; {is_first}", all.len()), mend()])
         }
         _ => {}
@@ -78,6 +102,29 @@ pub(super) fn chosen(
 }
 
 impl Shot {
+    /// See [`crate::document::Brought::camera`].
+    pub(super) fn seen(&self, time_s: f64, size: (u32, u32)) -> Option<Seen> {
+        let posed = self.animator.pose(time_s);
+        let frame = time_s * self.rate();
+        let sidecar = &self.file.sidecar;
+        let named = |name: &str| self.file.node(name).filter(|&node| self.file.is_in_scene(node));
+        let of_cut = sidecar.camera_at(frame).filter(|_| !self.is_chosen).and_then(named);
+        let node = of_cut.filter(|&node| self.file.gltf.nodes[node].camera.is_some()).or(self.camera)?;
+        let node_data = &self.file.gltf.nodes[node];
+        let own = posed.lenses[node_data.camera?];
+        let lens = lens_in(own, size);
+        // A picture of another aspect shows more: then what is shifted by half a picture of the camera's own is shifted by less here.
+        let own_half = half_size(own);
+        let half_height = match lens {
+            Lens::Perspective { fov_y_deg, .. } => (0.5 * fov_y_deg.to_radians()).tan(),
+            Lens::Orthographic { height, .. } => 0.5 * height,
+        };
+        let aspect = f64::from(size.0.max(1)) / f64::from(size.1.max(1));
+        let own_half = DVec2::new(own_half.x.unwrap_or(half_height * aspect), own_half.y);
+        let shift = sidecar.shift_at(&node_data.name, frame) * own_half / half_height;
+        Some(Seen { world_from_view: posed.world_from_view(node), lens, shift })
+    }
+
     /// Width over height of the camera's own picture, where it is stated.
     pub fn camera_aspect(&self) -> Option<f64> {
         let camera = self.file.gltf.nodes[self.camera?].camera?;

@@ -17,6 +17,10 @@ pub(super) fn enter(shot: Arc<Shot>, scene: &mut Scene) -> Vec<Lost> {
     for (index, object) in scene.objects.iter_mut().enumerate().filter(|(_, object)| object.mesh.is_empty()) {
         if let Some(&of) = shot.object_of_name.get(&object.name) {
             object.mesh.clone_from(&shot.objects[of].object.mesh);
+            // Keys of its own move it as a whole; its points move as in the shot.
+            if object.cache.is_none() {
+                object.cache.clone_from(&shot.objects[of].object.cache);
+            }
             continue;
         }
         let names = shot.objects.iter().map(|brought| brought.object.name.as_str());
@@ -64,7 +68,10 @@ pub(super) fn left(shot: &Shot, scene: &Scene) -> Scene {
         .into_iter()
         .filter_map(|object| match brought().find(|brought| brought.name == object.name) {
             Some(brought) if *brought == object => None,
-            Some(brought) if brought.mesh == object.mesh => Some(Object { mesh: String::new(), ..object }),
+            Some(brought) if brought.mesh == object.mesh => {
+                let cache = object.cache.clone().filter(|_| object.cache != brought.cache);
+                Some(Object { mesh: String::new(), cache, ..object })
+            }
             _ => Some(object),
         })
         .chain(gone)

@@ -22,6 +22,7 @@ fn view() -> View {
         eye: DVec3::new(0.0, 1.0, 5.0),
         target: DVec3::ZERO,
         roll_rad: 0.0,
+        shift: DVec2::ZERO,
         lens: Lens::Perspective { fov_y_deg: 35.0, near: 0.1, far: 100.0 },
     };
     View { camera, size_px: DVec2::new(400.0, 225.0) }

@@ -1,0 +1,192 @@
+//! `impasto serve`: renders what another program asks for. Lines of JSON come in on standard input and go out on standard output;
+//! the scene is prepared once, and again where its files have changed. `docs/serve.md` lists the lines.
+
+mod orders;
+
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::SystemTime;
+
+use impasto_frame_files::exr_file::Packing;
+use impasto_frame_files::{FrameList, Pattern, not_an_input, ready_folder};
+use impasto_gl_render::{Renderer, ShaderTexts};
+use impasto_painting::{FrameOptions, Painting, Preparer};
+use impasto_scene::aovs::AovSet;
+use impasto_sequence::{Ending, FileOutcome, FrameFiles, Sequence, Wanted};
+use serde_json::{Value, json};
+
+use crate::args::ServeArguments;
+use crate::failure::Failure;
+use crate::session;
+use orders::{Current, Order, Orders, RenderOrder};
+
+/// The version of the lines.
+pub(crate) const VERSION: u32 = 1;
+
+pub(crate) fn run(arguments: &ServeArguments) -> Result<(), Failure> {
+    let orders = Orders::from_stdin();
+    let mut server = Server { arguments, preparer: Preparer::default(), ready: None, renderer: None };
+    tell(&json!({ "version": VERSION, "event": "started", "impasto": env!("CARGO_PKG_VERSION") }))?;
+    while let Some((order, current)) = orders.next() {
+        match order {
+            Order::Prepare { id } => match server.ready() {
+                Ok(()) => tell(&server.words_of_ready(id))?,
+                Err(failure) => tell(&of_failure(id, &failure))?,
+            },
+            Order::Render(order) => {
+                let event = match server.render(&order, &current) {
+                    Ok(Ending::Done(fault)) => json!({ "event": "done", "id": order.id, "warning": fault }),
+                    Ok(Ending::Stopped) => json!({ "event": "stopped", "id": order.id }),
+                    Err(failure) => of_failure(order.id, &failure),
+                };
+                tell(&event)?;
+            }
+            Order::Unread(words) => tell(&json!({ "event": "error", "message": words }))?,
+        }
+    }
+    Ok(())
+}
+
+/// Writes one line.
+fn tell(line: &Value) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    writeln!(out, "{line}")?;
+    Ok(out.flush()?)
+}
+
+fn of_failure(id: u64, failure: &Failure) -> Value {
+    json!({ "event": "error", "id": id, "message": failure.words().unwrap_or_default() })
+}
+
+/// What says that a file is still the same: its length, and when it was written.
+type Stamp = Option<(u64, SystemTime)>;
+
+/// A scene that was prepared.
+struct Ready {
+    painting: Painting,
+    warnings: Vec<String>,
+    inputs: Vec<PathBuf>,
+    /// Of each input as it was before it was read.
+    stamps: Vec<Stamp>,
+}
+
+impl Ready {
+    fn is_current(&self) -> bool {
+        self.inputs.iter().zip(&self.stamps).all(|(path, stamp)| stamp_of(path) == *stamp)
+    }
+}
+
+fn stamp_of(path: &Path) -> Stamp {
+    let metadata = std::fs::metadata(path).ok()?;
+    Some((metadata.len(), metadata.modified().ok()?))
+}
+
+struct Server<'a> {
+    arguments: &'a ServeArguments,
+    preparer: Preparer,
+    ready: Option<Ready>,
+    renderer: Option<Renderer>,
+}
+
+impl Server<'_> {
+    /// Prepares the scene, unless that is done and its files are as they were.
+    fn ready(&mut self) -> Result<(), Failure> {
+        if self.ready.as_ref().is_some_and(Ready::is_current) {
+            return Ok(());
+        }
+        self.ready = None;
+        let of_scene = &self.arguments.scene;
+        let begun = stamp_of(&of_scene.scene);
+        let loaded = session::read_scene(of_scene, true)?;
+        let inputs = loaded.inputs();
+        // A file that changes while it is read has another stamp next time at the latest: the scene file is looked at before, the
+        // others are replaced as a whole.
+        let mut stamps: Vec<Stamp> = inputs.iter().map(|path| stamp_of(path)).collect();
+        if let Some(first) = stamps.first_mut() {
+            *first = begun;
+        }
+        let warnings = loaded.warnings.iter().map(ToString::to_string).collect();
+        let painting = session::prepare_by(&mut self.preparer, Arc::new(loaded), of_scene)?;
+        self.ready = Some(Ready { painting, warnings, inputs, stamps });
+        Ok(())
+    }
+
+    fn words_of_ready(&self, id: u64) -> Value {
+        let Some(ready) = &self.ready else { return Value::Null };
+        let scene = ready.painting.scene();
+        json!({
+            "event": "ready",
+            "id": id,
+            "first": scene.timeline.first,
+            "last": scene.timeline.last,
+            "size": [scene.size.0, scene.size.1],
+            "particles": ready.painting.particle_total(),
+            "warnings": ready.warnings,
+        })
+    }
+
+    fn render(&mut self, order: &RenderOrder, current: &Current) -> Result<Ending, Failure> {
+        self.ready()?;
+        tell(&self.words_of_ready(order.id))?;
+        let frames = FrameList::parse(&order.frames).map_err(Failure::Usage)?;
+        let pattern = Pattern::parse(&order.output, frames.count());
+        let Some(Ready { painting, inputs, .. }) = &self.ready else { return Ok(Ending::Stopped) };
+        for frame in frames.iter() {
+            not_an_input(&pattern.path(frame), inputs)?;
+        }
+        ready_folder(&pattern.path(frames.iter().next().unwrap_or(0)))?;
+        let scene = painting.scene();
+        let aovs = AovSet::of_words(order.aovs.iter().map(String::as_str)).map_err(Failure::Usage)?;
+        let renderer = match &mut self.renderer {
+            Some(renderer) => renderer,
+            none => none.insert(session::open_renderer(self.arguments.driver, false)?),
+        };
+        let size_px = order.size.unwrap_or([scene.size.0, scene.size.1]);
+        let sequence = Sequence {
+            painting: painting.clone(),
+            options: FrameOptions { transparent: order.alpha, ..FrameOptions::new(size_px) },
+            scene_name: self
+                .arguments
+                .scene
+                .scene
+                .file_name()
+                .map(|name| name.to_string_lossy().into_owned())
+                .unwrap_or_default(),
+            driver: session::driver(self.arguments.driver),
+            shaders: ShaderTexts::default(),
+            wanted: Wanted {
+                exr: Some(aovs),
+                packing: if order.plain { Packing::Plain } else { Packing::Small },
+                ..Wanted::default()
+            },
+            timed: false,
+            counted: false,
+        };
+        let files = FrameFiles {
+            frames: &frames,
+            path: &|frame_number| pattern.path(frame_number),
+            keep_existing: false,
+        };
+        let stop = || current.is_stopped();
+        let mut out = 0;
+        sequence.render_files(renderer, &files, &stop, |frame, outcome| {
+            let path = pattern.path(frame).with_extension("exr");
+            let line = match outcome {
+                FileOutcome::Written(drawn) => {
+                    out += 1;
+                    json!({ "event": "frame", "id": order.id, "frame": frame, "path": path, "seconds": drawn.seconds })
+                }
+                FileOutcome::Kept => return Ok(()),
+                FileOutcome::Failed(error) => {
+                    let words = format!("{}: {error}", path.display());
+                    json!({ "event": "failed", "id": order.id, "frame": frame, "message": words })
+                }
+            };
+            tell(&line)?;
+            // Whoever asked removes the files when it has read them: not too many lie about.
+            current.wait_until_taken(out, order.ahead);
+            Ok::<(), Failure>(())
+        })
+    }
+}
