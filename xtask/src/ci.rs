@@ -7,7 +7,7 @@ use anyhow::{Context as _, bail, ensure};
 
 use crate::packages::{self, Install};
 use crate::steps::{self, cargo, step, target_folder};
-use crate::{layers, tidy};
+use crate::{blender, layers, tidy};
 
 /// Runs every check; stops at the first that fails. Prints the seconds of each.
 pub fn run(root: &Path) -> anyhow::Result<()> {
@@ -32,6 +32,7 @@ pub fn run(root: &Path) -> anyhow::Result<()> {
     let impasto = impasto.to_string_lossy();
     check("doctor", &|| steps::run(root, &impasto, &["doctor"]))?;
     check("render", &|| smoke_render(root, &impasto))?;
+    check("blender", &|| blender::run(root, blender::Fetch::No))?;
     println!("== seconds a step");
     for (name, seconds) in seconds {
         println!("{seconds:8.1}  {name}");

@@ -3,6 +3,7 @@
 #![expect(clippy::print_stdout, reason = "these commands exist to print what they found")]
 
 mod bench;
+mod blender;
 mod ci;
 mod demo;
 mod gallery;
@@ -33,6 +34,7 @@ cargo xtask <command>
                               with --shots every frame of their shots, for docs/steadiness.md
   same [--keep]               pictures and strokes are, byte for byte, those of the last `same --keep`
   bench [-- …]                the benchmarks of bench/
+  blender                     build the Blender extension, install it into real Blenders (fetched where they are not), test it
   meshes                      write the meshes of scenes/meshes/ anew";
 
 fn main() -> ExitCode {
@@ -77,6 +79,7 @@ fn run(arguments: &[String]) -> anyhow::Result<()> {
         "measure" => measure::run(&root, own),
         "same" => same::run(&root, keep),
         "bench" => bench::run(&root, passed_on),
+        "blender" => blender::run(&root, blender::Fetch::Yes),
         "meshes" => steps::run(&root, &steps::cargo(), &["run", "--locked", "--package", "impasto-meshes"]),
         "help" | "--help" | "-h" => {
             println!("{USAGE}");

@@ -83,7 +83,11 @@ macro_rules! usual_fields {
         impl serde::Serialize for $name {
             fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
                 use serde::ser::SerializeStruct;
-                let mut fields = serializer.serialize_struct(stringify!($name), 0)?;
+                let count = [
+                    $(usual_fields!(@is_saved self.$field != Self::default().$field, $($always)?)),+
+                ];
+                let count = count.into_iter().filter(|is_saved| *is_saved).count();
+                let mut fields = serializer.serialize_struct(stringify!($name), count)?;
                 $(
                     if usual_fields!(@is_saved self.$field != Self::default().$field, $($always)?) {
                         fields.serialize_field(stringify!($field), &self.$field)?;

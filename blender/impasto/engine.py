@@ -1,0 +1,137 @@
+"""Impasto as a render engine: final renders of frames and animations, in the window and with `blender -b`."""
+
+from __future__ import annotations
+
+import sys
+
+import bpy
+
+from . import cryptomatte, painting, passes, refusals
+from .export_request import export_request
+from .exr import Planes, read
+from .failure import Failure, Stopped
+from .painter import painter_of
+
+
+class ImpastoEngine(bpy.types.RenderEngine):
+    """Paints the scene."""
+
+    bl_idname = "IMPASTO"
+    bl_label = "Impasto"
+    bl_use_preview = False
+    bl_use_eevee_viewport = True
+    bl_use_postprocess = True
+    bl_use_shading_nodes_custom = False
+    # Nothing of a depsgraph is kept from frame to frame.
+    bl_use_persistent_data = False
+
+    def update_render_passes(self, scene: bpy.types.Scene, renderlayer: bpy.types.ViewLayer) -> None:
+        self.register_pass(scene, renderlayer, "Combined", 4, "RGBA", "COLOR")
+        for row in passes.asked(renderlayer):
+            self.register_pass(scene, renderlayer, row.name, len(row.letters), row.letters, row.kind)
+
+    def render(self, depsgraph: bpy.types.Depsgraph) -> None:
+        if self.is_preview:
+            return
+        # Nothing may leave this function: an exception between the begin and the end of a result ends Blender.
+        try:
+            self._paint(depsgraph)
+        except Stopped:
+            pass
+        except Failure as failure:
+            self._fail(str(failure))
+        except Exception as error:  # noqa: BLE001
+            self._fail(f"{type(error).__name__}: {error}")
+
+    def _fail(self, words: str) -> None:
+        if export_request.is_on:
+            export_request.failure = words
+            return
+        self.report({"ERROR"}, words)
+        self.error_set(words)
+        if bpy.app.background:
+            # Without a window nobody sees a report.
+            print(f"Impasto: {words}", file=sys.stderr)
+
+    def _paint(self, depsgraph: bpy.types.Depsgraph) -> None:
+        scene, view_layer = depsgraph.scene, depsgraph.view_layer
+        refusals.check(scene, view_layer)
+        frame = depsgraph.scene_eval.frame_current
+        place = painting.of_scene(scene)
+        # In an animation the shot is exported with its first frame: nothing can change before the last.
+        if not (self.is_animation and frame != scene.frame_start and place.shot.is_file()):
+            self._export(place, depsgraph)
+        if export_request.is_on:
+            return
+        self.update_stats("", f"Impasto: painting frame {frame}")
+        self.update_progress(0.5)
+        rows = passes.asked(view_layer)
+        how = {
+            "size": self._whole_size_px(scene),
+            "aovs": sorted({row.aov for row in rows}) or ["none"],
+            "alpha": scene.render.film_transparent,
+        }
+        further: list[int] = []
+        if self.is_animation:
+            further = list(range(frame + scene.frame_step, scene.frame_end + 1, scene.frame_step))
+        path = painter_of(place.scene_file).frame(frame, further, how, self.test_break)
+        planes = read(path)
+        path.unlink(missing_ok=True)
+        self._hand_over(planes, [passes.COMBINED, *rows], depsgraph)
+        self.update_progress(1.0)
+
+    def _whole_size_px(self, scene: bpy.types.Scene) -> list[int]:
+        share = scene.render.resolution_percentage
+        return [max(1, side * share // 100) for side in (scene.render.resolution_x, scene.render.resolution_y)]
+
+    def _export(self, place: painting.Painting, depsgraph: bpy.types.Depsgraph) -> None:
+        """Exports the shot, where anything has changed."""
+        frame = depsgraph.scene_eval.frame_current
+
+        def walk(number: int) -> bpy.types.Depsgraph:
+            self.frame_set(number, 0.0)
+            return depsgraph
+
+        def report(share: float) -> None:
+            self.update_stats("", "Impasto: exporting the shot")
+            self.update_progress(0.5 * share)
+
+        warnings = painting.export(
+            place,
+            depsgraph.scene,
+            walk,
+            view_layer=depsgraph.view_layer,
+            report=report,
+            stop=self.test_break,
+            anew=export_request.is_on and export_request.anew,
+        )
+        self.frame_set(frame, 0.0)
+        for words in warnings:
+            self.report({"WARNING"}, words)
+        export_request.warnings = warnings
+
+    def _hand_over(
+        self, planes: Planes, rows: list[passes.RenderPass], depsgraph: bpy.types.Depsgraph
+    ) -> None:
+        """Copies the pixels of all passes into Blender's result."""
+        left, bottom, width, height = refusals.part_px(depsgraph.scene.render, planes.size_px)
+        found = [(row, passes.pixels(row, planes)) for row in rows]
+        result = self.begin_result(0, 0, width, height, layer=depsgraph.view_layer.name)
+        try:
+            of_layer = result.layers[0].passes
+            for row, pixels in found:
+                target = of_layer.get(row.name)
+                if target is not None and pixels is not None:
+                    part = pixels[bottom : bottom + height, left : left + width]
+                    target.rect.foreach_set(part.ravel())
+            cryptomatte.stamp(result, depsgraph.view_layer.name, planes.notes)
+        finally:
+            self.end_result(result)
+
+
+def register() -> None:
+    bpy.utils.register_class(ImpastoEngine)
+
+
+def unregister() -> None:
+    bpy.utils.unregister_class(ImpastoEngine)
