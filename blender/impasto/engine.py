@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-
 import bpy
 
 from . import cryptomatte, painting, passes, refusals
@@ -47,11 +45,9 @@ class ImpastoEngine(bpy.types.RenderEngine):
         if export_request.is_on:
             export_request.failure = words
             return
+        # The operator raises what is reported; the render's window shows the other.
         self.report({"ERROR"}, words)
         self.error_set(words)
-        if bpy.app.background:
-            # Without a window nobody sees a report.
-            print(f"Impasto: {words}", file=sys.stderr)
 
     def _paint(self, depsgraph: bpy.types.Depsgraph) -> None:
         scene, view_layer = depsgraph.scene, depsgraph.view_layer

@@ -12,8 +12,7 @@ MODULE = "bl_ext.user_default.impasto"
 
 
 def start() -> None:
-    """Enables the extension, as the preferences of the profile have it."""
-    bpy.ops.wm.read_userpref()
+    """Enables the extension, which is installed in the profile."""
     bpy.ops.preferences.addon_enable(module=MODULE)
 
 

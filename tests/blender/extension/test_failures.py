@@ -68,7 +68,6 @@ session.report("an error in the scene file, and its mend")
 
 # Esc: while exporting, and while painting.
 engine = session.module("engine").ImpastoEngine
-asked = engine.test_break
 for after in (0, 3):
     count = [0]
 

@@ -80,8 +80,8 @@ if hasattr(hair, "add_curves"):
     hair.add_curves([3])
     hair.position_data.foreach_set("vector", [-0.2, -1.0, 0.5, 0.0, -1.0, 0.55, 0.2, -1.0, 0.5])
     guides.objects.link(bpy.data.objects.new("Hair", hair))
-if hasattr(bpy.data, "grease_pencils_v3") or bpy.app.version >= (4, 3):
-    pencils = getattr(bpy.data, "grease_pencils_v3", None) or bpy.data.grease_pencils
+if bpy.app.version >= (4, 3):
+    pencils = getattr(bpy.data, "grease_pencils_v3", bpy.data.grease_pencils)
     pencil = pencils.new("Pencil")
     drawing = pencil.layers.new("Lines").frames.new(1).drawing
     drawing.add_strokes([3])
