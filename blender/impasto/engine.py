@@ -50,13 +50,15 @@ class ImpastoEngine(bpy.types.RenderEngine):
         self.error_set(words)
 
     def _paint(self, depsgraph: bpy.types.Depsgraph) -> None:
-        scene, view_layer = depsgraph.scene, depsgraph.view_layer
+        # What a depsgraph names in a render is its own copy.
+        scene = depsgraph.scene.original
+        view_layer = scene.view_layers[depsgraph.view_layer.name]
         refusals.check(scene, view_layer)
         frame = depsgraph.scene_eval.frame_current
         place = painting.of_scene(scene)
         # In an animation the shot is exported with its first frame: nothing can change before the last.
         if not (self.is_animation and frame != scene.frame_start and place.shot.is_file()):
-            self._export(place, depsgraph)
+            self._export(place, depsgraph, view_layer)
         if export_request.is_on:
             return
         self.update_stats("", f"Impasto: painting frame {frame}")
@@ -80,7 +82,9 @@ class ImpastoEngine(bpy.types.RenderEngine):
         share = scene.render.resolution_percentage
         return [max(1, side * share // 100) for side in (scene.render.resolution_x, scene.render.resolution_y)]
 
-    def _export(self, place: painting.Painting, depsgraph: bpy.types.Depsgraph) -> None:
+    def _export(
+        self, place: painting.Painting, depsgraph: bpy.types.Depsgraph, view_layer: bpy.types.ViewLayer
+    ) -> None:
         """Exports the shot, where anything has changed."""
         frame = depsgraph.scene_eval.frame_current
 
@@ -94,9 +98,9 @@ class ImpastoEngine(bpy.types.RenderEngine):
 
         warnings = painting.export(
             place,
-            depsgraph.scene,
+            view_layer.id_data,
             walk,
-            view_layer=depsgraph.view_layer,
+            view_layer=view_layer,
             report=report,
             stop=self.test_break,
             anew=export_request.is_on and export_request.anew,

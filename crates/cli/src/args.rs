@@ -231,6 +231,9 @@ pub(crate) struct EditArguments {
     /// A folder of shaders that stand in for the program's own, read again whenever they change.
     #[arg(long, value_name = "DIR")]
     pub(crate) shaders: Option<PathBuf>,
+    /// Go to the frame and the view that another program names, by lines of JSON on standard input.
+    #[arg(long)]
+    pub(crate) follow: bool,
     /// Ask for files in the window, never by the desktop's dialogs.
     #[arg(long, hide = true)]
     pub(crate) in_app_dialogs: bool,

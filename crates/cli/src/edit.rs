@@ -21,6 +21,7 @@ pub(crate) fn run(arguments: &EditArguments) -> Result<(), Failure> {
         driver,
         dialogs,
         shaders: arguments.shaders.clone(),
+        follow: arguments.follow,
         tell,
     };
     impasto_editor::run(&options).map_err(|error| match error {

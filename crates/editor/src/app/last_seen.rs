@@ -45,7 +45,7 @@ fn view_of(pose: &CameraPose) -> LastView {
 
 /// A free view from a remembered one, with the shot's lens. If only one of the two is orthographic, the lens is changed
 /// to be like the remembered view; things at the target then keep their size.
-fn free_view(view: &LastView, shot: &CameraPose) -> FreeView {
+pub(super) fn free_view(view: &LastView, shot: &CameraPose) -> FreeView {
     let mut free = FreeView::new(CameraPose {
         eye: DVec3::from(view.eye),
         target: DVec3::from(view.target),

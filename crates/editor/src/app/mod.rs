@@ -8,6 +8,7 @@
 mod asks;
 mod comb_preview;
 mod file_flow;
+mod following;
 mod keys;
 mod last_seen;
 mod lights;
@@ -42,6 +43,7 @@ use crate::window::{self, Opened, numpad_pressed, tab_pressed};
 use impasto_gl_render::shader_folder::ShaderFolder;
 
 use file_flow::FileFlow;
+use following::Following;
 use long_work::LongWork;
 use marks::MarkCache;
 use picture::{News, PictureFlow};
@@ -64,6 +66,7 @@ pub(crate) struct EditorApp {
     render: RenderFlow,
     long: LongWork,
     shaders: ShaderFlow,
+    following: Following,
     preferences: Preferences,
     sheets: Sheets,
     toasts: Vec<(Toast, Instant, Option<Offer>)>,
@@ -122,6 +125,11 @@ impl EditorApp {
             render: RenderFlow::new(opened.waker.clone()),
             long: LongWork::new(opened.waker.clone()),
             shaders: ShaderFlow::default(),
+            following: if options.follow {
+                Following::stdin(opened.waker.clone())
+            } else {
+                Following::default()
+            },
             sheets: Sheets {
                 welcome: preferences.show_welcome && options.path.is_none(),
                 ..Sheets::default()
@@ -310,6 +318,7 @@ impl window::App for EditorApp {
         let ctx = ui.ctx().clone();
         self.editor.tick(ui.input(|input| input.time));
         self.follow_reading(&ctx);
+        self.follow();
         let news = self.picture_flow.poll(&ctx, &mut self.editor);
         if news == Some(News::NextOfFilm) {
             self.tell_played();

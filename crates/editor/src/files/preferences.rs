@@ -134,6 +134,14 @@ pub struct LastView {
     pub orthographic: bool,
 }
 
+impl LastView {
+    /// Whether one can look through it.
+    pub fn is_sound(&self) -> bool {
+        let numbers = self.eye.iter().chain(&self.target).chain([&self.roll_deg]);
+        self.eye != self.target && numbers.into_iter().all(|number| number.is_finite() && number.abs() < 1e9)
+    }
+}
+
 impl Preferences {
     /// Puts a file that was opened or saved on top of the recent ones, unless its path is not valid Unicode.
     pub fn note_recent(&mut self, file: &Path) {
