@@ -1,6 +1,7 @@
 // From a pixel and a depth to a position, for perspective and orthographic lenses.
 uniform mat4 world_from_view;
 uniform vec2 size_px;
+uniform vec2 gaze_px;            // where the gaze meets the picture: its middle, unless the lens is shifted
 uniform float px_per_unit_at_1;  // focal length in pixels, or pixels per world unit where parallel
 uniform float orthographic;      // 1 where rays are parallel
 
@@ -10,7 +11,7 @@ float units_per_px(float depth) {
 }
 
 vec3 view_from_px(vec2 at_px, float depth) {
-    return vec3((at_px - 0.5 * size_px) * units_per_px(depth), -depth);
+    return vec3((at_px - gaze_px) * units_per_px(depth), -depth);
 }
 
 vec3 world_from_px(vec2 at_px, float depth) {

@@ -41,6 +41,7 @@ mod shift;
 mod shipped_scenes;
 mod shot_looks;
 mod shots;
+mod sidecars;
 mod steadiness;
 mod sumi_e;
 mod turntable;

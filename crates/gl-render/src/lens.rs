@@ -6,17 +6,19 @@ use impasto_painting::frame::FrameView;
 use crate::gl::Bound;
 
 /// The uniforms of `shared/lens.glsl`.
-pub(crate) const LENS_UNIFORMS: [&str; 4] =
-    ["world_from_view", "size_px", "px_per_unit_at_1", "orthographic"];
+pub(crate) const LENS_UNIFORMS: [&str; 5] =
+    ["world_from_view", "size_px", "gaze_px", "px_per_unit_at_1", "orthographic"];
 
 /// Those that a shader in view space uses.
-pub(crate) const VIEW_LENS_UNIFORMS: [&str; 3] = ["size_px", "px_per_unit_at_1", "orthographic"];
+pub(crate) const VIEW_LENS_UNIFORMS: [&str; 4] = ["size_px", "gaze_px", "px_per_unit_at_1", "orthographic"];
 
 /// The values of these uniforms in one frame.
 #[derive(Clone, Copy)]
 pub(crate) struct LensSetup {
     world_from_view: Mat4,
     size_px: Vec2,
+    /// Where the gaze meets the picture, pixels from its lower left corner.
+    gaze_px: Vec2,
     /// Pixels per world unit at a depth of 1.
     pub(crate) px_per_unit_at_1: f32,
     orthographic: f32,
@@ -24,9 +26,13 @@ pub(crate) struct LensSetup {
 
 impl LensSetup {
     pub(crate) fn new(view: &FrameView, size_px: [u32; 2]) -> Self {
+        // What is added after the division by w stands before it in the column that w is made of.
+        let shift = if view.orthographic { view.clip_from_view.w_axis } else { -view.clip_from_view.z_axis };
+        let size = UVec2::from(size_px).as_vec2();
         Self {
+            gaze_px: 0.5 * size + 0.5 * size * Vec2::new(shift.x, shift.y),
             world_from_view: view.view_from_world.inverse(),
-            size_px: UVec2::from(size_px).as_vec2(),
+            size_px: size,
             px_per_unit_at_1: view.clip_from_view.y_axis.y * 0.5 * size_px[1] as f32,
             orthographic: f32::from(view.orthographic),
         }
@@ -38,6 +44,7 @@ impl LensSetup {
             bound = match name {
                 "world_from_view" => bound.set(name, self.world_from_view),
                 "size_px" => bound.set(name, self.size_px),
+                "gaze_px" => bound.set(name, self.gaze_px),
                 "px_per_unit_at_1" => bound.set(name, self.px_per_unit_at_1),
                 _ => bound.set(name, self.orthographic),
             };

@@ -9,7 +9,7 @@ use serde::Deserialize;
 
 use crate::assets::{AssetError, AssetFolders, AssetRequest};
 use crate::limits;
-use crate::problem::{Problem, Report, Severity, TextPosition};
+use crate::problem::{Problem, Report, Severity};
 
 /// The largest sidecar that is read, in bytes.
 const MAX_BYTES: u64 = 64 << 20;
@@ -86,22 +86,17 @@ pub(super) fn read(path: &Path, root: &Path, folders: &AssetFolders) -> Result<S
         Err(AssetError::Missing { .. }) => return Ok(Sidecar::default()),
         Err(error) => return Err(Report(vec![error.to_problem(Severity::Error, &beside, None)])),
     };
+    // Whoever names the file has its place: that in the sidecar stands in the words.
     let found = serde_json::from_slice::<Sidecar>(&asset.bytes).map_err(|error| {
-        let place = TextPosition { line: error.line(), column: error.column() };
-        // The place is told apart from the words.
         let words = error.to_string();
         let message = words.split(" at line ").next().unwrap_or(&words).to_owned();
-        (Some(place), message)
+        format!("line {}, column {}: {message}", error.line(), error.column())
     });
-    let checked = found.and_then(|sidecar| match sidecar.fault() {
-        Some(message) => Err((None, message)),
-        None => Ok(sidecar),
-    });
-    checked.map_err(|(place, message)| {
+    found.and_then(|sidecar| sidecar.fault().map_or(Ok(sidecar), Err)).map_err(|message| {
         Report(vec![Problem {
             severity: Severity::Error,
             path: beside,
-            place,
+            place: None,
             field_path: Box::default(),
             message,
             mend: "export the shot again".to_owned(),
