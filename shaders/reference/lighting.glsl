@@ -1,27 +1,33 @@
-// Lighting: suns (the first casts shadows), point lights, ambient light from above and below; then a soft shoulder.
+// Lighting: suns (the first casts shadows), point lights (where there is no sun, the brightest casts shadows), ambient light from above and below; then a soft shoulder.
 uniform sampler2D lights;        // row 0: direction to a sun (w 0) or a point light's place (w 1); row 1: radiance, slope of a cone's edge; row 2: its axis, height of its edge
 uniform int light_count;
 uniform int shadowed_light;      // index of the light that casts shadows, or -1
 uniform sampler2DShadow shadow_depth;
 uniform mat4 shadow_from_world;
-uniform float shadow_texel;      // world units
+uniform float shadow_texel;      // world units; of a lamp, at a distance of 1
+uniform vec2 shadow_bias;        // how far depths may differ: as they are, and over the square of a lamp's distance
 uniform vec3 ambient_above;
 uniform vec3 ambient_below;
 
 float sunlit(vec3 position, vec3 normal) {
+    // The distance from a lamp, along the axis of its map; 1 for a sun.
+    float away = (shadow_from_world * vec4(position, 1.0)).w;
+    if (away <= 0.0) return 1.0;
     // An offset from the surface keeps it from shadowing itself; larger where light falls at a slant.
-    vec3 from = position + normal * (2.5 * shadow_texel);
-    vec3 at = (shadow_from_world * vec4(from, 1.0)).xyz * 0.5 + 0.5;
+    vec3 from = position + normal * (2.5 * shadow_texel * away);
+    vec4 clip = shadow_from_world * vec4(from, 1.0);
+    vec3 at = clip.xyz / clip.w * 0.5 + 0.5;
+    float bias = shadow_bias.x + shadow_bias.y / (away * away);
     if (any(lessThan(at, vec3(0.0))) || any(greaterThan(at, vec3(1.0)))) return 1.0;
     vec2 texel = 1.9 / vec2(textureSize(shadow_depth, 0));
     float sum = 0.0;
 #ifdef DRAFT
     // Interpolates between four texels.
-    return texture(shadow_depth, vec3(at.xy, at.z - 0.0006));
+    return texture(shadow_depth, vec3(at.xy, at.z - bias));
 #else
     for (int y = -1; y <= 1; y++)
         for (int x = -1; x <= 1; x++)
-            sum += texture(shadow_depth, vec3(at.xy + vec2(x, y) * texel, at.z - 0.0006));
+            sum += texture(shadow_depth, vec3(at.xy + vec2(x, y) * texel, at.z - bias));
     return sum / 9.0;
 #endif
 }

@@ -97,7 +97,7 @@ fn planes(
     let frame = painting.seen_by(&camera, 12.0, &options);
     renderer.gather_paint(true);
     renderer.render(&frame).unwrap();
-    let wanted = AovSet::of_words(["depth", "light", "shadow"].into_iter()).unwrap();
+    let wanted = AovSet::of_words(["depth", "light", "shadow"]).unwrap();
     let drawn = Drawn { painting: &painting, frame: &frame, number: 12.0, options: &options, wanted };
     let found = read(renderer, &drawn).unwrap();
     let of_data =

@@ -16,6 +16,7 @@ mod new;
 mod picture_args;
 mod relight;
 mod render;
+mod scene_args;
 mod serve;
 mod session;
 mod set;

@@ -8,9 +8,10 @@ use impasto_frame_files::{not_an_input, ready_folder};
 use impasto_measure::{MeasureError, MeasureOptions, MeasureReport, Progress, measure, plot, turntable};
 use impasto_scene::whole_file;
 
-use crate::args::{MeasureArguments, PlacingArguments, SceneArguments};
+use crate::args::MeasureArguments;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
+use crate::scene_args::{PlacingArguments, SceneArguments};
 use crate::session;
 
 /// The exit code where a metric misses its target.

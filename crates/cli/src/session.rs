@@ -10,8 +10,9 @@ use impasto_scene::load::{LoadOptions, load};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::memory;
 
-use crate::args::{DriverChoice, SceneArguments};
+use crate::args::DriverChoice;
 use crate::failure::Failure;
+use crate::scene_args::SceneArguments;
 
 /// Reads a scene. Each warning goes to stderr once, unless `quiet`.
 pub(crate) fn read_scene(arguments: &SceneArguments, quiet: bool) -> Result<LoadedScene, Failure> {

@@ -83,7 +83,7 @@ fn ends_with_its_last_block(path: &Path) -> Option<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exr_file::{Channel, ExrPicture, Samples, encode};
+    use crate::exr_file::{Channel, ExrPicture, Packing, Samples, encode};
     use crate::picture_file::Provenance;
 
     #[test]
@@ -100,7 +100,7 @@ mod tests {
             notes: Vec::new(),
         };
         let provenance = Provenance { scene: String::new(), frame: String::new(), driver: String::new() };
-        let bytes = encode(picture, &provenance, false).unwrap();
+        let bytes = encode(picture, &provenance, Packing::Small).unwrap();
         std::fs::write(&path, &bytes).unwrap();
         assert!(is_whole(&path));
         for kept in [0, 3, 7, 8, 40, 300, bytes.len() / 2, bytes.len() - 1] {

@@ -2,20 +2,21 @@
 
 use std::rc::Rc;
 
-use glam::{Mat4, Vec3, Vec4};
+use glam::{Mat4, Vec2, Vec3, Vec4};
 use impasto_painting::frame::{Cone, FrameLights};
 
 use crate::gl::{Bound, Format, GlError, Gpu, Texture};
-use crate::shadow::{self, ShadowMap};
+use crate::shadow::{ShadowMap, Sight};
 
 /// The uniforms of `reference/lighting.glsl`.
-pub(crate) const LIGHT_UNIFORMS: [&str; 8] = [
+pub(crate) const LIGHT_UNIFORMS: [&str; 9] = [
     "lights",
     "light_count",
     "shadowed_light",
     "shadow_depth",
     "shadow_from_world",
     "shadow_texel",
+    "shadow_bias",
     "ambient_above",
     "ambient_below",
 ];
@@ -39,9 +40,7 @@ pub(crate) struct LightSetup {
     /// Index of the light that casts shadows; −1 without one.
     shadowed_light: i32,
     shadow_depth: Rc<Texture>,
-    shadow_from_world: Mat4,
-    /// Side of a texel of the shadow map, world units.
-    shadow_texel: f32,
+    sight: Sight,
     ambient_above: Vec3,
     ambient_below: Vec3,
 }
@@ -63,14 +62,21 @@ impl LightSetup {
         }
         let size_px = [columns as u32, ROWS as u32];
         let (center, radius) = lights.shadow_bounds;
-        let to_light = lights.suns.first().map_or(Vec3::Y, |sun| sun.to_light);
+        let lamp = lights.shadow_lamp.filter(|_| lights.suns.is_empty());
+        let sight = match lamp.and_then(|lamp| lights.points.get(lamp)) {
+            Some(lamp) => Sight::of_lamp(center, radius, lamp),
+            None => Sight::of_sun(center, radius, lights.suns.first().map_or(Vec3::Y, |sun| sun.to_light)),
+        };
         Ok(Self {
             lights: Texture::from_texels(gpu, Format::Rgba32F, size_px, bytemuck::cast_slice(&texels))?,
             light_count: count as i32,
-            shadowed_light: if lights.suns.is_empty() { -1 } else { 0 },
+            shadowed_light: match lamp {
+                // Lamps stand behind the suns, of which there are none.
+                Some(lamp) => lamp as i32,
+                None => lights.suns.first().map_or(-1, |_| 0),
+            },
             shadow_depth: Rc::clone(shadow.depth()),
-            shadow_from_world: shadow::shadow_from_world(center, radius, to_light),
-            shadow_texel: 2.0 * radius / shadow::SIDE as f32,
+            sight,
             ambient_above: lights.ambient_above,
             ambient_below: lights.ambient_below,
         })
@@ -78,7 +84,7 @@ impl LightSetup {
 
     /// From world space to the clip space of the shadow map; `None` where no light casts shadows.
     pub(crate) fn shadow_from_world(&self) -> Option<Mat4> {
-        (self.shadowed_light >= 0).then_some(self.shadow_from_world)
+        (self.shadowed_light >= 0).then_some(self.sight.shadow_from_world)
     }
 
     /// Sets the uniforms.
@@ -88,8 +94,9 @@ impl LightSetup {
             .set("light_count", self.light_count)
             .set("shadowed_light", self.shadowed_light)
             .texture("shadow_depth", &self.shadow_depth)
-            .set("shadow_from_world", self.shadow_from_world)
-            .set("shadow_texel", self.shadow_texel)
+            .set("shadow_from_world", self.sight.shadow_from_world)
+            .set("shadow_texel", self.sight.texel)
+            .set("shadow_bias", Vec2::from(self.sight.bias))
             .set("ambient_above", self.ambient_above)
             .set("ambient_below", self.ambient_below)
     }

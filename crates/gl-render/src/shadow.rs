@@ -1,10 +1,10 @@
-//! Draws the shadow map: the depth of the scene as the first sun sees it.
+//! Draws the shadow map: the depth of the scene as the first sun sees it, or the brightest lamp.
 
 use std::rc::Rc;
 use std::sync::{Arc, Weak};
 
 use glam::{Mat4, Vec3, Vec4};
-use impasto_painting::frame::{Bent, BodySurface, FrameBody};
+use impasto_painting::frame::{Bent, BodySurface, FrameBody, PointLight};
 
 use crate::body_program::BodyProgram;
 use crate::gl::{DrawState, Filter, Format, Framebuffer, GlError, Gpu, ProgramSource, Texture};
@@ -110,7 +110,7 @@ impl ShadowMap {
 }
 
 /// The parallel projection in which a sun sees a sphere. The whole sphere lies in clip space.
-pub(crate) fn shadow_from_world(center: Vec3, radius: f32, to_light: Vec3) -> Mat4 {
+fn shadow_from_world(center: Vec3, radius: f32, to_light: Vec3) -> Mat4 {
     let up = if to_light.y.abs() < 0.9 { Vec3::Y } else { Vec3::Z };
     let right = up.cross(to_light).normalize_or(Vec3::X);
     let above = to_light.cross(right);
@@ -118,6 +118,58 @@ pub(crate) fn shadow_from_world(center: Vec3, radius: f32, to_light: Vec3) -> Ma
     let row = |axis: Vec3| (axis * scale).extend(-axis.dot(center) * scale);
     // Depth grows away from the light.
     Mat4::from_cols(row(right), row(above), row(-to_light), Vec4::W).transpose()
+}
+
+/// How a light sees what it lights.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sight {
+    /// From world space to the clip space of the map.
+    pub shadow_from_world: Mat4,
+    /// Side of a texel, world units; of a lamp, at a distance of 1.
+    pub texel: f32,
+    /// How far depths in the map may differ: as they are, and over the square of the distance.
+    pub bias: [f32; 2],
+}
+
+impl Sight {
+    /// What a sun sees of a sphere.
+    pub(crate) fn of_sun(center: Vec3, radius: f32, to_light: Vec3) -> Self {
+        Self {
+            shadow_from_world: shadow_from_world(center, radius, to_light),
+            texel: 2.0 * radius / SIDE as f32,
+            bias: [0.0006, 0.0],
+        }
+    }
+
+    /// What a lamp sees of a sphere: all of it from far away, else what lies in its cone, up to 70 degrees off its axis. What it does
+    /// not see is lit.
+    pub(crate) fn of_lamp(center: Vec3, radius: f32, lamp: &PointLight) -> Self {
+        /// Half the widest angle of a map.
+        const WIDEST_RAD: f32 = 70.0 * std::f32::consts::PI / 180.0;
+        let to_center = center - lamp.position;
+        let away = to_center.length();
+        let is_outside = away > 1.02 * radius;
+        let half_rad = if is_outside {
+            (radius / away).asin()
+        } else {
+            lamp.cone.map_or(WIDEST_RAD, |cone| cone.outer_cosine.clamp(-1.0, 1.0).acos())
+        };
+        let half_rad = half_rad.clamp(0.02, WIDEST_RAD);
+        let axis = lamp.cone.filter(|_| !is_outside).map_or(to_center, |cone| cone.axis);
+        let axis = axis.normalize_or(Vec3::NEG_Y);
+        let up = if axis.y.abs() < 0.9 { Vec3::Y } else { Vec3::Z };
+        let near = if is_outside { (away - radius).max(0.01 * radius) } else { 0.01 * radius };
+        let far = away + radius;
+        let lamp_from_world = glam::camera::rh::view::look_to_mat4(lamp.position, axis, up);
+        let clip_from_lamp = glam::camera::rh::proj::opengl::perspective(2.0 * half_rad, 1.0, near, far);
+        // As far as a sun's map allows, in world units; half the range of depths lies between -1 and 1.
+        let bias = 0.0012 * radius * far * near / (far - near);
+        Self {
+            shadow_from_world: clip_from_lamp * lamp_from_world,
+            texel: 2.0 * half_rad.tan() / SIDE as f32,
+            bias: [0.0, bias],
+        }
+    }
 }
 
 const SHADOW: ProgramSource<'static> =

@@ -98,7 +98,7 @@ mod tests {
             eye,
             target: DVec3::new(0.2, -0.1, 0.0),
             roll_rad,
-            shift: glam::DVec2::ZERO,
+            shift: DVec2::ZERO,
             lens: Lens::Perspective { fov_y_deg: 35.0, near: 0.1, far: 50.0 },
         };
         PictureView { pose, size_px: [640, 360] }

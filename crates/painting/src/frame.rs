@@ -115,8 +115,10 @@ pub struct FrameView {
 pub struct FrameLights {
     /// Parallel lights; the first one casts shadows.
     pub suns: Vec<SunLight>,
-    /// Point lights, inverse square, no shadows.
+    /// Point lights, inverse square.
     pub points: Vec<PointLight>,
+    /// Without suns, the point light that casts shadows.
+    pub shadow_lamp: Option<usize>,
     /// Ambient light on a surface that faces up.
     pub ambient_above: Vec3,
     /// Ambient light on a surface that faces down.

@@ -19,6 +19,7 @@ fn radiance(color: Color, intensity: f64) -> Vec3 {
 /// The lights of a scene at a frame, as bright as its exposure makes them.
 pub(crate) fn resolve(scene: &Scene, frame: f64, shadow_bounds: (Vec3, f32)) -> FrameLights {
     let mut lights = unexposed(scene, frame, shadow_bounds);
+    lights.shadow_lamp = brightest_lamp(scene).filter(|_| lights.suns.is_empty());
     let exposure = scene.exposure.exp2() as f32;
     lights.suns.iter_mut().for_each(|sun| sun.radiance *= exposure);
     lights.points.iter_mut().for_each(|point| point.radiance *= exposure);
@@ -65,6 +66,16 @@ fn unexposed(scene: &Scene, frame: f64, shadow_bounds: (Vec3, f32)) -> FrameLigh
         }
     }
     lights
+}
+
+/// The number of the brightest lamp, of all points and spots, as the document states them: so it is the same one in every frame.
+fn brightest_lamp(scene: &Scene) -> Option<usize> {
+    let is_lamp = |light: &&Light| matches!(light.kind, LightKind::Point | LightKind::Spot);
+    let luma = |light: &Light| radiance(light.color, light.intensity).dot(Vec3::new(0.2126, 0.7152, 0.0722));
+    let lamps = scene.lights.iter().filter(is_lamp).map(luma).enumerate();
+    // Of equals the first.
+    let brightest = lamps.reduce(|best, other| if other.1 > best.1 { other } else { best });
+    brightest.map(|(index, _)| index)
 }
 
 fn cone(light: &Light) -> Cone {

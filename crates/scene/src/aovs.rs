@@ -124,7 +124,7 @@ pub const AOVS: [AovRow; 26] = [
         "shadow",
         "shadow.X",
         "half",
-        "how much of the sun arrives: 1 in the light, 0 in shadow",
+        "how much arrives of the light that casts shadows: 1 in the light, 0 in shadow",
     ),
     row(
         Aov::Occlusion,

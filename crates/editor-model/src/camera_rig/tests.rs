@@ -9,7 +9,7 @@ fn pose(eye: [f64; 3], target: [f64; 3], roll_deg: f64) -> CameraPose {
         eye: DVec3::from(eye),
         target: DVec3::from(target),
         roll_rad: roll_deg.to_radians(),
-        shift: glam::DVec2::ZERO,
+        shift: DVec2::ZERO,
         lens: Lens::Perspective { fov_y_deg: 32.0, near: 0.05, far: 100.0 },
     }
 }

@@ -11,7 +11,7 @@ fn view(eye: [f64; 3]) -> View {
         eye: DVec3::from(eye),
         target: DVec3::new(0.4, 0.3, 0.2),
         roll_rad: 0.0,
-        shift: glam::DVec2::ZERO,
+        shift: DVec2::ZERO,
         lens: Lens::Perspective { fov_y_deg: 40.0, near: 0.05, far: 100.0 },
     };
     View { camera, size_px: DVec2::new(900.0, 600.0) }

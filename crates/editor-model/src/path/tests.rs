@@ -14,7 +14,7 @@ fn camera(eye: [f64; 3], target: [f64; 3]) -> CameraPose {
         eye: DVec3::from(eye),
         target: DVec3::from(target),
         roll_rad: 0.0,
-        shift: glam::DVec2::ZERO,
+        shift: DVec2::ZERO,
         lens: Lens::Perspective { fov_y_deg: 35.0, near: 0.05, far: 100.0 },
     }
 }

@@ -228,7 +228,7 @@ fn the_ray_of_a_pixel_projects_back_to_it() {
                 eye: DVec3::new(1.0, 2.0, 4.0),
                 target: DVec3::ZERO,
                 roll_rad,
-                shift: glam::DVec2::new(-0.4, 0.2),
+                shift: DVec2::new(-0.4, 0.2),
                 lens: lens.clone(),
             };
             let view = View { camera, size_px: DVec2::new(640.0, 360.0) };

@@ -56,7 +56,7 @@ impl Light {
 /// What kind of light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 pub enum LightKind {
-    /// Parallel light that casts shadows.
+    /// Parallel light; the first one casts shadows.
     Sun,
     /// Light from a point, falling off with the square of the distance; casts no shadow.
     Point,

@@ -143,7 +143,7 @@ impl Sidecar {
         if self.cuts.windows(2).any(|pair| pair[0].frame >= pair[1].frame) {
             return Some("the frames of `cuts` must increase".to_owned());
         }
-        let is_odd = |value: f64| !(value.abs() <= MOST_SHIFT);
+        let is_odd = |value: f64| !value.is_finite() || value.abs() > MOST_SHIFT;
         let odd = self.shifts.iter().find(|(_, shift)| {
             is_far(shift.first)
                 || shift.ndc.is_empty()

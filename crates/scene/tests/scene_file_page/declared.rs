@@ -34,9 +34,10 @@ pub struct Field {
 const VALUES: [&str; 3] = ["Color", "Scale", "BrushMix"];
 
 /// Types that no scene file holds.
-const NOT_IN_FILES: [&str; 13] = [
+const NOT_IN_FILES: [&str; 14] = [
     "Stage",
     "Lost",
+    "Seen",
     "Number",
     "LayerNumber",
     "ResolvedLayer",
