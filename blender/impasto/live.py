@@ -1,23 +1,63 @@
-"""Comb in Impasto: our window stands beside Blender, and reads the shot again with each export."""
+"""Comb in Impasto: our window stands beside Blender, reads the shot again with each export, and follows frame and view where asked."""
 
 from __future__ import annotations
 
+import json
 import subprocess
+import tempfile
+from pathlib import Path
+from typing import IO
 
 import bpy
 from bpy.app.handlers import persistent
+from mathutils import Vector
 
 from . import binary, export_request, painting
 from .failure import Failure
 
-# The window that is open, with the scene file that it shows.
-_window: subprocess.Popen | None = None
-_shows = ""
+# How often frame and view are looked at, seconds.
+_EVERY_S = 0.1
+
+
+class _Window:
+    """Our window on a scene file."""
+
+    def __init__(self, scene_file: Path) -> None:
+        self.scene_file = scene_file
+        self._said: IO[bytes] = tempfile.TemporaryFile()
+        # A window that no longer reads gets no more lines: what was told last is told once.
+        self._told: dict = {}
+        self._process = subprocess.Popen(
+            [str(binary.find()), "edit", str(scene_file), "--follow"], stdin=subprocess.PIPE, stderr=self._said
+        )
+
+    def is_open(self) -> bool:
+        return self._process.poll() is None
+
+    def tell(self, where: dict) -> None:
+        """Tells what has changed since the last time."""
+        news = {key: value for key, value in where.items() if key not in self._told or self._told[key] != value}
+        if not news or self._process.stdin is None:
+            return
+        try:
+            self._process.stdin.write(json.dumps(news).encode() + b"\n")
+            self._process.stdin.flush()
+        except OSError:
+            return
+        self._told.update(news)
+
+    def why_it_ended(self) -> str:
+        """What it said, where it failed."""
+        self._said.seek(0)
+        return self._said.read().decode(errors="replace").strip() if self._process.returncode else ""
+
+
+_window: _Window | None = None
 
 
 def is_open() -> bool:
     """Whether our window is open."""
-    return _window is not None and _window.poll() is None
+    return _window is not None and _window.is_open()
 
 
 class IMPASTO_OT_comb(bpy.types.Operator):
@@ -27,32 +67,70 @@ class IMPASTO_OT_comb(bpy.types.Operator):
     bl_label = "Comb in Impasto"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        global _window, _shows
+        global _window
         try:
-            export_request.export(context.scene)
-            scene_file = str(painting.of_scene(context.scene).scene_file)
-            if is_open() and _shows == scene_file:
+            for words in export_request.export(context.scene):
+                self.report({"WARNING"}, words)
+            scene_file = painting.of_scene(context.scene).scene_file
+            if _window is not None and _window.is_open() and _window.scene_file == scene_file:
                 self.report({"INFO"}, "The window of Impasto is open and reads the shot again")
                 return {"FINISHED"}
-            _window = subprocess.Popen([str(binary.find()), "edit", scene_file], stderr=subprocess.PIPE, text=True)
-            _shows = scene_file
+            _window = _Window(scene_file)
         except Failure as failure:
             self.report({"ERROR"}, str(failure))
             return {"CANCELLED"}
         except OSError as error:
             self.report({"ERROR"}, f"The window of Impasto does not open: {error}")
             return {"CANCELLED"}
-        bpy.app.timers.register(_look_for_its_end, first_interval=1.0)
+        if not bpy.app.timers.is_registered(_beside):
+            bpy.app.timers.register(_beside, first_interval=_EVERY_S)
         return {"FINISHED"}
 
 
-def _look_for_its_end() -> float | None:
-    """Says why the window has ended, where it failed."""
-    if _window is None or _window.poll() is None:
-        return 1.0
-    if _window.returncode != 0 and _window.stderr is not None:
-        print(f"Impasto: {_window.stderr.read().strip()}")
-    return None
+def _beside() -> float | None:
+    """What goes on while the window is open; at its end, why it failed."""
+    if _window is None:
+        return None
+    if not _window.is_open():
+        if words := _window.why_it_ended():
+            print(f"Impasto: {words}")
+        return None
+    tell()
+    return _EVERY_S
+
+
+def tell() -> None:
+    """Tells the window where Blender is, where the scene asks for it."""
+    scene = bpy.context.scene
+    if _window is None or scene is None or not scene.impasto.follow:
+        return
+    where: dict = {"frame": scene.frame_current + scene.frame_subframe}
+    region = _viewport()
+    if region is not None:
+        where["view"] = _view(region)
+    _window.tell(where)
+
+
+def _viewport() -> bpy.types.RegionView3D | None:
+    """The largest viewport that is on the screen."""
+    manager = bpy.context.window_manager
+    areas = [area for window in manager.windows for area in window.screen.areas if area.type == "VIEW_3D"]
+    if not areas:
+        return None
+    return max(areas, key=lambda area: area.width * area.height).spaces.active.region_3d
+
+
+def _view(region: bpy.types.RegionView3D) -> dict | None:
+    """What a viewport looks at, Y up; None where it looks through the camera."""
+    if region.view_perspective == "CAMERA":
+        return None
+    away = region.view_rotation @ Vector((0.0, 0.0, region.view_distance))
+    eye, target = region.view_location + away, region.view_location
+    return {
+        "eye": [eye.x, eye.z, -eye.y],
+        "target": [target.x, target.z, -target.y],
+        "orthographic": region.view_perspective == "ORTHO",
+    }
 
 
 @persistent
@@ -79,5 +157,7 @@ def register() -> None:
 
 
 def unregister() -> None:
+    if bpy.app.timers.is_registered(_beside):
+        bpy.app.timers.unregister(_beside)
     bpy.app.handlers.save_post.remove(_after_save)
     bpy.utils.unregister_class(IMPASTO_OT_comb)

@@ -51,6 +51,7 @@ class IMPASTO_PT_painting(_Panel, bpy.types.Panel):
         column = layout.column()
         column.prop(scene.impasto, "folder")
         column.prop(scene.impasto, "export_on_save")
+        column.prop(scene.impasto, "follow")
         row = layout.row(align=True)
         row.operator("impasto.export", icon="EXPORT")
         row.operator("impasto.comb", icon="BRUSH_DATA")

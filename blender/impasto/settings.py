@@ -161,6 +161,10 @@ class SceneSettings(bpy.types.PropertyGroup):
         name="Export on Save",
         description="Export the shot whenever the .blend is saved: the window of Impasto reads it and goes on",
     )
+    follow: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Window Follows",
+        description="The window of Impasto goes to the frame and the view that are shown here",
+    )
     style: bpy.props.EnumProperty(  # type: ignore[valid-type]
         name="Style",
         description="How the scene is drawn",

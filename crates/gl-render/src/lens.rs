@@ -9,6 +9,9 @@ use crate::gl::Bound;
 pub(crate) const LENS_UNIFORMS: [&str; 5] =
     ["world_from_view", "size_px", "gaze_px", "px_per_unit_at_1", "orthographic"];
 
+/// Those that a shader uses which asks only where a pixel's ray goes.
+pub(crate) const RAY_UNIFORMS: [&str; 4] = ["world_from_view", "gaze_px", "px_per_unit_at_1", "orthographic"];
+
 /// Those that a shader in view space uses.
 pub(crate) const VIEW_LENS_UNIFORMS: [&str; 4] = ["size_px", "gaze_px", "px_per_unit_at_1", "orthographic"];
 

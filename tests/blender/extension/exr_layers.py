@@ -27,6 +27,12 @@ def _channels(data: bytes) -> list[tuple[str, np.dtype]]:
     return found
 
 
+def attributes(path: str) -> dict[str, bytes]:
+    """The attributes of the first part."""
+    with open(path, "rb") as file:
+        return _header(file.read(), 8)[0]
+
+
 def read(path: str) -> dict[str, np.ndarray]:
     """Every channel by its whole name, rows from the bottom up."""
     with open(path, "rb") as file:

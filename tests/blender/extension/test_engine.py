@@ -1,5 +1,5 @@
 # F12 and animations give the pictures of `impasto render` on the same folder, with passes.
-import time
+import json
 
 import bpy
 import exr_layers
@@ -87,21 +87,9 @@ compare(passes_of_file(str(folder / "step_0005.exr")), channels(plain.frame(5, [
 scene.frame_step = 1
 session.report("percentage, border, transparent film and frame step are heeded")
 
-# The same speed as the program by itself.
-scene.frame_end, scene.render.resolution_x, scene.render.resolution_y = 24, 640, 360
-layer.impasto.strokes = layer.impasto.paint = layer.impasto.crypto_strokes = False
-layer.use_pass_z = layer.use_pass_normal = layer.use_pass_vector = layer.use_pass_cryptomatte_object = False
-settings = scene.render.image_settings
-if hasattr(settings, "media_type"):
-    settings.media_type = "IMAGE"
-settings.file_format = "PNG"
-scene.render.filepath = str(folder / "speed_")
-bpy.ops.impasto.export()
-session.module("painter").stop_all_painters()
-begun_s = time.monotonic()
-assert not session.render(animation=True)
-by_engine_s = time.monotonic() - begun_s
-begun_s = time.monotonic()
-session.impasto("render", str(painting / "film.ron"), "--size", "640x360", "-f", "1-24", "-o", str(folder / "cli_####.png"))
-by_program_s = time.monotonic() - begun_s
-session.report(f"24 frames of 640x360: {by_engine_s:.1f} s by the engine, {by_program_s:.1f} s by the program: {by_engine_s / by_program_s:.2f} times")
+# A compositor finds mattes by the names that the file states.
+stated = exr_layers.attributes(str(folder / "still.exr"))
+manifests = {stated[key[: -len("manifest")] + "name"]: value for key, value in stated.items() if key.endswith("/manifest")}
+of_objects = next(value for name, value in manifests.items() if name.endswith(b"CryptoObject"))
+assert "Suzanne" in json.loads(of_objects), manifests
+session.report("the file that Blender writes names its mattes")

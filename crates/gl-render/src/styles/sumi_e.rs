@@ -18,7 +18,7 @@ use impasto_painting::frame::{InkDrawing, InkLight, InkRule, Style, SumiE as Set
 
 use crate::body_program::BodyProgram;
 use crate::gl::{Bound, DrawState, Format, Framebuffer, GlError, Gpu, Halt, Texture, VertexArray, Vertices};
-use crate::lens::{LENS_UNIFORMS, LensSetup};
+use crate::lens::{LensSetup, RAY_UNIFORMS};
 use crate::meshes::DrawnBody;
 use crate::style_renderer::{StyleInput, StyleRenderer};
 use crate::watch::Watch;
@@ -142,7 +142,7 @@ impl SumiE {
         );
         gpu.begin_pass(&targets.wash_pass, DrawState::default());
         let bound = lens
-            .set(programs.wash.bind(), &LENS_UNIFORMS)
+            .set(programs.wash.bind(), &RAY_UNIFORMS)
             .texture("tones", &tones)
             .texture("shares", &shares)
             .texture("normal", &input.reference.normal)

@@ -2,7 +2,7 @@
 
 use crate::body_program::BodyProgram;
 use crate::gl::{GlError, Gpu, Program, ProgramSource, ShaderFile};
-use crate::lens::{LENS_UNIFORMS, VIEW_LENS_UNIFORMS};
+use crate::lens::{RAY_UNIFORMS, VIEW_LENS_UNIFORMS};
 use crate::shader_files::{SHARED, SUMI_E};
 
 /// The files that the style's shaders may include.
@@ -71,7 +71,7 @@ const MIX: ProgramSource<'static> =
 const WASH: ProgramSource<'static> = ProgramSource::screen(
     "sumi_e/wash.frag",
     &[
-        &LENS_UNIFORMS,
+        &RAY_UNIFORMS,
         &[
             "tones",
             "shares",
