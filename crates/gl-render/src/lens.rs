@@ -12,6 +12,9 @@ pub(crate) const LENS_UNIFORMS: [&str; 5] =
 /// Those that a shader uses which asks only where a pixel's ray goes.
 pub(crate) const RAY_UNIFORMS: [&str; 4] = ["world_from_view", "gaze_px", "px_per_unit_at_1", "orthographic"];
 
+/// Those that a shader uses which asks only how large things show.
+pub(crate) const SCALE_UNIFORMS: [&str; 3] = ["size_px", "px_per_unit_at_1", "orthographic"];
+
 /// Those that a shader in view space uses.
 pub(crate) const VIEW_LENS_UNIFORMS: [&str; 4] = ["size_px", "gaze_px", "px_per_unit_at_1", "orthographic"];
 
