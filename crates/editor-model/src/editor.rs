@@ -166,9 +166,11 @@ pub struct Editor {
 impl Editor {
     /// An editor with a document.
     pub fn new(document: Document) -> Self {
-        let reference_frame = reference_frame(document.scene());
+        // A shot of another program may begin long after frame 0.
+        let timeline = &document.scene().timeline;
+        let frame = reference_frame(document.scene()).max(timeline.first as f64).min(timeline.last as f64);
         let losses = document.loss_count();
-        let session = Session { frame: reference_frame, ..Session::default() };
+        let session = Session { frame, ..Session::default() };
         Self {
             document,
             session,

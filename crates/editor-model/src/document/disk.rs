@@ -227,7 +227,12 @@ impl Document {
         self.select(before.clone());
         self.revision += 1;
         let text = "Read the shot again".to_owned();
+        let was_edited = self.is_edited();
         self.history.push(text.clone(), change, [before, self.selection.clone()]);
+        // What a shot brings is not saved.
+        if !was_edited {
+            self.history.mark_saved();
+        }
         Ok(Step { text, note })
     }
 

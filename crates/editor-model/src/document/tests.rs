@@ -217,3 +217,32 @@ fn a_copy_of_a_scene_with_losses_never_takes_the_place_of_its_file() {
     assert!(matches!(back.save(), Err(SaveError::Unnamed)));
     assert_eq!(folder.text(), broken());
 }
+
+#[test]
+fn a_shot_that_was_exported_again_is_no_edit_and_what_was_edited_stays_one() {
+    const GLTF: &str = r#"{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+        "nodes": [{"name": "leaf", "mesh": 0, "translation": [AT, 0, 0]}], "buffers": [{"byteLength": 36, "uri":
+        "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}]}"#;
+    let folder = Folder::with(
+        "(version: 1, shot: \"shot.gltf\", camera: (keys: [(frame: 0, eye: (0, 0, 4), target: (0, 0, 0))]), timeline: (fps: 24, first: 10, last: 20))",
+    );
+    let export =
+        |at: &str| fs::write(folder.0.path().join("shot.gltf"), GLTF.replace("AT", at)).expect("written");
+    export("0");
+    let mut document = folder.open();
+    assert_eq!(
+        crate::editor::Editor::new(document.clone()).session.frame,
+        10.0,
+        "the reference is at frame 0"
+    );
+    export("0.5");
+    document.read_files_again().expect("read");
+    assert!(!document.is_edited() && document.undo_count() == 1);
+    assert!(document.apply(&seed(9)).is_ok());
+    export("1");
+    document.read_files_again().expect("read");
+    assert!(document.is_edited() && document.scene().seed == 9);
+}
