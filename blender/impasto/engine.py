@@ -124,9 +124,10 @@ class ImpastoEngine(bpy.types.RenderEngine):
                 if target is not None and pixels is not None:
                     part = pixels[bottom : bottom + height, left : left + width]
                     target.rect.foreach_set(part.ravel())
-            cryptomatte.stamp(result, depsgraph.view_layer.name, planes.notes)
         finally:
             self.end_result(result)
+        # The result above is a part that is merged into this one, pixels only.
+        cryptomatte.stamp(self.get_result(), depsgraph.view_layer.name, planes.notes)
 
 
 def register() -> None:
