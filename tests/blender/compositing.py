@@ -15,15 +15,21 @@ bpy.ops.wm.read_factory_settings(use_empty=True)
 scene = bpy.context.scene
 image = bpy.data.images.load(frame)
 
-tree = bpy.data.node_groups.new("compositing", "CompositorNodeTree")
-scene.compositing_node_group = tree
-tree.interface.new_socket(name="Image", in_out="OUTPUT", socket_type="NodeSocketColor")
+if hasattr(scene, "compositing_node_group"):
+    tree = bpy.data.node_groups.new("compositing", "CompositorNodeTree")
+    scene.compositing_node_group = tree
+    tree.interface.new_socket(name="Image", in_out="OUTPUT", socket_type="NodeSocketColor")
+else:
+    # Before Blender 5.0.
+    scene.use_nodes = True
+    tree = scene.node_tree
+    tree.nodes.clear()
 picture = tree.nodes.new("CompositorNodeImage")
 picture.image = image
 matte = tree.nodes.new("CompositorNodeCryptomatteV2")
 matte.source = "IMAGE"
 matte.image = image
-result = tree.nodes.new("NodeGroupOutput")
+result = tree.nodes.new("NodeGroupOutput" if hasattr(scene, "compositing_node_group") else "CompositorNodeComposite")
 
 scene.render.resolution_x, scene.render.resolution_y = int(width), int(height)
 scene.render.resolution_percentage = 100
