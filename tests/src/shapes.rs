@@ -201,6 +201,7 @@ pub fn loaded(scene: Scene, meshes: impl IntoIterator<Item = TriangleMesh>) -> A
         caches: BTreeMap::new(),
         textures: BTreeMap::new(),
         brushes: BTreeMap::new(),
+        files: Default::default(),
         warnings: Vec::new(),
     })
 }

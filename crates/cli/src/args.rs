@@ -7,7 +7,9 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use impasto_measure::Metric;
 use impasto_scene::document::Style;
 
+use crate::farm_args::{FarmCommand, PackArguments};
 use crate::picture_args::PictureArguments;
+use crate::progress::Progress;
 use crate::scene_args::{PlacingArguments, SceneArguments};
 
 /// Paints 3D scenes with brush strokes that turn with what they lie on.
@@ -29,6 +31,11 @@ pub(crate) enum Command {
     Movie(MovieArguments),
     /// Write the scene that `render MODEL` would use to a file.
     New(NewArguments),
+    /// Put everything that a shot needs into one file or folder.
+    Pack(PackArguments),
+    /// Write the job of a shot for a farm of many machines.
+    #[command(subcommand)]
+    Farm(FarmCommand),
     /// Write values into a scene file; the rest of its text stays as it is.
     Set(SetArguments),
     /// Render what another program asks for, by lines of JSON on standard input.
@@ -199,6 +206,9 @@ pub(crate) struct RenderArguments {
     /// Print a line of JSON per frame.
     #[arg(long)]
     pub(crate) json: bool,
+    /// How to say how far it is: a bar in a terminal, or the lines that runners of Open Job Descriptions read.
+    #[arg(long, value_enum, default_value_t, value_name = "KIND")]
+    pub(crate) progress: Progress,
     #[command(flatten)]
     pub(crate) talk: Talk,
 }

@@ -10,10 +10,8 @@ use crate::args::CheckArguments;
 use crate::failure::Failure;
 
 pub(crate) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
-    let options = LoadOptions {
-        folders: AssetFolders { extra: arguments.asset_dirs.clone() },
-        ..LoadOptions::default()
-    };
+    let options =
+        LoadOptions { folders: AssetFolders::with(arguments.asset_dirs.clone()), ..LoadOptions::default() };
     let mut wrong = 0;
     for path in &arguments.scenes {
         let problems = match load(path, &options) {

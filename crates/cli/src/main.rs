@@ -7,6 +7,8 @@ mod doctor;
 #[cfg(feature = "editor")]
 mod edit;
 mod failure;
+mod farm;
+mod farm_args;
 mod ffmpeg;
 mod info;
 mod interrupt;
@@ -14,6 +16,7 @@ mod measure;
 mod movie;
 mod new;
 mod picture_args;
+mod progress;
 mod relight;
 mod render;
 mod scene_args;
@@ -64,6 +67,8 @@ fn main() -> ExitCode {
         Command::Render(arguments) => render::run(&arguments),
         Command::Movie(arguments) => movie::run(&arguments),
         Command::New(arguments) => new::run(&arguments),
+        Command::Farm(command) => farm::farm(&command),
+        Command::Pack(arguments) => farm::pack(&arguments),
         Command::Set(arguments) => set::run(&arguments),
         Command::Serve(arguments) => serve::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),

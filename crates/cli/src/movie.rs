@@ -10,7 +10,7 @@ use crate::args::MovieArguments;
 use crate::failure::Failure;
 use crate::ffmpeg::{FrameFormat, Kind, Movie};
 use crate::interrupt::Interrupt;
-use crate::render::progress_bar;
+use crate::progress::progress_bar;
 
 /// The frames of a movie, in order, all of one size.
 struct Frames {

@@ -1,26 +1,27 @@
 //! `impasto render`: frames of a scene as pictures.
 
 use std::fmt::Write as _;
-use std::io::{IsTerminal as _, Write as _};
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use impasto_frame_files::frame_reader::Depth;
 use impasto_frame_files::picture_file::{self, Pixels};
-use impasto_frame_files::{FrameList, Pattern, not_an_input, ready_folder};
+use impasto_frame_files::{FrameList, Pattern, not_an_input, ready_folder, scene_of};
 use impasto_gl_render::shader_folder::ShaderFolder;
 use impasto_gl_render::{Cost, PassTime, Renderer, ShaderTexts};
 use impasto_painting::{FrameOptions, Rotation, StrokeColors};
 use impasto_scene::document::{Scene, Style};
+use impasto_scene::loaded::LoadedScene;
 use impasto_scene::memory;
 use impasto_scene::whole_file::WholeFile;
 use impasto_sequence::{Drawn, Ending, FileOutcome, FrameFiles, Sequence, Wanted};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::args::{ColorsChoice, RenderArguments, RotationChoice};
 use crate::failure::Failure;
 use crate::ffmpeg::{Encoding, FrameFormat, Kind, Movie};
 use crate::interrupt::Interrupt;
+use crate::progress::{Progress, progress_bar};
 use crate::session;
 use crate::sheet::Sheet;
 
@@ -88,6 +89,9 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
                 }
             }
             ready_folder(&pattern.path(frames.iter().next().unwrap_or(0)))?;
+            if arguments.skip_existing {
+                frames.iter().try_for_each(|frame| of_this_scene(&pattern.path(frame), &loaded))?;
+            }
         }
         Destination::Animation(path) | Destination::Movie(path, _) => {
             not_an_input(path, &inputs)?;
@@ -96,8 +100,7 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
         Destination::Stream => {}
     }
     let size_px = arguments.size.unwrap_or([loaded.scene.size.0, loaded.scene.size.1]);
-    let scene_name =
-        loaded.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let scene_name = name_of(&loaded);
     let mut renderer = session::open_renderer(arguments.driver, verbose)?;
     let mut shaders = ShaderTexts::default();
     if let Some(folder) = &arguments.shaders {
@@ -131,6 +134,22 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
         counted: verbose || arguments.json,
     };
     Ok(Plan { sequence, renderer, frames, destination })
+}
+
+/// Refuses to take a frame of another scene for one that is done.
+fn of_this_scene(path: &Path, loaded: &LoadedScene) -> Result<(), Failure> {
+    let own = name_of(loaded);
+    match scene_of(path) {
+        Some(other) if other != own => Err(Failure::Refused(format!(
+            "{} was painted from {other}, and this is {own}: name another -o, or leave out --skip-existing to write over it",
+            path.display()
+        ))),
+        _ => Ok(()),
+    }
+}
+
+fn name_of(loaded: &LoadedScene) -> String {
+    loaded.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
 /// What is made of each frame.
@@ -207,7 +226,7 @@ impl Plan {
         let Self { sequence, renderer, frames, .. } = self;
         let bar = progress_bar(frames.count(), arguments.talk.quiet);
         let mut sheet = arguments.contact_sheet.then(|| Sheet::new(frames.count(), sequence.options.size_px));
-        let (mut done, mut failed, start) = (0, 0, Instant::now());
+        let (mut done, mut failed, mut passed, start) = (0, 0, 0, Instant::now());
         let sheet_provenance = sequence.provenance("sheet", renderer);
         if arguments.json {
             let driver = renderer.report().to_string();
@@ -257,6 +276,10 @@ impl Plan {
                     }
                 }
                 bar.inc(1);
+                if arguments.progress == Progress::Openjd {
+                    passed += 1;
+                    Progress::tell_openjd(passed, frames.count(), frame_number)?;
+                }
                 Ok::<(), Failure>(())
             })?;
         let Ending::Done(fault) = ending else { return Err(Failure::Interrupted { done }) };
@@ -387,15 +410,4 @@ fn cost_words(drawn: &Drawn, cost: &Cost) -> String {
         let _ = write!(text, "\n  {:<14}{:>8.1} ms", pass.name, pass.seconds * 1e3);
     }
     text
-}
-
-/// A bar that is shown in a terminal.
-pub(crate) fn progress_bar(count: u64, quiet: bool) -> ProgressBar {
-    let shown = std::io::stderr().is_terminal() && !quiet;
-    let target = if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
-    let bar = ProgressBar::with_draw_target(Some(count), target);
-    if let Ok(style) = ProgressStyle::with_template("{prefix}{wide_bar} {pos}/{len} frames, {eta} left") {
-        bar.set_style(style);
-    }
-    bar
 }

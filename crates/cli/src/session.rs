@@ -31,7 +31,7 @@ pub(crate) fn read_scene(arguments: &SceneArguments, quiet: bool) -> Result<Load
         })
         .collect();
     let options = LoadOptions {
-        folders: AssetFolders { extra: arguments.asset_dirs.clone() },
+        folders: AssetFolders::with(arguments.asset_dirs.clone()),
         overrides: overrides?,
         placing: arguments.placing.of(&arguments.scene)?,
     };

@@ -68,6 +68,7 @@ impl Document {
             textures: Default::default(),
             caches: Default::default(),
             brushes: Default::default(),
+            files: Default::default(),
             warnings: Vec::new(),
         };
         Self::of(loaded, None, LoadOptions::default())

@@ -46,23 +46,38 @@ pub(crate) fn is_whole(path: &Path) -> bool {
     ends_with_its_last_block(path).unwrap_or(false)
 }
 
-fn ends_with_its_last_block(path: &Path) -> Option<bool> {
-    let mut file = File::open(path).ok()?;
+/// The attribute of this name, if it is a text.
+pub(crate) fn text(path: &Path, name: &str) -> Option<String> {
+    let (head, ranges, _) = head(&mut File::open(path).ok()?)?;
+    let start = [name.as_bytes(), b"\0string\0"].concat();
+    let value = ranges.into_iter().find_map(|range| head[range].strip_prefix(&*start))?;
+    // Its length comes first.
+    Some(String::from_utf8_lossy(value.get(4..)?).into_owned())
+}
+
+/// The head of a file, its attributes, and where it ends; `None` where it is cut or none.
+fn head(file: &mut File) -> Option<(Vec<u8>, Vec<Range<usize>>, usize)> {
     let length = file.metadata().ok()?.len();
     let mut head = Vec::new();
     // Most heads are short; with a manifest they may be long.
     let mut wanted = 64 << 10;
-    let end = loop {
+    loop {
         file.by_ref().take(wanted - head.len() as u64).read_to_end(&mut head).ok()?;
         if head.len() < FIRST || head[..4] != MAGIC {
-            return Some(false);
+            return None;
         }
         match attributes(&head) {
-            Some((_, end)) => break end,
-            None if head.len() as u64 >= length.min(LONGEST) => return Some(false),
+            Some((ranges, end)) => return Some((head, ranges, end)),
+            None if head.len() as u64 >= length.min(LONGEST) => return None,
             None => wanted *= 4,
         }
-    };
+    }
+}
+
+fn ends_with_its_last_block(path: &Path) -> Option<bool> {
+    let mut file = File::open(path).ok()?;
+    let length = file.metadata().ok()?.len();
+    let (_, _, end) = head(&mut file)?;
     let mut number = |at: u64, bytes: usize| {
         let mut value = [0; 8];
         file.seek(SeekFrom::Start(at)).ok()?;

@@ -21,3 +21,11 @@ pub fn is_whole(path: &std::path::Path) -> bool {
         _ => picture_file::is_whole(path),
     }
 }
+
+/// The scene that a frame of ours was painted from, as its file says; `None` where it does not.
+pub fn scene_of(path: &std::path::Path) -> Option<String> {
+    match path.extension() {
+        Some(extension) if extension.eq_ignore_ascii_case("exr") => exr_header::text(path, "Scene"),
+        _ => picture_file::text(path, "Scene"),
+    }
+}

@@ -42,6 +42,11 @@ impl Pattern {
         PathBuf::from(format!("{before}{sign}{:0digits$}{after}", frame.unsigned_abs()))
     }
 
+    /// The pattern as text, with `#` for each digit of the number.
+    pub fn text(&self) -> String {
+        format!("{}{}{}", self.before, "#".repeat(self.digits.unwrap_or_default()), self.after)
+    }
+
     /// Whether the name has a place for the frame number.
     pub fn has_place(&self) -> bool {
         self.digits.is_some()

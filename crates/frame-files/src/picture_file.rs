@@ -1,7 +1,7 @@
 //! PNG files: still and animated, of 8 and of 16 bits, each with a note of where it comes from.
 
 use std::fs::File;
-use std::io::{self, Read as _, Seek as _, SeekFrom, Write};
+use std::io::{self, BufReader, Read as _, Seek as _, SeekFrom, Write};
 use std::path::Path;
 
 use impasto_scene::whole_file::WholeFile;
@@ -108,6 +108,15 @@ pub fn begin_animation<'a>(
     };
     encoder.set_frame_delay(delay_s[0], delay_s[1])?;
     Ok(encoder.write_header()?)
+}
+
+/// The text that a PNG file has under this keyword, before its pixels.
+pub(crate) fn text(path: &Path, keyword: &str) -> Option<String> {
+    let limits = png::Limits { bytes: 1 << 20 };
+    let file = BufReader::new(File::open(path).ok()?);
+    let reader = png::Decoder::new_with_limits(file, limits).read_info().ok()?;
+    let texts = &reader.info().utf8_text;
+    texts.iter().find(|text| text.keyword == keyword)?.get_text().ok()
 }
 
 /// A PNG encoder, with the settings and the notes that all our files share.

@@ -4,6 +4,7 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 
+use crate::found_files::FoundFiles;
 use crate::problem::{Problem, Severity, TextPosition};
 
 /// The longest file name that is accepted, in bytes; no system opens longer ones.
@@ -14,6 +15,8 @@ pub const MAX_NAME_BYTES: usize = 4096;
 pub struct AssetFolders {
     /// Searched in this order, after the folder of the file that names the asset (`--asset-dir`).
     pub extra: Vec<PathBuf>,
+    /// Notes what is found.
+    found: FoundFiles,
 }
 
 /// A file that another file names.
@@ -108,6 +111,21 @@ impl AssetError {
 }
 
 impl AssetFolders {
+    /// The scene's own folder, and these.
+    pub fn with(extra: Vec<PathBuf>) -> Self {
+        Self { extra, found: FoundFiles::default() }
+    }
+
+    /// The same folders, which note in `found` what is found from now on.
+    pub(crate) fn noting(&self, found: &FoundFiles) -> Self {
+        Self { found: found.clone(), ..self.clone() }
+    }
+
+    /// What was found through these folders.
+    pub(crate) fn found(&self) -> &FoundFiles {
+        &self.found
+    }
+
     /// Finds and reads a file that another file names: first beside that file, then in the extra folders.
     ///
     /// # Errors
@@ -144,7 +162,10 @@ impl AssetFolders {
                 continue;
             }
             match fs::canonicalize(&candidate) {
-                Ok(real) if is_inside(&real, &allowed) => return Ok(candidate),
+                Ok(real) if is_inside(&real, &allowed) => {
+                    self.found.note(request, &candidate, &name);
+                    return Ok(candidate);
+                }
                 Ok(_) => is_outside = true,
                 Err(_) => tried.push(candidate),
             }
@@ -208,7 +229,7 @@ fn canonical(folder: &Path) -> PathBuf {
 }
 
 /// The path with `.` and `..` resolved by text alone, without the file system.
-fn without_dots(path: &Path) -> PathBuf {
+pub(crate) fn without_dots(path: &Path) -> PathBuf {
     let mut plain = PathBuf::new();
     for component in path.components() {
         match component {

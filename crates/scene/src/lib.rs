@@ -6,6 +6,7 @@ pub mod assets;
 pub mod built_in_mesh;
 pub mod check;
 pub mod document;
+mod found_files;
 pub mod gltf;
 pub mod limits;
 pub mod load;

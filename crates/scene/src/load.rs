@@ -8,7 +8,7 @@ use crate::built_in_mesh;
 use crate::check::{self, Finding};
 use crate::document::{Brought, Lost, Scene, Up};
 use crate::limits;
-use crate::loaded::LoadedScene;
+use crate::loaded::{FoundFiles, LoadedScene};
 use crate::locate::Located;
 use crate::mesh_file::{MeshFile, Texture};
 use crate::mesh_format::{self, MeshRead, MeshReader};
@@ -63,15 +63,18 @@ pub fn parse(path: &Path, text: &str) -> Result<Scene, Report> {
 ///
 /// All problems of all the files at once, warnings included, those of the scene file first; at least one is fatal.
 pub fn load(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
+    let files = FoundFiles::default();
+    let options = &LoadOptions { folders: options.folders.noting(&files), ..options.clone() };
     let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-    match extension.as_deref() {
+    let loaded = match extension.as_deref() {
         Some("ron") => load_scene(path, options),
         Some(_) if mesh_format::is_mesh(path) => load_alone(path, options),
         _ => {
             let mend = "name a scene file (.ron) or a mesh (.obj, .gltf, .glb)";
             Err(Report(vec![error_in(path, None, "this is neither a scene nor a mesh", mend)]))
         }
-    }
+    };
+    loaded.map(|loaded| LoadedScene { files, ..loaded })
 }
 
 /// Reads a picture as a brush, as a scene in the same folder would.
@@ -215,7 +218,17 @@ fn finish(
         return Err(Report(problems));
     }
     let Files { meshes, caches, textures, brushes, .. } = files;
-    Ok(LoadedScene { path: path.to_owned(), scene, meshes, caches, textures, brushes, warnings: problems })
+    let files = FoundFiles::default();
+    Ok(LoadedScene {
+        path: path.to_owned(),
+        scene,
+        meshes,
+        caches,
+        textures,
+        brushes,
+        files,
+        warnings: problems,
+    })
 }
 
 /// Findings about the document, and warnings about the file of its shot.

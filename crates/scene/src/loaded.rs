@@ -1,12 +1,12 @@
 //! A scene with all files that it names, read and checked.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::document::Scene;
+pub use crate::found_files::FoundFiles;
 use crate::mesh_file::{MeshFile, Texture};
-use crate::mesh_format;
 use crate::point_cache::PointCache;
 use crate::problem::Problem;
 
@@ -26,24 +26,16 @@ pub struct LoadedScene {
     pub textures: BTreeMap<String, Arc<Texture>>,
     /// Pictures that serve as brushes, by the path written in the document.
     pub brushes: BTreeMap<String, Arc<Texture>>,
+    /// The files that were found while it was read: those named above, and those that they name.
+    pub files: FoundFiles,
     /// Everything that was wrong but could be repaired while reading.
     pub warnings: Vec<Problem>,
 }
 
 impl LoadedScene {
-    /// The scene file and the files that it names, which output must not overwrite. Names are taken from the scene's
-    /// folder.
+    /// The scene file and all files that were read with it, which output must not overwrite; the scene file first.
     pub fn inputs(&self) -> Vec<PathBuf> {
-        let folder = self.path.parent().map(PathBuf::from).unwrap_or_default();
-        let meshes = self.meshes.keys().map(|name| mesh_format::file_and_node(name).0);
-        let others =
-            self.textures.keys().chain(self.brushes.keys()).chain(self.caches.keys()).chain(&self.scene.shot);
-        let named: BTreeSet<&str> = meshes.chain(others.map(String::as_str)).collect();
-        let named = named.into_iter().map(|name| folder.join(name));
-        let with_sidecars = named.flat_map(|path| {
-            let sidecar = mesh_format::sidecar_of(&path).filter(|sidecar| sidecar.is_file());
-            std::iter::once(path).chain(sidecar)
-        });
-        std::iter::once(self.path.clone()).chain(with_sidecars).collect()
+        let found = self.files.places().into_keys().filter(|path| *path != self.path);
+        std::iter::once(self.path.clone()).chain(found).collect()
     }
 }

@@ -216,7 +216,9 @@ impl Document {
         let scene = self.scene().without_shot();
         let (meshes, caches, textures, brushes) = Default::default();
         let (path, warnings) = (self.loaded.path.clone(), Vec::new());
-        let bare = LoadedScene { path, scene: scene.clone(), meshes, caches, textures, brushes, warnings };
+        let files = Default::default();
+        let bare =
+            LoadedScene { path, scene: scene.clone(), meshes, caches, textures, brushes, files, warnings };
         let read = bare.with_scene(scene, &self.options.folders).map_err(|report| Refusal::of(&report))?;
         self.preview = None;
         let change = SceneChange::between(self.scene(), &read.scene);

@@ -23,6 +23,8 @@ impl LoadedScene {
     /// where things have names (`objects.apple.keys[1].scale: …`).
     pub fn with_scene(&self, mut scene: Scene, folders: &AssetFolders) -> Result<Self, Report> {
         let path = &self.path;
+        let files_found = self.files.copied();
+        let folders = &folders.noting(&files_found);
         let reader = MeshReader::default();
         let is_same = scene.shot == self.scene.shot && Choice::of(&scene) == Choice::of(&self.scene);
         let (lost, of_shot) = match self.scene.stage.shot.as_ref().filter(|_| is_same) {
@@ -64,7 +66,16 @@ impl LoadedScene {
             return Err(Report(problems));
         }
         let Files { meshes, caches, textures, brushes, .. } = files;
-        Ok(Self { path: path.clone(), scene, meshes, caches, textures, brushes, warnings: problems })
+        Ok(Self {
+            path: path.clone(),
+            scene,
+            meshes,
+            caches,
+            textures,
+            brushes,
+            files: files_found,
+            warnings: problems,
+        })
     }
 
     /// The parts of another document that need no new check, because they equal parts of this one. This one has passed:

@@ -24,7 +24,7 @@ use super::{FieldLocator, LoadOptions};
 use crate::check::{self, Finding};
 use crate::document::Scene;
 use crate::limits;
-use crate::loaded::LoadedScene;
+use crate::loaded::{FoundFiles, LoadedScene};
 use crate::locate::{Inside, Located, Step};
 use crate::problem::{Problem, Report, Severity, TextPosition};
 
@@ -94,6 +94,7 @@ pub fn salvage_text(path: &Path, text: &str, options: &LoadOptions) -> Result<Sa
                 let problem = error_in(path, None, message, "mend those above first");
                 losses.push(Loss { problem, instead: String::new(), mesh: None, fix: None });
             }
+            let loaded = LoadedScene { files: options.folders.found().copied(), ..loaded };
             return Ok(Salvaged { loaded, losses, text: text.to_owned() });
         }
     }
@@ -172,6 +173,7 @@ impl Reading<'_> {
             caches: files.caches,
             textures: files.textures,
             brushes: files.brushes,
+            files: FoundFiles::default(),
             warnings,
         }))
     }

@@ -1,0 +1,67 @@
+//! Jobs as array scripts of Slurm.
+
+use crate::job::Job;
+use crate::quoting::of_shell;
+
+/// The most tasks that one array may have where nobody has raised `MaxArraySize`.
+const MOST_TASKS: usize = 1000;
+
+/// Frames of a task, where nobody says how many.
+const USUAL_FRAMES: usize = 10;
+
+/// The script of a job. `sbatch` paints the frames; run by a shell, it also makes the movie when they are done, if one is wanted.
+///
+/// # Errors
+/// Words that say why: tasks of `frames_a_task` are too many for one array.
+pub fn script(job: &Job, frames_a_task: Option<usize>) -> Result<String, String> {
+    let count = job.frames.count();
+    let least = count.div_ceil(MOST_TASKS);
+    let most = frames_a_task.unwrap_or_else(|| least.max(USUAL_FRAMES));
+    if most < least {
+        return Err(format!(
+            "{count} frames in tasks of {most} are over {MOST_TASKS} tasks, which Slurm takes as one array: use --chunk {least} or more"
+        ));
+    }
+    let chunks = job.frames.chunks(most);
+    let [name, scene, output] = [&job.name, &job.scene, &job.output].map(|text| of_shell(text));
+    let more: String = job.arguments.iter().map(|word| format!(" {}", of_shell(word))).collect();
+    let log: String =
+        job.name.chars().map(|letter| if letter.is_alphanumeric() { letter } else { '_' }).collect();
+    let (submit, about_movie) = match &job.movie {
+        Some(movie) => {
+            let encode = format!(
+                "impasto movie {output} --fps {} -f {} -o {}",
+                job.fps,
+                of_shell(&job.frames.text()),
+                of_shell(movie)
+            );
+            let submit = format!(
+                "if [ -z \"${{SLURM_JOB_ID:-}}\" ]; then\n    \
+                 job=$(sbatch --parsable \"$0\")\n    \
+                 sbatch --job-name={name}-movie --dependency=\"afterok:${{job%%;*}}\" --output={log}_movie.log --wrap {}\n    \
+                 exit\nfi\n\n",
+                of_shell(&encode)
+            );
+            (submit, "#   sh THIS_FILE        paints, then makes the movie\n")
+        }
+        None => (String::new(), ""),
+    };
+    let last = chunks.len() - 1;
+    Ok(format!(
+        "#!/bin/sh\n\
+         # {count} frames in {} tasks. A frame that is there and whole is not painted again: submit the file a second time, and\n\
+         # only what is missing is painted.\n\
+         #   sbatch THIS_FILE    paints\n\
+         {about_movie}\
+         #SBATCH --job-name={log}\n\
+         #SBATCH --array=0-{last}\n\
+         #SBATCH --requeue\n\
+         #SBATCH --output={log}_%A_%a.log\n\
+         set -eu\n\n\
+         {submit}\
+         frames=$(sed -n \"$((SLURM_ARRAY_TASK_ID + 1))p\" <<'FRAMES'\n{}\nFRAMES\n)\n\
+         exec impasto render {scene} -f \"$frames\" -o {output}{more} --skip-existing --quiet\n",
+        chunks.len(),
+        chunks.join("\n"),
+    ))
+}

@@ -1,0 +1,63 @@
+//! Which files a scene was read from, and where each would lie if all lay in the scene's folder.
+
+use std::collections::BTreeMap;
+use std::path::{Component, Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use crate::assets::{AssetRequest, without_dots};
+
+/// The files that were found while a scene was read. Copies share one list.
+#[derive(Clone, Debug, Default)]
+pub struct FoundFiles {
+    /// By the path at which each was found: the place in the scene's folder at which its name would find it without further folders,
+    /// relative to that folder. `None` where there is no such place.
+    places: Arc<Mutex<BTreeMap<PathBuf, Option<PathBuf>>>>,
+}
+
+/// What was found says nothing about the folders.
+impl PartialEq for FoundFiles {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl Eq for FoundFiles {}
+
+impl FoundFiles {
+    /// Notes a file. `name` is the request's, with `/` between folders.
+    pub(crate) fn note(&self, request: &AssetRequest<'_>, path: &Path, name: &str) {
+        let mut places = self.places.lock().unwrap_or_else(PoisonError::into_inner);
+        // A file in a further folder that names others is thought to lie in the scene's folder, and they beside it.
+        let naming = places.get(&without_dots(request.beside)).cloned().unwrap_or_else(|| {
+            let root = std::fs::canonicalize(request.root).ok()?;
+            let folder = request.beside.parent().filter(|folder| !folder.as_os_str().is_empty());
+            let folder = std::fs::canonicalize(folder.unwrap_or(Path::new("."))).ok()?;
+            Some(folder.strip_prefix(root).ok()?.join("file"))
+        });
+        let place = naming.and_then(|naming| within(&naming.parent().unwrap_or(Path::new("")).join(name)));
+        places.insert(path.to_owned(), place);
+    }
+
+    /// Every file found, with the place that it would have in the scene's folder, in the order of the paths.
+    pub fn places(&self) -> BTreeMap<PathBuf, Option<PathBuf>> {
+        self.places.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// A list of its own with what this one has.
+    pub(crate) fn copied(&self) -> Self {
+        Self { places: Arc::new(Mutex::new(self.places())) }
+    }
+}
+
+/// A relative path with `.` and `..` resolved; `None` where it leads out of its folder.
+fn within(path: &Path) -> Option<PathBuf> {
+    let mut plain = PathBuf::new();
+    for component in path.components() {
+        match component {
+            Component::ParentDir => plain.pop().then_some(())?,
+            Component::Normal(name) => plain.push(name),
+            _ => {}
+        }
+    }
+    Some(plain)
+}
