@@ -68,8 +68,9 @@ def _checked(program: Path) -> Path:
     return program
 
 
-def run(arguments: list[str], timeout_s: float = 120.0) -> str:
-    """Runs the program to its end and returns what it printed. Raises Failure with its own words."""
+def run(arguments: list[str], timeout_s: float = 120.0, good: tuple[int, ...] = (0,)) -> str:
+    """Runs the program to its end and returns what it printed. Raises Failure with its own words, where it ends with another code
+    than the good ones."""
     program = find()
     try:
         done = subprocess.run(
@@ -79,7 +80,7 @@ def run(arguments: list[str], timeout_s: float = 120.0) -> str:
         raise Failure(f"impasto {arguments[0]} took longer than {timeout_s:.0f} seconds and was ended.") from error
     except OSError as error:
         raise Failure(f"{program} does not run: {error}.") from error
-    if done.returncode != 0:
+    if done.returncode not in good:
         words = done.stderr.strip() or f"impasto {arguments[0]} ended with {done.returncode}"
         raise Failure(words.removeprefix("impasto: error: "))
     return done.stdout

@@ -72,7 +72,10 @@ class ImpastoEngine(bpy.types.RenderEngine):
         further: list[int] = []
         if self.is_animation:
             further = list(range(frame + scene.frame_step, scene.frame_end + 1, scene.frame_step))
-        path = painter_of(place.scene_file).frame(frame, further, how, self.test_break)
+        painter = painter_of(place.scene_file)
+        path = painter.frame(frame, further, how, self.test_break)
+        for words in painter.take_warnings():
+            self.report({"WARNING"}, words)
         planes = read(path)
         path.unlink(missing_ok=True)
         self._hand_over(planes, [passes.COMBINED, *rows], depsgraph)
@@ -106,9 +109,10 @@ class ImpastoEngine(bpy.types.RenderEngine):
             anew=export_request.is_on and export_request.anew,
         )
         self.frame_set(frame, 0.0)
-        for words in warnings:
-            self.report({"WARNING"}, words)
         export_request.warnings = warnings
+        # Where the operator asked, it tells them.
+        for words in [] if export_request.is_on else warnings:
+            self.report({"WARNING"}, words)
 
     def _hand_over(
         self, planes: Planes, rows: list[passes.RenderPass], depsgraph: bpy.types.Depsgraph

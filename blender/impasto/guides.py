@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
 
 import bpy
 import numpy as np
 from mathutils import Matrix, Vector
+from mathutils.interpolate import poly_3d_calc
 
 from . import painting, scene_file
 from .failure import Failure
@@ -14,6 +18,10 @@ from .failure import Failure
 COLLECTION = "Impasto guides"
 # Strokes follow a guide this far to its sides, over its length, where the curve does not say it by its radius.
 _RADIUS_OF_LENGTH = 0.25
+# A curve farther from every surface than this share of its length is on none.
+_FARTHEST_OF_LENGTH = 0.5
+# Which guides were read from curves, beside the scene file: those of the window stay when curves are read again.
+_READ_NAME = "guides_of_blender.json"
 # A curve is taken with at most so many points.
 _MOST_POINTS = 64
 
@@ -28,6 +36,16 @@ class Guide:
     points: list[Vector]
     normals: list[Vector]
     radius: float
+    # Of each point, the face that it lies on.
+    faces: list[int] = field(default_factory=list)
+
+
+@dataclass
+class Found:
+    """What was read: how many guides lie on each object, and how many curves on none."""
+
+    counts: dict[str, int]
+    far: int
 
 
 def _lines(thing: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[list[Vector]]:
@@ -95,18 +113,55 @@ def _on_surface(line: list[Vector], meshes: list[bpy.types.Object]) -> Guide | N
         if abs(world.determinant()) < 1e-12:
             continue
         local, normal_matrix = world.inverted(), world.to_3x3().inverted().transposed()
-        points, normals, away = [], [], 0.0
+        points, normals, faces, away = [], [], [], 0.0
         for at in line:
-            found, place, normal, _face = thing.closest_point_on_mesh(local @ at)
+            found, place, normal, face = thing.closest_point_on_mesh(local @ at)
             if not found:
                 break
             points.append(world @ place)
             normals.append((normal_matrix @ normal).normalized())
+            faces.append(face)
             away += (points[-1] - at).length
         length = sum((b - a).length for a, b in zip(points, points[1:]))
         if len(points) == len(line) and length > 0 and (best is None or away < best[0]):
-            best = (away, Guide(thing.name, points, normals, _RADIUS_OF_LENGTH * length))
-    return best[1] if best else None
+            best = (away, Guide(thing.name, points, normals, _RADIUS_OF_LENGTH * length, faces))
+    whole = sum((b - a).length for a, b in zip(line, line[1:]))
+    is_near = best is not None and best[0] / len(line) <= _FARTHEST_OF_LENGTH * whole
+    return best[1] if best is not None and is_near else None
+
+
+def _at_rest(scene: bpy.types.Scene, guides: list[Guide]) -> None:
+    """Carries guides on things that bend to the shape that strokes are laid on: that of the first frame."""
+    shares: list[list[tuple[list[int], list[float]]]] = []
+    graph = bpy.context.evaluated_depsgraph_get()
+    for guide in guides:
+        thing = scene.objects[guide.target].evaluated_get(graph)
+        local = thing.matrix_world.inverted()
+        of_guide = []
+        for at, face in zip(guide.points, guide.faces):
+            corners = list(thing.data.polygons[face].vertices)
+            places = [thing.data.vertices[corner].co for corner in corners]
+            of_guide.append((corners, list(poly_3d_calc(places, local @ at))))
+        shares.append(of_guide)
+    frame = scene.frame_current
+    scene.frame_set(scene.frame_start)
+    try:
+        graph = bpy.context.evaluated_depsgraph_get()
+        for guide, of_guide in zip(guides, shares):
+            thing = scene.objects[guide.target].evaluated_get(graph)
+            world = thing.matrix_world
+            turn = world.to_3x3().inverted().transposed()
+            before, length = guide.points, 0.0
+            guide.points, guide.normals = [], []
+            for (corners, parts), face in zip(of_guide, guide.faces):
+                places = [thing.data.vertices[corner].co * part for corner, part in zip(corners, parts)]
+                guide.points.append(world @ sum(places, Vector()))
+                guide.normals.append((turn @ thing.data.polygons[face].normal).normalized())
+            length = sum((b - a).length for a, b in zip(guide.points, guide.points[1:]))
+            was = sum((b - a).length for a, b in zip(before, before[1:]))
+            guide.radius *= length / was if was > 0 else 1.0
+    finally:
+        scene.frame_set(frame)
 
 
 def _object_from_world(thing: bpy.types.Object, is_cached: bool) -> Matrix:
@@ -138,8 +193,8 @@ def _view(scene: bpy.types.Scene) -> str:
     return f"(eye: {_vector(eye)}, target: {_vector(eye + ahead)}, frame: {scene.frame_current})"
 
 
-def read(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> dict[str, int]:
-    """Writes the curves of the collection into the scene file, one region for each object. Returns how many lie on each.
+def read(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> Found:
+    """Writes the curves of the collection into the scene file, into the region of each object, beside what else it has.
 
     Raises Failure."""
     source = bpy.data.collections.get(COLLECTION)
@@ -154,34 +209,55 @@ def read(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> dict[str, in
         for thing in scene.objects
         if thing.type == "MESH" and not thing.hide_render and thing not in own
     ]
-    of_object: dict[str, list[Guide]] = {}
-    for thing in source.all_objects:
-        for line in _lines(thing, depsgraph):
-            guide = _on_surface(_thinned(line), meshes)
-            if guide is not None:
-                of_object.setdefault(guide.target, []).append(guide)
-    if not of_object:
-        raise Failure(f'No curve in "{COLLECTION}" lies on a mesh that is rendered.')
+    lines = [line for thing in source.all_objects for line in _lines(thing, depsgraph)]
+    guides = [_on_surface(_thinned(line), meshes) for line in lines]
+    near = [guide for guide in guides if guide is not None]
+    if not near:
+        raise Failure(f'No curve in "{COLLECTION}" lies on a mesh that is rendered, or near one.')
+    view = _view(scene)
     cached = set(scene_file.sidecar(place.sidecar).get("caches", {}))
-    found = scene_file.document(place.scene_file)
-    values = []
-    for name, guides in of_object.items():
-        own_from_world = _object_from_world(scene.objects[name], name in cached)
-        listed = ", ".join(_text_of(guide, own_from_world, _view(scene)) for guide in guides)
-        region = f"guides of {name}"
-        known = [row.get("name") for row in found.get("regions", [])]
-        if region in known:
-            values.append(f"regions[{known.index(region)}].guides=[{listed}]")
-        else:
-            named = f"name: {scene_file.text(region)}, on: Object({scene_file.text(name)})"
-            values.append(f"regions+=({named}, guides: [{listed}])")
-    # Regions whose curves are gone keep what else they state.
-    for index, row in enumerate(found.get("regions", [])):
-        gone = str(row.get("name", "")).removeprefix("guides of ")
-        if gone != row.get("name") and gone not in of_object and row.get("guides"):
-            values.append(f"regions[{index}].guides=")
-    scene_file.write(place.scene_file, values)
-    return {name: len(guides) for name, guides in of_object.items()}
+    _at_rest(scene, [guide for guide in near if guide.target in cached])
+    texts: dict[str, list[str]] = {}
+    for guide in near:
+        own_from_world = _object_from_world(scene.objects[guide.target], guide.target in cached)
+        texts.setdefault(guide.target, []).append(_text_of(guide, own_from_world, view))
+    _write(place.scene_file, texts)
+    return Found({name: len(of_object) for name, of_object in texts.items()}, len(guides) - len(near))
+
+
+def _write(scene_path: Path, texts: dict[str, list[str]]) -> None:
+    """Puts guides into the regions of their objects, in place of those that were read before."""
+    known_path = scene_path.with_name(_READ_NAME)
+    known: dict[str, list[Any]] = scene_file.sidecar(known_path)
+    for name in sorted({*known, *texts}):
+        on = {"Object": name}
+        found = scene_file.document(scene_path)
+        index = scene_file.region_of(found, on)
+        guides = texts.get(name, [])
+        if index is None:
+            if guides:
+                says = f"guides: [\n            {f','.join(_lines_of(guides))},\n        ]"
+                scene_file.write(scene_path, [scene_file.new_region(found, on, says)])
+            continue
+        there = found["regions"][index].get("guides", [])
+        old = [at for at, guide in enumerate(there) if guide in known.get(name, [])]
+        values = [f"regions[{index}].guides[{at}]=" for at in reversed(old)]
+        values += [f"regions[{index}].guides+={guide}" for guide in guides]
+        if values:
+            scene_file.write(scene_path, values)
+    # As the program reads them, so that they are known again.
+    found = scene_file.document(scene_path)
+    read_now = {}
+    for name, guides in texts.items():
+        index = scene_file.region_of(found, {"Object": name})
+        if index is not None:
+            read_now[name] = found["regions"][index].get("guides", [])[-len(guides) :]
+    known_path.write_text(json.dumps(read_now), encoding="utf-8")
+
+
+def _lines_of(guides: list[str]) -> list[str]:
+    """Each guide on a line of its own."""
+    return [guide if at == 0 else f"\n            {guide}" for at, guide in enumerate(guides)]
 
 
 class IMPASTO_OT_read_guides(bpy.types.Operator):
@@ -192,11 +268,13 @@ class IMPASTO_OT_read_guides(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         try:
-            counts = read(context.scene, context.evaluated_depsgraph_get())
+            found = read(context.scene, context.evaluated_depsgraph_get())
         except Failure as failure:
             self.report({"ERROR"}, str(failure))
             return {"CANCELLED"}
-        words = ", ".join(f"{count} on {name}" for name, count in counts.items())
+        words = ", ".join(f"{count} on {name}" for name, count in found.counts.items())
+        if found.far:
+            self.report({"WARNING"}, f"Curves that are far from every surface are left out: {found.far}")
         self.report({"INFO"}, f"Guides: {words}")
         return {"FINISHED"}
 

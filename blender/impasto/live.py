@@ -17,6 +17,8 @@ from .failure import Failure
 
 # How often frame and view are looked at, seconds.
 _EVERY_S = 0.1
+# A window that cannot open has said so by then, seconds.
+_START_S = 1.0
 
 
 class _Window:
@@ -30,6 +32,15 @@ class _Window:
         self._process = subprocess.Popen(
             [str(binary.find()), "edit", str(scene_file), "--follow"], stdin=subprocess.PIPE, stderr=self._said
         )
+
+    def wait_for_its_start(self) -> None:
+        """Raises Failure with its words where it ends at once: no display, a scene with errors."""
+        try:
+            self._process.wait(timeout=_START_S)
+        except subprocess.TimeoutExpired:
+            return
+        if words := self.why_it_ended():
+            raise Failure(words.removeprefix("impasto: error: "))
 
     def is_open(self) -> bool:
         return self._process.poll() is None
@@ -76,6 +87,7 @@ class IMPASTO_OT_comb(bpy.types.Operator):
                 self.report({"INFO"}, "The window of Impasto is open and reads the shot again")
                 return {"FINISHED"}
             _window = _Window(scene_file)
+            _window.wait_for_its_start()
         except Failure as failure:
             self.report({"ERROR"}, str(failure))
             return {"CANCELLED"}
@@ -148,7 +160,13 @@ def _export() -> None:
     try:
         export_request.export(bpy.context.scene)
     except Failure as failure:
-        print(f"Impasto: {failure}")
+        words = str(failure)
+        print(f"Impasto: {words}")
+        # A timer has no operator that could report it.
+        if not bpy.app.background:
+            bpy.context.window_manager.popup_menu(
+                lambda menu, _context: menu.layout.label(text=words), title="Export for Impasto", icon="ERROR"
+            )
 
 
 def register() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from . import export_request, painting, settings
+from . import export_request, painting, scene_file, settings
 from .failure import Failure
 
 
@@ -22,6 +22,7 @@ class IMPASTO_OT_export(bpy.types.Operator):
         try:
             warnings = export_request.export(context.scene, anew=self.anew)
             place = painting.of_scene(context.scene)
+            warnings = [*warnings, *scene_file.problems(place.scene_file)]
         except Failure as failure:
             self.report({"ERROR"}, str(failure))
             return {"CANCELLED"}

@@ -34,6 +34,9 @@ class Painter:
         self._lines: queue.Queue[dict[str, Any] | None] = queue.Queue()
         self._folder = tempfile.TemporaryDirectory(prefix="impasto_")
         self._id = 0
+        self._warnings: list[str] = []
+        self._warned: set[str] = set()
+        self._scene_folder = str(scene_file.parent)
         # What is being painted: frames that are still to come, and how.
         self._coming: list[int] = []
         self._how: dict[str, Any] = {}
@@ -109,6 +112,11 @@ class Painter:
         while True:
             line = self._next_line(should_stop)
             event = line.get("event")
+            if event == "ready":
+                # What an order says again is told once.
+                news = [words for words in line.get("warnings", []) if words not in self._warned]
+                self._warned.update(news)
+                self._warnings += news
             if line.get("id", self._id) != self._id or event in ("started", "ready"):
                 continue
             if event == "frame" and line["frame"] == number:
@@ -117,10 +125,16 @@ class Painter:
                 return Path(line["path"])
             if event in ("failed", "error"):
                 self._coming = []
-                raise Failure(str(line.get("message", "")).removeprefix("impasto: error: "))
+                words = str(line.get("message", "")).removeprefix("impasto: error: ")
+                raise Failure(words.replace(f"{self._scene_folder}/", ""))
             if event in ("done", "stopped"):
                 self._coming = []
                 raise Failure(f"impasto did not paint frame {number}")
+
+    def take_warnings(self) -> list[str]:
+        """What the program said of the scene since the last time, beside errors."""
+        told, self._warnings = self._warnings, []
+        return told
 
     def _begin(self, frames: list[int], how: dict[str, Any], should_stop: Callable[[], bool]) -> None:
         if self._coming:

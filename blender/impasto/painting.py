@@ -74,7 +74,7 @@ def export(
     Returns what could not be carried, in words. Raises Failure and Stopped."""
     frames = frames_of(scene)
     painting.folder.mkdir(parents=True, exist_ok=True)
-    warnings: list[str] = []
+    warnings: list[str] = scene_file.sidecar(painting.sidecar).get("warnings", [])
     if anew or sum_of_inputs(scene, view_layer, frames) != sum_of_export(painting):
         try:
             done = export_shot(

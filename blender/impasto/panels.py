@@ -17,6 +17,8 @@ def _draw_strokes(layout: bpy.types.UILayout, owner: bpy.types.ID, group: settin
         layout.operator("impasto.export", icon="EXPORT")
         return
     stated = settings.stated(owner)
+    if stated and (over := settings.stands_over(owner)):
+        layout.label(text=f"In place of all settings of {over}", icon="INFO")
     for field in ("preset", *(row[0] for row in settings.NUMBERS)):
         row = layout.row(align=True)
         row.prop(group, field)
@@ -145,17 +147,22 @@ CLASSES = (
     IMPASTO_PT_material,
 )
 
-# Blender's own panels that make sense with any engine: output, dimensions, materials, lights, cameras. Those for one engine stay out.
-_LEFT_OUT = {"RENDER_PT_", "VIEWLAYER_PT_layer_passes", "EEVEE_", "CYCLES_"}
+# Blender's own panels of what is not carried.
+_LEFT_OUT = ("VIEWLAYER_PT_layer_passes", "VIEWLAYER_PT_filter", "RENDER_PT_gpencil", "RENDER_PT_grease")
+# Panels of one of Blender's engines that edit what is carried: the nodes of a material, the strength and colour of a light.
+_TAKEN_IN = ("EEVEE_MATERIAL_PT_context_material", "EEVEE_MATERIAL_PT_surface", "DATA_PT_EEVEE_light")
 
 
 def _shared_panels() -> list[type]:
-    """The panels of Blender that its own plain renderers show."""
+    """The panels of Blender that make sense with any engine (output, format, frame range, lights, cameras), and some of one."""
 
     def is_shared(panel: type) -> bool:
         compatible = getattr(panel, "COMPAT_ENGINES", set())
         name = panel.__name__
-        return "BLENDER_RENDER" in compatible and not any(name.startswith(out) for out in _LEFT_OUT)
+        if name in _TAKEN_IN:
+            return True
+        is_left_out = "freestyle" in name.lower() or name.startswith(_LEFT_OUT)
+        return "BLENDER_RENDER" in compatible and not is_left_out
 
     return [panel for panel in bpy.types.Panel.__subclasses__() if is_shared(panel)]
 

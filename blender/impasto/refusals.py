@@ -18,10 +18,10 @@ def check(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> None:
         raise Failure("Impasto paints square pixels: set Output > Aspect X and Y to the same number.")
     if render.fps_base <= 0:
         raise Failure("The frame rate makes no sense: set Output > Frame Rate.")
-    others = [layer.name for layer in scene.view_layers if layer.use and layer.name != view_layer.name]
-    if others:
+    used = [layer.name for layer in scene.view_layers if layer.use]
+    if len(used) > 1:
         raise Failure(
-            f"Impasto paints one view layer: turn off View Layer > Use for Rendering of {', '.join(others)}."
+            f"Impasto paints one view layer: turn off View Layer > Use for Rendering of all but one of {', '.join(used)}."
         )
 
 

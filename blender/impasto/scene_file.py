@@ -9,6 +9,8 @@ from typing import Any
 
 from . import binary
 
+# What `impasto check` ends with where a scene has errors.
+CHECK_FOUND_ERRORS = 3
 # What was read last, by file, with the stamp of the file then.
 _read: dict[Path, tuple[tuple[int, int], dict[str, Any]]] = {}
 
@@ -66,6 +68,38 @@ def region_of(found: dict[str, Any], on: dict[str, Any]) -> int | None:
         if region.get("on") == on:
             return index
     return None
+
+
+# Of regions that cover one place the last one counts, so that those which say less come first.
+_ORDER = ("Everything", "Collection", "EachMaterial", "Object", "Material", "Group", "Dabs")
+
+
+def _rank(on: Any) -> int:
+    kind = on if isinstance(on, str) else next(iter(on), "")
+    return _ORDER.index(kind) if kind in _ORDER else len(_ORDER)
+
+
+def new_region(found: dict[str, Any], on: dict[str, Any], says: str) -> str:
+    """The value that adds a region: behind those that cover more, and before those that cover less."""
+    [(kind, of)] = on.items()
+    regions = found.get("regions", [])
+    behind = next((index for index, row in enumerate(regions) if _rank(row.get("on")) > _rank(on)), None)
+    place = "regions" if behind is None else f"regions[{behind}]"
+    return f"{place}+=(name: {text(free_name(found, of))}, on: {kind}({text(of)}), {says})"
+
+
+def problems(path: Path) -> list[str]:
+    """What the program finds in the scene and its shot, a line for each. Raises Failure."""
+    said = binary.run(["check", "--json", str(path)], timeout_s=60, good=(0, CHECK_FOUND_ERRORS))
+    return [_in_words(json.loads(line), path.parent) for line in said.splitlines()]
+
+
+def _in_words(problem: dict[str, Any], folder: Path) -> str:
+    """A problem as the program prints it, with its file as seen from the painting's folder."""
+    place = [str(problem[part]) for part in ("line", "column") if problem.get(part) is not None]
+    where = ":".join([problem["path"].removeprefix(f"{folder}/"), *place])
+    mend = f"; {problem['mend']}" if problem.get("mend") else ""
+    return f"{where}: {problem['severity']}: {problem['message']}{mend}"
 
 
 def free_name(found: dict[str, Any], wanted: str) -> str:

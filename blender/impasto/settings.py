@@ -11,7 +11,7 @@ from .failure import Failure
 
 # As the program has them; the first of each is what a file that says nothing has.
 PRESETS = ("oil study", "impressionist", "dry brush", "gouache", "ink", "paper")
-NO_PRESET = ("NONE", "As Around", "As the scene, or the oil study")
+NO_PRESET = ("NONE", "As the Scene", "As the scene has it, or the oil study")
 
 # Field, name, description, least, most, default.
 NUMBERS: tuple[tuple[str, str, str, float, float, float], ...] = (
@@ -67,13 +67,22 @@ def state(owner: bpy.types.ID, field: str, value: str) -> None:
         scene_file.write(where.scene_file, [f"strokes.{field}={value}"])
         return
     index = scene_file.region_of(found, on)
-    if index is not None:
-        scene_file.write(where.scene_file, [f"regions[{index}].strokes.{field}={value}"])
-    elif value:
-        [(kind, of)] = on.items()
-        name = scene_file.text(scene_file.free_name(found, of))
-        region = f"(name: {name}, on: {kind}({scene_file.text(of)}), strokes: ({field}: {value}))"
-        scene_file.write(where.scene_file, [f"regions+={region}"])
+    if index is None:
+        if value:
+            scene_file.write(where.scene_file, [scene_file.new_region(found, on, f"strokes: ({field}: {value})")])
+        return
+    region = found["regions"][index]
+    # A region that says nothing would still stand over others.
+    is_last = not value and set(region) <= {"name", "on", "strokes"} and set(region.get("strokes", {})) <= {field}
+    scene_file.write(where.scene_file, [f"regions[{index}]=" if is_last else f"regions[{index}].strokes.{field}={value}"])
+
+
+def stands_over(owner: bpy.types.ID) -> str:
+    """Of an object: the collection or material whose settings its own take the place of; empty where there is none."""
+    if not isinstance(owner, bpy.types.Object):
+        return ""
+    slots = [slot.material for slot in owner.material_slots if slot.material is not None]
+    return next((other.name for other in [*slots, *owner.users_collection] if stated(other)), "")
 
 
 # What the last change was refused with; the panels show it until the next one.
@@ -156,6 +165,8 @@ class SceneSettings(bpy.types.PropertyGroup):
         name="Folder",
         description="Where the painting's files are; left empty, a folder beside the .blend",
         subtype="DIR_PATH",
+        # Paths that begin with // are told of from Blender 4.5 on.
+        options={"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5, 0) else set(),
     )
     export_on_save: bpy.props.BoolProperty(  # type: ignore[valid-type]
         name="Export on Save",

@@ -266,6 +266,15 @@ fn set_writes_one_field_and_leaves_the_text() {
         (found.strokes.scale, found.regions[1].strokes.coverage, found.regions[0].turn_deg),
         (Some(2.0), Some(3.0), 7.0)
     );
+    // An item goes before another, and is taken out again.
+    let names = || {
+        let scene = load(&scene, &LoadOptions::default()).unwrap().scene;
+        scene.regions.iter().map(|region| region.name.clone()).collect::<Vec<_>>()
+    };
+    assert!(set(&[r#"regions[1]+=(name: "c", on: Everything)"#]).0);
+    assert_eq!(names(), ["a", "c", "b"]);
+    assert!(set(&[r#"regions.a+=(name: "d", on: Everything)"#, "regions[0]=", "regions.c="]).0);
+    assert_eq!(names(), ["a", "b"]);
     // Taken out again, one by one, nothing is left of them.
     assert!(
         set(&[

@@ -63,7 +63,11 @@ class Cameras:
             if seen.data.type not in ("PERSP", "ORTHO"):
                 warnings.append(f'The camera "{seen.name}" is neither perspective nor orthographic: it is carried as '
                                 "perspective; set its lens type.")
+            if seen.data.dof.use_dof:
+                warnings.append(f'The camera "{seen.name}" has depth of field, which is not painted.')
             self.all.append(Camera(seen.name, seen.data.type != "ORTHO"))
+        if scene.render.use_motion_blur:
+            warnings.append("Motion blur is not painted.")
 
     def see(self, graph: bpy.types.Depsgraph, place: int) -> None:
         """Notes one frame."""

@@ -68,7 +68,9 @@ class MaterialTable:
             item["doubleSided"] = True
         lost = list(dict.fromkeys([*look.lost, *base.lost]))
         if lost:
-            self.warnings.append(f'Material "{material.name}" loses {", ".join(lost)}: bake its colour to a picture.')
+            is_shader = any("but the colour" in words for words in lost)
+            mend = "only a Principled BSDF is carried whole" if is_shader else "bake its colour to a picture"
+            self.warnings.append(f'Material "{material.name}" loses {", ".join(lost)}: {mend}.')
         uses = [use for use in (look.base.picture, look.emission.picture) if use is not None]
         return Surface(self.glb.add("materials", item), uses[0].uv_map if uses else "", base.attribute)
 

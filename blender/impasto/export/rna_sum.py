@@ -34,6 +34,13 @@ _SCALARS = {"BOOLEAN", "INT", "FLOAT", "STRING", "ENUM"}
 _SKIPPED_OF_NODES = {"location", "color", "use_custom_color", "label", "parent", "dimensions"}
 # Second names of what is there already, and may be animated.
 _DERIVED = {bpy.types.Camera: ("angle", "angle_x", "angle_y")}
+# Names of one value: where one has keys, so has the other.
+_TWINS = {
+    name: twin
+    for pair in (("angle", "factor"), ("width", "width_pct"), ("mute", "enabled"), ("mix_mode", "use_offset"),
+                 ("time_tweak", "timestep"), ("normal_factor", "hair_length"), ("material", "material_slot"))
+    for name, twin in (pair, pair[::-1])
+}
 _MEANT_CURVES = (bpy.types.CurveMapping, bpy.types.CurveMap)
 _MEANT_SIZES = (bpy.types.Modifier, bpy.types.Constraint, bpy.types.TextBox)
 
@@ -123,7 +130,9 @@ class Sum:
 
     def _scalar(self, struct: Any, name: str, is_array: bool, path: str) -> object:
         value = getattr(struct, name)
-        indices = self._animated.get(f"{path}.{name}" if path else name) if self._animated else None
+        names = (name, _TWINS[name]) if name in _TWINS else (name,)
+        keyed = (self._animated.get(f"{path}.{name_}" if path else name_) for name_ in names)
+        indices = next((indices for indices in keyed if indices is not None), None)
         if indices is not None:
             if not is_array:
                 return name

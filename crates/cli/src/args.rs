@@ -269,7 +269,7 @@ pub(crate) struct NewArguments {
 pub(crate) struct SetArguments {
     /// The scene file.
     pub(crate) scene: PathBuf,
-    /// What is written: strokes.scale=1.5 sets a value, strokes.scale= takes it out, regions+=(…) adds to a list.
+    /// What is written: strokes.scale=1.5 sets a value, strokes.scale= takes it out, regions+=(…) adds to a list, regions[0]+=(…) before its first item.
     #[arg(value_name = "PATH=VALUE")]
     pub(crate) values: Vec<String>,
     /// Print the scene as JSON, as it then is.

@@ -48,7 +48,7 @@ pub(crate) fn farm(command: &FarmCommand) -> Result<(), Failure> {
     let Some(path) = &arguments.job else {
         return Ok(std::io::stdout().write_all(text.as_bytes())?);
     };
-    not_an_input(path, &[arguments.scene.clone()])?;
+    not_an_input(path, std::slice::from_ref(&arguments.scene))?;
     let written = WholeFile::create(path).and_then(|mut file| {
         file.write_all(text.as_bytes())?;
         file.finish()

@@ -13,6 +13,7 @@ use impasto_frame_files::{FrameList, Pattern, not_an_input, ready_folder};
 use impasto_gl_render::{Renderer, ShaderTexts};
 use impasto_painting::{FrameOptions, Painting, Preparer};
 use impasto_scene::aovs::AovSet;
+use impasto_scene::problem::Report;
 use impasto_sequence::{Ending, FileOutcome, FrameFiles, Sequence, Wanted};
 use serde_json::{Value, json};
 
@@ -56,7 +57,15 @@ fn tell(line: &Value) -> Result<(), Failure> {
 }
 
 fn of_failure(id: u64, failure: &Failure) -> Value {
-    json!({ "event": "error", "id": id, "message": failure.words().unwrap_or_default() })
+    let words = match failure {
+        // What has to be mended, without what else was noticed.
+        Failure::Input(Report(problems)) => {
+            let fatal = problems.iter().filter(|problem| problem.severity.is_fatal());
+            fatal.map(ToString::to_string).collect::<Vec<_>>().join("\n")
+        }
+        failure => failure.words().unwrap_or_default(),
+    };
+    json!({ "event": "error", "id": id, "message": words })
 }
 
 /// What says that a file is still the same: its length, and when it was written.

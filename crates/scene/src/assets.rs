@@ -2,9 +2,9 @@
 
 use std::fs::{self, File};
 use std::io::{self, Read};
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
-use crate::found_files::FoundFiles;
+use crate::found_files::{FoundFiles, without_dots};
 use crate::problem::{Problem, Severity, TextPosition};
 
 /// The longest file name that is accepted, in bytes; no system opens longer ones.
@@ -163,7 +163,7 @@ impl AssetFolders {
             }
             match fs::canonicalize(&candidate) {
                 Ok(real) if is_inside(&real, &allowed) => {
-                    self.found.note(request, &candidate, &name);
+                    self.found.note([request.beside, request.root], &candidate, &name);
                     return Ok(candidate);
                 }
                 Ok(_) => is_outside = true,
@@ -226,21 +226,6 @@ fn refusal(name: &str) -> Option<&'static str> {
 fn canonical(folder: &Path) -> PathBuf {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned())
-}
-
-/// The path with `.` and `..` resolved by text alone, without the file system.
-pub(crate) fn without_dots(path: &Path) -> PathBuf {
-    let mut plain = PathBuf::new();
-    for component in path.components() {
-        match component {
-            Component::ParentDir => {
-                plain.pop();
-            }
-            Component::CurDir => {}
-            other => plain.push(other),
-        }
-    }
-    plain
 }
 
 fn is_inside(path: &Path, allowed: &[PathBuf]) -> bool {

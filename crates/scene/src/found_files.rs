@@ -4,8 +4,6 @@ use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::assets::{AssetRequest, without_dots};
-
 /// The files that were found while a scene was read. Copies share one list.
 #[derive(Clone, Debug, Default)]
 pub struct FoundFiles {
@@ -24,13 +22,13 @@ impl PartialEq for FoundFiles {
 impl Eq for FoundFiles {}
 
 impl FoundFiles {
-    /// Notes a file. `name` is the request's, with `/` between folders.
-    pub(crate) fn note(&self, request: &AssetRequest<'_>, path: &Path, name: &str) {
+    /// Notes a file that the file `beside` names, in a scene of the folder `root`. `name` has `/` between folders.
+    pub(crate) fn note(&self, [beside, root]: [&Path; 2], path: &Path, name: &str) {
         let mut places = self.places.lock().unwrap_or_else(PoisonError::into_inner);
         // A file in a further folder that names others is thought to lie in the scene's folder, and they beside it.
-        let naming = places.get(&without_dots(request.beside)).cloned().unwrap_or_else(|| {
-            let root = std::fs::canonicalize(request.root).ok()?;
-            let folder = request.beside.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let naming = places.get(&without_dots(beside)).cloned().unwrap_or_else(|| {
+            let root = std::fs::canonicalize(root).ok()?;
+            let folder = beside.parent().filter(|folder| !folder.as_os_str().is_empty());
             let folder = std::fs::canonicalize(folder.unwrap_or(Path::new("."))).ok()?;
             Some(folder.strip_prefix(root).ok()?.join("file"))
         });
@@ -60,4 +58,19 @@ fn within(path: &Path) -> Option<PathBuf> {
         }
     }
     Some(plain)
+}
+
+/// The path with `.` and `..` resolved by text alone, without the file system.
+pub(crate) fn without_dots(path: &Path) -> PathBuf {
+    let mut plain = PathBuf::new();
+    for component in path.components() {
+        match component {
+            Component::ParentDir => {
+                plain.pop();
+            }
+            Component::CurDir => {}
+            other => plain.push(other),
+        }
+    }
+    plain
 }

@@ -46,9 +46,25 @@ def sum_now() -> str:
     return export.sum_of_inputs(scene, bpy.context.view_layer, (scene.frame_start, scene.frame_end))
 
 
+def twins() -> None:
+    """Keys on values that have two names."""
+    scenes.walk()
+    thing = next(thing for thing in bpy.data.objects if thing.type == "MESH")
+    bend = thing.modifiers.new("Bend", "SIMPLE_DEFORM")
+    bend.deform_method = "BEND"
+    bevel = thing.modifiers.new("Bevel", "BEVEL")
+    # It would add points.
+    bevel.show_render = bevel.show_viewport = False
+    track = thing.constraints.new("COPY_SCALE")
+    for frame, value in ((1, 0.1), (9, 0.6)):
+        for owner, name in ((bend, "angle"), (bevel, "width"), (track, "mute")):
+            setattr(owner, name, value > 0.5 if name == "mute" else value)
+            owner.keyframe_insert(name, frame=frame)
+
+
 def sums_stay() -> None:
     """The sum does not depend on the frame, the process, saving or rendering."""
-    makers = {"walk": scenes.walk, "cuts": scenes.cuts, "instances": scenes.instances, "rich": lambda: rich(str(OUT))}
+    makers = {"walk": scenes.walk, "cuts": scenes.cuts, "instances": scenes.instances, "rich": lambda: rich(str(OUT)), "twins": twins}
     for name, make in makers.items():
         make()
         first = sum_now()
@@ -253,6 +269,17 @@ def groups() -> None:
     assert mesh["extras"]["groupNames"] == ["Shirt"] and "_GROUP" in mesh["primitives"][0]["attributes"], mesh
 
 
-for check in (materials, groups, errors, sums_change, sums_stay, in_an_engine):
+def blur() -> None:
+    """What a camera blurs is told of, and only then."""
+    scenes.walk()
+    assert not shot("sharp").warnings
+    scene = bpy.context.scene
+    scene.camera.data.dof.use_dof = True
+    scene.render.use_motion_blur = True
+    told = shot("blurred").warnings
+    assert [words for words in told if "depth of field" in words or "Motion blur" in words] == told and len(told) == 2, told
+
+
+for check in (materials, groups, blur, errors, sums_change, sums_stay, in_an_engine):
     check()
     print(f"  {check.__doc__}")

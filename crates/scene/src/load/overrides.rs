@@ -47,7 +47,8 @@ pub(super) fn apply(
 }
 
 /// The text of a scene with values put in, as a person would: nothing else of it changes. A path that ends in `+` adds the value to a
-/// list; an empty value takes the field out, so that it is as if it had never been stated.
+/// list, at its end or, as in `regions[2]+`, before one of its items; an empty value takes the field or the item out, so that it is as if
+/// it had never been stated.
 ///
 /// # Errors
 /// The text is no scene, or a value does not fit.
@@ -93,6 +94,9 @@ fn end_of_list(located: &Located, field_path: &str) -> Result<Spot, Fault> {
         return Ok(Spot { before: spot.before + "[", after: format!("]{}", spot.after), ..spot });
     }
     let text = &located.text()[spot.start..spot.end];
+    if spot.field_path.ends_with(']') && !text.starts_with('[') {
+        return Ok(before_item(located, spot));
+    }
     let Some(inside) = text.strip_prefix('[').and_then(|rest| rest.strip_suffix(']')) else {
         return Err((format!("`{field_path}` is no list"), "set it as a whole, without `+`".to_owned()));
     };
@@ -104,15 +108,23 @@ fn end_of_list(located: &Located, field_path: &str) -> Result<Spot, Fault> {
     let Some(last) = last else {
         return Ok(Spot { start: spot.start + 1, end: spot.end - 1, ..spot });
     };
-    let indent: String = match inside.trim_start_matches([' ', '\t']).starts_with(['\n', '\r']) {
-        true => {
-            let lead = inside.trim_start_matches([' ', '\t', '\r', '\n']);
-            let blank = &inside[..inside.len() - lead.len()];
-            format!("\n{}", blank.rsplit('\n').next().unwrap_or_default())
-        }
-        false => " ".to_owned(),
-    };
-    Ok(Spot { start: last, end: last, before: format!(",{indent}"), ..spot })
+    Ok(Spot { start: last, end: last, before: format!(",{}", gap_in(inside)), ..spot })
+}
+
+/// Where a further item goes before one that is there.
+fn before_item(located: &Located, spot: Spot) -> Spot {
+    let head = &located.text()[..spot.start];
+    let blank = &head[head.trim_end().len()..];
+    let gap = if blank.contains('\n') { gap_in(blank) } else { " ".to_owned() };
+    Spot { end: spot.start, after: format!(",{gap}"), ..spot }
+}
+
+/// What stands between two parts of a value: a new line, indented as the first part is, where that is on a line of its own. `inside` is
+/// the text behind the bracket.
+fn gap_in(inside: &str) -> String {
+    let lead = inside.trim_start_matches([' ', '\t', '\r', '\n']);
+    let blank = &inside[..inside.len() - lead.len()];
+    blank.rsplit_once('\n').map_or_else(|| " ".to_owned(), |(_, indent)| format!("\n{indent}"))
 }
 
 /// The text without a field; `None` where it is not stated.
@@ -123,11 +135,15 @@ fn without_field(located: &Located, field_path: &str) -> Result<Option<String>, 
     }
     let text = located.text();
     let head = text[..spot.start].trim_end();
-    let Some(head) = head.strip_suffix(':') else {
-        return Err((format!("`{field_path}` is no field"), "name the field to take out".to_owned()));
+    let start = match head.strip_suffix(':') {
+        Some(head) => head.trim_end_matches(|letter: char| letter.is_alphanumeric() || letter == '_').len(),
+        // An item of a list.
+        None if spot.field_path.ends_with(']') => spot.start,
+        None => {
+            return Err((format!("`{field_path}` is no field"), "name the field to take out".to_owned()));
+        }
     };
-    let name = head.trim_end_matches(|letter: char| letter.is_alphanumeric() || letter == '_');
-    let (mut start, mut end) = (name.len(), spot.end);
+    let (mut start, mut end) = (start, spot.end);
     let behind = &text[end..];
     if let Some(rest) = behind.trim_start().strip_prefix(',') {
         end = text.len() - rest.len();
@@ -254,7 +270,11 @@ fn new_field(located: &Located, node: &Node, field_path: &str, known: String) ->
         return Err((format!("`{known}` cannot be added"), "write it into the scene file".to_owned()));
     };
     let at = name_end + bracket + 1;
-    let mut spot = Spot { start: at, end: at, field_path: known, ..Spot::default() };
+    let mut spot = match &node.inside {
+        Inside::Fields(fields) if !fields.is_empty() => after_last(located, node, at),
+        _ => Spot { start: at, end: at, ..Spot::default() },
+    };
+    spot.field_path = known;
     let mut is_first = true;
     let mut rest = field_path;
     while !rest.is_empty() {
@@ -271,7 +291,7 @@ fn new_field(located: &Located, node: &Node, field_path: &str, known: String) ->
                 spot.field_path.push('.');
                 spot.field_path.push_str(segment);
                 spot.before.push('(');
-                spot.after.push(')');
+                spot.after.insert(0, ')');
             }
             spot.before.push_str(segment);
             spot.before.push_str(": ");
@@ -283,8 +303,23 @@ fn new_field(located: &Located, node: &Node, field_path: &str, known: String) ->
         }
         rest = behind.trim_start_matches('.');
     }
-    spot.after.push_str(", ");
     Ok(spot)
+}
+
+/// The spot behind the last field of a struct; `inside` is where its first bracket ends.
+fn after_last(located: &Located, node: &Node, inside: usize) -> Spot {
+    let text = located.text();
+    let gap = gap_in(&text[inside..node.end as usize]);
+    let Inside::Fields(fields) = &node.inside else { return Spot::default() };
+    let last = fields.iter().map(|field| field.value.end as usize).max().unwrap_or(inside);
+    // A note at the end of the last field's line is about that field.
+    let tail = &text[last..node.end as usize];
+    let line = tail.split('\n').next().unwrap_or_default();
+    if tail.trim_start().starts_with(',') && line.contains("//") && gap.starts_with('\n') {
+        let at = last + line.trim_end().len();
+        return Spot { start: at, end: at, before: gap, after: ",".to_owned(), ..Spot::default() };
+    }
+    Spot { start: last, end: last, before: format!(",{gap}"), ..Spot::default() }
 }
 
 /// Fields that hold a variant and may be left out. If an inner field of one is set while the file leaves it out, this
