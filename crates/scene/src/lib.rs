@@ -7,6 +7,7 @@ pub mod built_in_mesh;
 pub mod check;
 pub mod document;
 pub mod gltf;
+pub mod kept_folder;
 pub mod limits;
 pub mod load;
 pub mod loaded;
