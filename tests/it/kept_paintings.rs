@@ -6,7 +6,9 @@ use std::path::Path;
 use std::process::{Command, Output};
 use std::sync::{Arc, Mutex};
 
-use impasto_painting::{FrameOptions, Kept, KeptKey, Painting, PrepareOptions, Preparer};
+use impasto_painting::{
+    FindKept, FrameOptions, Kept, KeptBytes, KeptKey, Painting, PrepareOptions, Preparer,
+};
 use impasto_scene::document::{Solver, Style};
 use impasto_scene::load::{LoadOptions, load};
 use impasto_scene::loaded::LoadedScene;
@@ -24,7 +26,7 @@ struct Shelf(Mutex<HashMap<KeptKey, Vec<u8>>>);
 impl Shelf {
     /// Prepares a scene with what is kept here, and keeps what was made.
     fn prepare(&self, preparer: &mut Preparer, loaded: &Arc<LoadedScene>) -> Painting {
-        let find = |key: &KeptKey| self.0.lock().unwrap().get(key).cloned();
+        let find = |key: &KeptKey| boxed(self.0.lock().unwrap().get(key).cloned());
         let painting = prepare_with(preparer, loaded, &find);
         if let Kept::NotThere(key) = painting.kept() {
             self.0.lock().unwrap().insert(*key, bytes(&painting, key));
@@ -33,11 +35,11 @@ impl Shelf {
     }
 }
 
-fn prepare_with(
-    preparer: &mut Preparer,
-    loaded: &Arc<LoadedScene>,
-    find: &(dyn Fn(&KeptKey) -> Option<Vec<u8>> + Sync),
-) -> Painting {
+fn boxed(bytes: Option<Vec<u8>>) -> Option<Box<dyn KeptBytes>> {
+    bytes.map(|bytes| Box::new(bytes) as Box<dyn KeptBytes>)
+}
+
+fn prepare_with(preparer: &mut Preparer, loaded: &Arc<LoadedScene>, find: &FindKept<'_>) -> Painting {
     let options = PrepareOptions { kept: Some(find), ..PrepareOptions::default() };
     preparer.prepare_with(Arc::clone(loaded), &options).unwrap()
 }
@@ -192,7 +194,7 @@ fn bytes_that_are_cut_changed_or_foreign_are_made_anew() {
     let whole = bytes(&first, &key);
     let mut preparer = Preparer::default();
     let mut unfit = |what: &str, bytes: Vec<u8>| {
-        let painting = prepare_with(&mut preparer, &loaded, &move |_| Some(bytes.clone()));
+        let painting = prepare_with(&mut preparer, &loaded, &move |_| boxed(Some(bytes.clone())));
         let Kept::Unfit(_, why) = painting.kept() else { panic!("{what}: {:?}", painting.kept()) };
         (why.clone(), painting)
     };
@@ -220,7 +222,9 @@ fn bytes_that_are_cut_changed_or_foreign_are_made_anew() {
         bytes[72..76].copy_from_slice(&crc.to_le_bytes());
         bytes
     };
-    assert!(is_taken(&prepare_with(&mut Preparer::default(), &loaded, &|_| Some(with(0, b"impasto")))));
+    assert!(is_taken(&prepare_with(&mut Preparer::default(), &loaded, &|_| boxed(Some(with(
+        0, b"impasto"
+    ))))));
     assert!(unfit("version", with(16, &99u32.to_le_bytes())).0.contains("another version"));
     assert!(unfit("key", with(24, &[7; 32])).0.contains("another scene"));
     assert!(unfit("arrays", with(56, &u64::MAX.to_le_bytes())).0.contains("damaged"));

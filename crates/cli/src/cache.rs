@@ -1,13 +1,14 @@
 //! `--cache`: what preparing makes is kept in a folder, for the next process that paints the same scene.
 
+use std::io;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 
 use clap::Args;
-use impasto_painting::{Kept, KeptKey, Painting};
-use impasto_scene::kept_folder::{KeptFolder, ToWrite};
+use impasto_painting::{Kept, KeptBytes, KeptKey, Painting};
+use impasto_scene::kept_folder::{KeptFile, KeptFolder, ToWrite};
 
 use crate::scene_args::size_bytes;
 
@@ -18,11 +19,11 @@ const VARIABLE: &str = "IMPASTO_CACHE";
 #[derive(Args, Clone, Debug, Default)]
 pub(crate) struct CacheArguments {
     /// A folder to keep prepared scenes in: who paints the same scene again begins at once; $IMPASTO_CACHE when left out, else none.
-    #[arg(long = "cache", value_name = "DIR")]
-    folder: Option<PathBuf>,
+    #[arg(long, value_name = "DIR")]
+    cache: Option<PathBuf>,
     /// The most that this folder may hold; what was used longest ago is removed.
-    #[arg(long = "cache-size", value_name = "SIZE", value_parser = size_bytes, default_value = "4G")]
-    size: u64,
+    #[arg(long, value_name = "SIZE", value_parser = size_bytes, default_value = "4G")]
+    cache_size: u64,
 }
 
 /// A folder of prepared scenes.
@@ -40,19 +41,20 @@ impl Cache {
     /// The folder that the command line or the environment names.
     pub(crate) fn of(arguments: &CacheArguments, memory_bytes: Option<u64>, verbose: bool) -> Option<Self> {
         let of_environment = || std::env::var_os(VARIABLE).filter(|folder| !folder.is_empty());
-        let path = arguments.folder.clone().or_else(|| of_environment().map(PathBuf::from))?;
-        let folder = KeptFolder { path, most_bytes: arguments.size };
+        let path = arguments.cache.clone().or_else(|| of_environment().map(PathBuf::from))?;
+        let folder = KeptFolder { path, most_bytes: arguments.cache_size };
         Some(Self { folder, memory_bytes, verbose, was_told: Arc::default() })
     }
 
     /// What is kept under a key.
-    pub(crate) fn find(&self, key: &KeptKey) -> Option<Vec<u8>> {
+    pub(crate) fn find(&self, key: &KeptKey) -> Option<Box<dyn KeptBytes>> {
         let key = key.to_string();
         let found = self.folder.find(&key, self.memory_bytes.unwrap_or(u64::MAX));
-        found.unwrap_or_else(|error| {
+        let found = found.unwrap_or_else(|error| {
             self.tell(&format!("{}: {error}: it is made anew", self.folder.file(&key).display()));
             None
-        })
+        });
+        found.map(|file| Box::new(OpenFile(file)) as Box<dyn KeptBytes>)
     }
 
     /// Keeps a painting that was not taken from the folder, while other work goes on.
@@ -107,6 +109,19 @@ impl Cache {
         if !self.was_told.swap(true, Ordering::Relaxed) {
             eprintln!("warning: {words}");
         }
+    }
+}
+
+/// A file of the folder.
+struct OpenFile(KeptFile);
+
+impl KeptBytes for OpenFile {
+    fn count(&self) -> u64 {
+        self.0.bytes
+    }
+
+    fn read(&self, from: u64, to: &mut [u8]) -> io::Result<()> {
+        self.0.read(from, to)
     }
 }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::{Driver, OpenOptions, open};
-use impasto_painting::{KeptKey, Painting, PrepareError, PrepareOptions, Preparer};
+use impasto_painting::{FindKept, KeptKey, Painting, PrepareError, PrepareOptions, Preparer};
 use impasto_scene::assets::AssetFolders;
 use impasto_scene::load::{LoadOptions, load};
 use impasto_scene::loaded::LoadedScene;
@@ -106,7 +106,7 @@ fn prepare_with(
     cache: Option<&Cache>,
 ) -> Result<Painting, Failure> {
     let find = cache.map(|cache| |key: &KeptKey| cache.find(key));
-    let kept = find.as_ref().map(|find| find as &(dyn Fn(&KeptKey) -> Option<Vec<u8>> + Sync));
+    let kept = find.as_ref().map(|find| find as &FindKept<'_>);
     preparer.prepare_with(loaded, &PrepareOptions { kept, ..options }).map_err(unprepared)
 }
 

@@ -12,6 +12,7 @@ mod scene_key;
 mod write;
 
 use std::fmt;
+use std::io::{self, Read as _};
 
 pub(crate) use contents::{KeptCoat, KeptObject, KeptPainting, Wanted};
 pub(crate) use key_hasher::KeyHasher;
@@ -38,6 +39,32 @@ impl fmt::Debug for KeptKey {
         write!(formatter, "KeptKey({self})")
     }
 }
+
+/// Bytes that another process kept, in a file or in memory.
+pub trait KeptBytes: Send + Sync {
+    /// How many there are.
+    fn count(&self) -> u64;
+
+    /// Reads all of `to`, from a place on.
+    ///
+    /// # Errors
+    /// Those of the system; fewer bytes than were said to be there.
+    fn read(&self, from: u64, to: &mut [u8]) -> io::Result<()>;
+}
+
+impl KeptBytes for Vec<u8> {
+    fn count(&self) -> u64 {
+        self.len() as u64
+    }
+
+    fn read(&self, from: u64, to: &mut [u8]) -> io::Result<()> {
+        let rest = usize::try_from(from).ok().and_then(|from| self.get(from..));
+        rest.unwrap_or_default().read_exact(to)
+    }
+}
+
+/// Gives what is kept under a key.
+pub type FindKept<'a> = dyn Fn(&KeptKey) -> Option<Box<dyn KeptBytes>> + Sync + 'a;
 
 /// What came of asking for what was kept.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

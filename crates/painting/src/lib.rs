@@ -55,7 +55,7 @@ mod view;
 pub use body_shape::{BodyNoise, BodyShape, FrameNoise, NoiseLayers};
 pub use frame::{Frame, Quality};
 pub use frame_options::{FrameOptions, Rotation, StrokeColors};
-pub use kept::{FORMAT as KEPT_FORMAT, Kept, KeptKey, ToKeep};
+pub use kept::{FindKept, Kept, KeptBytes, KeptKey, ToKeep};
 pub use painting::Painting;
 pub use particles::Particles;
 pub use prepare::{PrepareError, PrepareOptions, Preparer, Step, prepare};

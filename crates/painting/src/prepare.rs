@@ -288,8 +288,8 @@ impl Work<'_> {
         let Some(bytes) = find(&key) else { return (Kept::NotThere(key), None) };
         let brushes = brushes::names_of_rules(context.rules);
         let wanted = Wanted { surfaces: &surfaces, rules: context.rules.len(), brushes };
-        match KeptPainting::read(&bytes, &key, wanted) {
-            Ok(found) => (Kept::Taken(key, bytes.len() as u64), Some(found)),
+        match KeptPainting::read(&*bytes, &key, wanted) {
+            Ok(found) => (Kept::Taken(key, bytes.count()), Some(found)),
             Err(unfit) => (Kept::Unfit(key, unfit.to_string()), None),
         }
     }

@@ -2,7 +2,7 @@
 //! network share too: files come whole by their names or not at all, and nobody locks or waits.
 
 use std::fs::{self, File};
-use std::io::{self, Read as _, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
@@ -26,6 +26,39 @@ pub struct KeptFolder {
     pub most_bytes: u64,
 }
 
+/// A kept file, open: it stays what it is while another takes its name.
+#[derive(Debug)]
+pub struct KeptFile {
+    file: File,
+    /// How many bytes it had when it was opened.
+    pub bytes: u64,
+}
+
+impl KeptFile {
+    /// Reads all of `to`, from a place of the file on; several threads may read at once.
+    ///
+    /// # Errors
+    /// Those of the system; a file that ends before that.
+    pub fn read(&self, from: u64, to: &mut [u8]) -> io::Result<()> {
+        read_at(&self.file, from, to)
+    }
+}
+
+#[cfg(unix)]
+fn read_at(file: &File, from: u64, to: &mut [u8]) -> io::Result<()> {
+    std::os::unix::fs::FileExt::read_exact_at(file, to, from)
+}
+
+#[cfg(not(unix))]
+fn read_at(mut file: &File, from: u64, to: &mut [u8]) -> io::Result<()> {
+    use std::io::{Read as _, Seek as _, SeekFrom};
+    // All handles of the file share their place in it.
+    static ONE: std::sync::Mutex<()> = std::sync::Mutex::new(());
+    let _one = ONE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    file.seek(SeekFrom::Start(from))?;
+    file.read_exact(to)
+}
+
 /// What is to be kept.
 pub struct ToWrite<'a> {
     /// The key: 32 hexadecimal digits.
@@ -44,13 +77,12 @@ impl KeptFolder {
         self.path.join(format!("{key}{ENDING}"))
     }
 
-    /// The bytes that are kept under a key; `None` where there are none. The file counts as used now. Memory is taken for as many
-    /// bytes as the file has, and never for more than `most_bytes`.
+    /// The file that is kept under a key; `None` where there is none. It counts as used now.
     ///
     /// # Errors
-    /// Those of the system, and a file that is too large or no regular one.
-    pub fn find(&self, key: &str, most_bytes: u64) -> io::Result<Option<Vec<u8>>> {
-        let mut file = match File::open(self.file(key)) {
+    /// Those of the system, and what is no regular file or larger than `most_bytes`.
+    pub fn find(&self, key: &str, most_bytes: u64) -> io::Result<Option<KeptFile>> {
+        let file = match File::open(self.file(key)) {
             Ok(file) => file,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(error),
@@ -59,13 +91,9 @@ impl KeptFolder {
         if !metadata.is_file() || metadata.len() > most_bytes {
             return Err(io::Error::other("it is no regular file, or larger than the memory that there is"));
         }
-        let length = usize::try_from(metadata.len()).map_err(io::Error::other)?;
-        let mut bytes = Vec::new();
-        bytes.try_reserve_exact(length).map_err(io::Error::other)?;
-        (&mut file).take(metadata.len()).read_to_end(&mut bytes)?;
         // Where this is not allowed, the file only seems older than it is.
         let _ = file.set_modified(SystemTime::now());
-        Ok(Some(bytes))
+        Ok(Some(KeptFile { file, bytes: metadata.len() }))
     }
 
     /// Keeps bytes under a key. The folder is made if only its last part is missing.
@@ -195,7 +223,10 @@ mod tests {
         let at_work = old(&format!(".{}.prepared~Ab2.part", key(9)));
         used(&at_work, 60);
         // The oldest is used again.
-        assert_eq!(folder.find(&key(0), 1 << 20).unwrap().unwrap(), [0; 100]);
+        let (file, mut bytes) = (folder.find(&key(0), 1 << 20).unwrap().unwrap(), [1; 60]);
+        file.read(40, &mut bytes).unwrap();
+        assert_eq!((file.bytes, bytes), (100, [0; 60]));
+        assert!(file.read(41, &mut bytes).is_err(), "that is beyond its end");
         folder.tidy(&key(3));
         assert_eq!([0, 1, 2, 3].map(|number| is_there(&folder, number)), [true, false, false, true]);
         assert!(foreign.iter().all(|path| path.exists()) && at_work.exists() && !left_over.exists());
@@ -210,10 +241,10 @@ mod tests {
     fn what_cannot_be_kept_or_found_says_why() {
         let folder = tempfile::tempdir().unwrap();
         let kept = KeptFolder { path: folder.path().to_owned(), most_bytes: 250 };
-        assert_eq!(kept.find(&key(0), 1 << 20).unwrap(), None);
+        assert!(kept.find(&key(0), 1 << 20).unwrap().is_none());
         assert!(keep(&kept, 0, &[0; 251]).unwrap_err().to_string().contains("more than may be kept"));
         let missing = KeptFolder { path: folder.path().join("a/b"), most_bytes: 250 };
-        assert_eq!(missing.find(&key(0), 1 << 20).unwrap(), None);
+        assert!(missing.find(&key(0), 1 << 20).unwrap().is_none());
         assert_eq!(keep(&missing, 0, &[0; 3]).unwrap_err().kind(), io::ErrorKind::NotFound);
         missing.tidy(&key(0));
         keep(&kept, 1, &[1; 100]).unwrap();

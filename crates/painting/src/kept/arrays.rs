@@ -11,20 +11,21 @@
 //! | 4 | CRC-32 of the header so far and of the table |
 //! | 4 | zero |
 //! | 16 for each array | its length in bytes, its CRC-32, the size of its numbers |
-//! | | the arrays, each from a multiple of 64 bytes on |
+//! | | the arrays, one after the other |
 
 use std::borrow::Cow;
 use std::io::{self, Write};
 use std::marker::PhantomData;
 
-use bytemuck::{AnyBitPattern, NoUninit, Pod, Zeroable};
-use rayon::prelude::*;
+use bytemuck::{NoUninit, Pod, Zeroable};
 
-use super::{FORMAT, KeptKey};
+use super::{FORMAT, KeptBytes, KeptKey};
 
 const MAGIC: [u8; 16] = *b"impasto prepared";
 const ORDER: u32 = 0x0403_0201;
-const ALIGNMENT: u64 = 64;
+
+/// So many bytes are read at once: they are still near when their checksum is taken.
+const CHUNK: usize = 1 << 18;
 
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
@@ -58,6 +59,14 @@ pub(crate) enum Unfit {
     OtherKey,
     #[error("it is cut short or damaged")]
     Damaged,
+    #[error("it could not be read")]
+    Unread,
+}
+
+impl From<io::Error> for Unfit {
+    fn from(_: io::Error) -> Self {
+        Self::Unread
+    }
 }
 
 /// Arrays to be written.
@@ -75,15 +84,10 @@ impl<'a> ArraysToWrite<'a> {
         self.0.push((Cow::Owned(bytemuck::cast_slice(array).to_vec()), size_of::<T>() as u32));
     }
 
-    fn begin(&self) -> u64 {
-        (size_of::<Header>() + self.0.len() * size_of::<Row>()) as u64
-    }
-
     /// How many bytes are written.
     pub(super) fn bytes(&self) -> u64 {
-        let end =
-            |at: u64, array: &(Cow<'_, [u8]>, u32)| at.next_multiple_of(ALIGNMENT) + array.0.len() as u64;
-        self.0.iter().fold(self.begin(), end)
+        let table = self.0.len() * size_of::<Row>();
+        (size_of::<Header>() + table + self.0.iter().map(|(array, _)| array.len()).sum::<usize>()) as u64
     }
 
     /// Writes them under a key.
@@ -107,14 +111,7 @@ impl<'a> ArraysToWrite<'a> {
         header.crc = crc_of(&header, bytemuck::cast_slice(&table));
         out.write_all(bytemuck::bytes_of(&header))?;
         out.write_all(bytemuck::cast_slice(&table))?;
-        let mut at = self.begin();
-        for (array, _) in &self.0 {
-            let begin = at.next_multiple_of(ALIGNMENT);
-            out.write_all(&[0; ALIGNMENT as usize][..(begin - at) as usize])?;
-            out.write_all(array)?;
-            at = begin + array.len() as u64;
-        }
-        Ok(())
+        self.0.iter().try_for_each(|(array, _)| out.write_all(array))
     }
 }
 
@@ -126,14 +123,23 @@ fn crc_of(header: &Header, table: &[u8]) -> u32 {
     hasher.finalize()
 }
 
-/// Kept bytes that were checked: the arrays, one after the other.
-pub(super) struct Arrays<'a>(std::vec::IntoIter<(&'a [u8], u32)>);
+/// Kept bytes whose header was checked: the arrays, one after the other.
+pub(super) struct Arrays<'a> {
+    bytes: &'a dyn KeptBytes,
+    rows: std::vec::IntoIter<Row>,
+    /// Where the next array begins.
+    at: u64,
+}
 
 impl<'a> Arrays<'a> {
-    /// Checks the bytes against their key and their checksums. No number of theirs is believed before it is held against their length.
-    pub(super) fn open(bytes: &'a [u8], key: &KeptKey) -> Result<Self, Unfit> {
-        let (first, rest) = bytes.split_at_checked(size_of::<Header>()).ok_or(Unfit::Foreign)?;
-        let header: Header = bytemuck::pod_read_unaligned(first);
+    /// Checks the header against the key and its checksum. No number of it is believed before it is held against how many bytes
+    /// there are.
+    pub(super) fn open(bytes: &'a dyn KeptBytes, key: &KeptKey) -> Result<Self, Unfit> {
+        let mut header = Header::zeroed();
+        if bytes.count() < size_of::<Header>() as u64 {
+            return Err(Unfit::Foreign);
+        }
+        bytes.read(0, bytemuck::bytes_of_mut(&mut header))?;
         if header.magic != MAGIC {
             return Err(Unfit::Foreign);
         }
@@ -143,71 +149,70 @@ impl<'a> Arrays<'a> {
         if header.key != key.0 {
             return Err(Unfit::OtherKey);
         }
-        let table_bytes = usize::try_from(header.arrays).ok().and_then(|n| n.checked_mul(size_of::<Row>()));
-        let (table, _) = table_bytes.and_then(|n| rest.split_at_checked(n)).ok_or(Unfit::Damaged)?;
-        if header.bytes != bytes.len() as u64 || header.zero != 0 || header.crc != crc_of(&header, table) {
+        let begin = size_of::<Header>() as u64;
+        let table_bytes = header.arrays.checked_mul(size_of::<Row>() as u64);
+        let at = table_bytes.and_then(|bytes| bytes.checked_add(begin)).ok_or(Unfit::Damaged)?;
+        if header.bytes != bytes.count() || at > bytes.count() {
             return Err(Unfit::Damaged);
         }
-        let mut at = size_of::<Header>() + table.len();
-        let mut arrays = Vec::with_capacity(table.len() / size_of::<Row>());
-        for row in table.chunks_exact(size_of::<Row>()) {
-            let row: Row = bytemuck::pod_read_unaligned(row);
-            let begin = at.next_multiple_of(ALIGNMENT as usize);
-            let end = usize::try_from(row.bytes).ok().and_then(|length| begin.checked_add(length));
-            let array = end.and_then(|end| bytes.get(begin..end)).ok_or(Unfit::Damaged)?;
-            // What lies between two arrays is zero.
-            if bytes[at..begin].iter().any(|&byte| byte != 0) {
-                return Err(Unfit::Damaged);
-            }
-            at = begin + array.len();
-            arrays.push((array, row));
-        }
-        let is_whole = |(array, row): &(&[u8], Row)| crc32fast::hash(array) == row.crc;
-        if at != bytes.len() || !arrays.par_iter().with_max_len(1).all(is_whole) {
+        let mut table = vec![Row::zeroed(); usize::try_from(header.arrays).map_err(|_| Unfit::Damaged)?];
+        bytes.read(begin, bytemuck::cast_slice_mut(&mut table))?;
+        let end = table.iter().try_fold(at, |end, row| end.checked_add(row.bytes));
+        if header.crc != crc_of(&header, bytemuck::cast_slice(&table)) || end != Some(bytes.count()) {
             return Err(Unfit::Damaged);
         }
-        let arrays: Vec<_> = arrays.into_iter().map(|(array, row)| (array, row.size)).collect();
-        Ok(Self(arrays.into_iter()))
+        Ok(Self { bytes, rows: table.into_iter(), at })
     }
 
     /// The next array.
-    pub(super) fn next<T: AnyBitPattern + NoUninit>(&mut self) -> Result<Array<'a, T>, Unfit> {
-        let (bytes, size) = self.0.next().ok_or(Unfit::Damaged)?;
-        let is_whole = size as usize == size_of::<T>() && bytes.len().is_multiple_of(size_of::<T>());
-        if is_whole { Ok(Array { bytes, of: PhantomData }) } else { Err(Unfit::Damaged) }
+    pub(super) fn next<T>(&mut self) -> Result<Array<'a, T>, Unfit> {
+        let row = self.rows.next().ok_or(Unfit::Damaged)?;
+        let array = Array { bytes: self.bytes, at: self.at, row, of: PhantomData };
+        self.at += row.bytes;
+        let is_whole = row.size as usize == size_of::<T>() && row.bytes.is_multiple_of(row.size.into());
+        if is_whole { Ok(array) } else { Err(Unfit::Damaged) }
     }
 
     /// Fails where arrays are left.
     pub(super) fn end(mut self) -> Result<(), Unfit> {
-        if self.0.next().is_none() { Ok(()) } else { Err(Unfit::Damaged) }
+        if self.rows.next().is_none() { Ok(()) } else { Err(Unfit::Damaged) }
     }
 }
 
-/// An array as it lies in the bytes.
+/// An array that was not read yet.
 #[derive(Clone, Copy)]
 pub(super) struct Array<'a, T> {
-    bytes: &'a [u8],
-    of: PhantomData<T>,
+    bytes: &'a dyn KeptBytes,
+    at: u64,
+    row: Row,
+    of: PhantomData<fn() -> T>,
 }
 
-impl<T: AnyBitPattern + NoUninit> Array<'_, T> {
+impl<T: Pod> Array<'_, T> {
     /// How many numbers it has.
     pub(super) fn len(&self) -> usize {
-        self.bytes.len() / size_of::<T>()
+        self.row.bytes as usize / size_of::<T>()
     }
 
-    /// A copy; numbers in the bytes are not where the processor wants them.
-    pub(super) fn to_vec(self) -> Vec<T> {
-        bytemuck::pod_collect_to_vec(self.bytes)
+    /// Reads it, and checks its checksum. That there are so many bytes is known.
+    pub(super) fn read(self) -> Result<Vec<T>, Unfit> {
+        let mut numbers = vec![T::zeroed(); self.len()];
+        let (mut hasher, mut at) = (crc32fast::Hasher::new(), self.at);
+        for chunk in bytemuck::cast_slice_mut(&mut numbers).chunks_mut(CHUNK) {
+            self.bytes.read(at, chunk)?;
+            hasher.update(chunk);
+            at += chunk.len() as u64;
+        }
+        if hasher.finalize() == self.row.crc { Ok(numbers) } else { Err(Unfit::Damaged) }
     }
 
-    /// A copy, if it has this many numbers.
+    /// Reads it, if it has this many numbers.
     pub(super) fn of_len(self, len: usize) -> Result<Vec<T>, Unfit> {
-        if self.len() == len { Ok(self.to_vec()) } else { Err(Unfit::Damaged) }
+        if self.len() == len { self.read() } else { Err(Unfit::Damaged) }
     }
 
-    /// A copy, if it has this many numbers or none.
+    /// Reads it, if it has this many numbers or none.
     pub(super) fn of_len_or_empty(self, len: usize) -> Result<Vec<T>, Unfit> {
-        if self.len() == 0 { Ok(Vec::new()) } else { self.of_len(len) }
+        self.of_len(if self.len() == 0 { 0 } else { len })
     }
 }

@@ -10,8 +10,8 @@ use impasto_core::solve::BakedParticles;
 use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
 
-use super::KeptKey;
 use super::arrays::{Array, Arrays, Unfit};
+use super::{KeptBytes, KeptKey};
 use crate::bake::BakedBody;
 use crate::body::BodySurface;
 use crate::frame::Brushes;
@@ -94,16 +94,16 @@ pub(crate) struct Wanted<'a> {
 
 impl KeptPainting {
     /// Reads what is kept under a key.
-    pub(crate) fn read(bytes: &[u8], key: &KeptKey, wanted: Wanted<'_>) -> Result<Self, Unfit> {
+    pub(crate) fn read(bytes: &dyn KeptBytes, key: &KeptKey, wanted: Wanted<'_>) -> Result<Self, Unfit> {
         let mut arrays = Arrays::open(bytes, key)?;
         let [sizes] = arrays.next::<Sizes>()?.numbers()?;
         let is = (sizes.objects, sizes.rules, sizes.brushes);
         if is != (wanted.surfaces.len() as u64, wanted.rules as u64, wanted.brushes.len() as u64) {
             return Err(Unfit::Damaged);
         }
-        let mut brushes = Vec::new();
-        for _ in &wanted.brushes {
-            brushes.push(arrays.next::<[u8; 3]>()?);
+        let mut marks = Vec::new();
+        for _ in 0..wanted.brushes.len() * brush::VARIANTS as usize {
+            marks.push(arrays.next::<[u8; 3]>()?);
         }
         let mut objects = Vec::new();
         for surface in wanted.surfaces {
@@ -111,16 +111,23 @@ impl KeptPainting {
         }
         let [order, firsts] = [arrays.next::<u32>()?, arrays.next::<u32>()?];
         arrays.end()?;
-        // From here on, memory is taken: as much as the bytes themselves.
-        let marks: Result<_, Unfit> = brushes.into_par_iter().map(marks).collect();
-        let objects: Result<Vec<KeptObject>, Unfit> =
-            objects.into_par_iter().map(|object| object.read(wanted.rules)).collect();
+        // From here on, memory is taken: as much as there are bytes.
+        let mark = |texels: Array<'_, [u8; 3]>| Ok(Mark { texels: texels.of_len(TEXELS)? });
+        let read_marks = || marks.into_par_iter().map(mark).collect::<Result<Vec<Mark>, Unfit>>();
+        let read_objects = || {
+            let objects = objects.into_par_iter().map(|object| object.read(wanted.rules));
+            objects.collect::<Result<Vec<KeptObject>, Unfit>>()
+        };
+        let ((marks, order), objects) =
+            rayon::join(|| rayon::join(read_marks, || order.read()), read_objects);
         let objects = objects?;
         let counts: Vec<usize> =
             objects.iter().flat_map(|object| object.coats.iter().flatten()).map(|coat| coat.count).collect();
+        let marks = marks?;
+        let of_brush = marks.chunks(brush::VARIANTS as usize).map(|marks| Arc::new(marks.to_vec()));
         Ok(Self {
-            brushes: Brushes { names: wanted.brushes, marks: marks? },
-            order: PaintingOrder::of_kept(order.to_vec(), firsts.to_vec(), &counts).ok_or(Unfit::Damaged)?,
+            brushes: Brushes { names: wanted.brushes, marks: of_brush.collect() },
+            order: PaintingOrder::of_kept(order?, firsts.read()?, &counts).ok_or(Unfit::Damaged)?,
             objects,
         })
     }
@@ -129,16 +136,11 @@ impl KeptPainting {
 impl<T: Pod> Array<'_, T> {
     /// A few numbers, if there are just so many.
     fn numbers<const COUNT: usize>(self) -> Result<[T; COUNT], Unfit> {
-        <[T; COUNT]>::try_from(self.to_vec()).map_err(|_| Unfit::Damaged)
+        <[T; COUNT]>::try_from(self.of_len(COUNT)?).map_err(|_| Unfit::Damaged)
     }
 }
 
-fn marks(texels: Array<'_, [u8; 3]>) -> Result<Arc<Vec<Mark>>, Unfit> {
-    let texels = texels.of_len(TEXELS * brush::VARIANTS as usize)?;
-    Ok(Arc::new(texels.chunks_exact(TEXELS).map(|texels| Mark { texels: texels.to_vec() }).collect()))
-}
-
-/// The arrays of an object as they lie in the bytes.
+/// The arrays of an object that were not read yet.
 struct ObjectArrays<'a> {
     counts: [usize; LAYERS],
     coats: Vec<Option<CoatArrays<'a>>>,
@@ -173,7 +175,7 @@ impl<'a> ObjectArrays<'a> {
     }
 }
 
-/// The arrays of a coat as they lie in the bytes.
+/// The arrays of a coat that were not read yet.
 struct CoatArrays<'a> {
     surface: &'a BodySurface,
     numbers: CoatNumbers,
@@ -226,7 +228,7 @@ impl<'a> CoatArrays<'a> {
         let Self { surface, numbers, .. } = self;
         let count = usize::try_from(numbers.count).map_err(|_| Unfit::Damaged)?;
         let (triangles, has_colors) = (surface.mesh.triangles.len(), surface.has_colors());
-        let places = self.places.to_vec();
+        let places = self.places.read()?;
         let is_inside = |place: &PackedParticle| place.triangle() < triangles;
         if places.len() < count || !places.par_iter().all(is_inside) {
             return Err(Unfit::Damaged);
@@ -248,7 +250,7 @@ impl<'a> CoatArrays<'a> {
         };
         let polygons = match self.polygons {
             Some((of_particle, sides, faces)) => Some(
-                PolygonCounts::of_kept(of_particle.of_len(count)?, sides.to_vec(), faces.to_vec(), triangles)
+                PolygonCounts::of_kept(of_particle.of_len(count)?, sides.read()?, faces.read()?, triangles)
                     .ok_or(Unfit::Damaged)?,
             ),
             None => None,
@@ -256,7 +258,7 @@ impl<'a> CoatArrays<'a> {
         let most = usize::try_from(numbers.most_neighbours).map_err(|_| Unfit::Damaged)?;
         let neighbours = match self.neighbours {
             Some((slots, lengths, indices)) => Some(
-                Neighbours::from_arrays(slots.of_len(count)?, lengths.to_vec(), indices.to_vec(), most)
+                Neighbours::from_arrays(slots.of_len(count)?, lengths.read()?, indices.read()?, most)
                     .ok_or(Unfit::Damaged)?,
             ),
             None => None,

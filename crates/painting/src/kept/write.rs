@@ -42,9 +42,8 @@ impl Painting {
             rules: self.rules.len() as u64,
             brushes: self.brushes.names.len() as u64,
         }]);
-        for marks in &self.brushes.marks {
-            let texels: Vec<[u8; 3]> = marks.iter().flat_map(|mark| &mark.texels).copied().collect();
-            arrays.push_made(&texels);
+        for mark in self.brushes.marks.iter().flat_map(|marks| marks.iter()) {
+            arrays.push(&mark.texels);
         }
         for (object, body) in self.bodies.iter().enumerate() {
             let coats = LayerKind::ALL.map(|kind| self.coat(object, kind));

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use impasto_scene::document::{Scene, Solver};
 
-use crate::kept::KeptKey;
+use crate::kept::FindKept;
 
 /// Why a scene cannot be prepared.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -60,7 +60,7 @@ pub struct PrepareOptions<'a> {
     pub peak_bytes: &'a dyn Fn() -> Option<u64>,
     /// Gives the bytes that another process kept under a key (see [`crate::Painting::to_keep`]), if there are any. It is called once,
     /// when the surfaces are there. `None` keeps nothing and asks for nothing.
-    pub kept: Option<&'a (dyn Fn(&KeptKey) -> Option<Vec<u8>> + Sync)>,
+    pub kept: Option<&'a FindKept<'a>>,
 }
 
 impl Default for PrepareOptions<'_> {
