@@ -12,6 +12,7 @@ use impasto_painting::{
 use impasto_scene::document::{Solver, Style};
 use impasto_scene::load::{LoadOptions, load};
 use impasto_scene::loaded::LoadedScene;
+use impasto_scene::mesh_file::Texture;
 use impasto_tests::command::{impasto, root};
 use impasto_tests::shapes;
 
@@ -132,7 +133,7 @@ fn ink_morphs_noise_joints_caches_shots_and_every_solver_come_back_as_they_were(
     for (name, set, frame) in [
         ("sumi_e_apple", &[][..], 3.0),
         ("morph", &[], 20.0),
-        ("noise_displace", &[], 11.0),
+        ("explosion", &[], 11.0),
         ("parade", &[], 13.0),
         ("parade", &horn, 13.0),
         ("lane", &[], 5.0),
@@ -168,6 +169,21 @@ fn a_mesh_a_texture_and_a_brush_that_change_change_the_key() {
     Arc::make_mut(mesh).materials[0].color[0] *= 0.99;
     let mut elsewhere = LoadedScene::clone(&start);
     elsewhere.path = "/elsewhere/scene.ron".into();
+    let mut textured = LoadedScene::clone(&start);
+    let mesh = textured.meshes.values_mut().next().unwrap();
+    let texture = &mut Arc::make_mut(mesh).materials[0].texture;
+    let Texture { size_px, rgba8 } = &**texture.as_ref().unwrap();
+    let mut rgba8 = rgba8.clone();
+    rgba8[1][2] ^= 1;
+    *texture = Some(Arc::new(Texture { size_px: *size_px, rgba8 }));
+    let mut brushed = LoadedScene::clone(&start);
+    let brush = |grey: u8| Arc::new(Texture { size_px: [2, 1], rgba8: vec![[0; 4], [grey; 4]] });
+    brushed.brushes.insert("mark.png".to_owned(), brush(255));
+    let with_brush = key(&Arc::new(brushed.clone()));
+    brushed.brushes.insert("mark.png".to_owned(), brush(254));
+    assert_ne!(with_brush, key(&Arc::new(brushed)));
+    assert_ne!(own, with_brush);
+    assert_ne!(own, key(&Arc::new(textured)));
     assert_ne!(own, key(&Arc::new(moved)));
     assert_ne!(own, key(&Arc::new(painted)));
     assert_eq!(own, key(&Arc::new(elsewhere)), "where the file lies does not matter");
@@ -256,7 +272,13 @@ fn eight_threads_take_what_is_kept_while_it_is_made() {
 const SMALL: [&str; 4] = ["--set", "strokes.scale=6", "--size", "160x90"];
 
 fn strokes(folder: &Path, more: &[&str]) -> Output {
+    strokes_with(folder, more, "")
+}
+
+/// `variable` is the folder that the environment names.
+fn strokes_with(folder: &Path, more: &[&str], variable: &str) -> Output {
     let mut command = Command::new(impasto());
+    command.env("IMPASTO_CACHE", variable);
     command.arg("strokes").arg(root().join("scenes/still_life.ron")).args(SMALL).args(more);
     command.current_dir(folder).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
     let output = command.output().unwrap();
@@ -298,6 +320,9 @@ fn eight_processes_share_one_folder() {
     let words = String::from_utf8_lossy(&mended.stderr);
     assert!(words.lines().count() == 1 && words.contains("made anew"), "{words}");
     assert!(mended.stdout == without && std::fs::read(&file).unwrap() == whole);
+    // The environment names a folder too.
+    assert!(strokes_with(folder.path(), &[], "other").stdout == without);
+    assert_eq!(names(&folder.path().join("other")), kept);
 }
 
 #[test]

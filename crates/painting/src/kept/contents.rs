@@ -123,10 +123,11 @@ impl KeptPainting {
         let objects = objects?;
         let counts: Vec<usize> =
             objects.iter().flat_map(|object| object.coats.iter().flatten()).map(|coat| coat.count).collect();
-        let marks = marks?;
-        let of_brush = marks.chunks(brush::VARIANTS as usize).map(|marks| Arc::new(marks.to_vec()));
+        let mut marks = marks?.into_iter();
+        let variants = brush::VARIANTS as usize;
+        let of_brush = |_: &String| Arc::new(marks.by_ref().take(variants).collect());
         Ok(Self {
-            brushes: Brushes { names: wanted.brushes, marks: of_brush.collect() },
+            brushes: Brushes { marks: wanted.brushes.iter().map(of_brush).collect(), names: wanted.brushes },
             order: PaintingOrder::of_kept(order?, firsts.read()?, &counts).ok_or(Unfit::Damaged)?,
             objects,
         })
