@@ -176,6 +176,12 @@ impl<'a> ObjectArrays<'a> {
     }
 }
 
+/// Those of [`PolygonCounts`]: of particles, sides, faces.
+type PolygonArrays<'a> = (Array<'a, [u32; 2]>, Array<'a, PolygonSide>, Array<'a, [u32; 3]>);
+
+/// Those of [`Neighbours`]: slots, lengths, indices.
+type NeighbourArrays<'a> = (Array<'a, u32>, Array<'a, u8>, Array<'a, u32>);
+
 /// The arrays of a coat that were not read yet.
 struct CoatArrays<'a> {
     surface: &'a BodySurface,
@@ -188,8 +194,8 @@ struct CoatArrays<'a> {
     vectors: [Array<'a, f32>; 12],
     flatness: Array<'a, f32>,
     base_angle_rad: Array<'a, f32>,
-    polygons: Option<(Array<'a, [u32; 2]>, Array<'a, PolygonSide>, Array<'a, [u32; 3]>)>,
-    neighbours: Option<(Array<'a, u32>, Array<'a, u8>, Array<'a, u32>)>,
+    polygons: Option<PolygonArrays<'a>>,
+    neighbours: Option<NeighbourArrays<'a>>,
 }
 
 impl<'a> CoatArrays<'a> {

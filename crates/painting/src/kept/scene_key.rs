@@ -59,7 +59,7 @@ impl SceneKey<'_> {
                 .flat_map(|surface| &surface.materials)
                 .filter_map(|material| material.texture.as_ref())
                 .chain(loaded.brushes.values()),
-            |texture, key| of_texture(texture, key),
+            of_texture,
         );
         for (name, picture) in &loaded.brushes {
             key.words(name);
