@@ -24,6 +24,7 @@ mod horn;
 mod hostile_directions;
 mod hostile_scenes;
 mod inverse_bilinear;
+mod kept_paintings;
 mod lamp_shadows;
 mod light_billboards;
 mod measure;

@@ -122,14 +122,14 @@ fn edits() -> Vec<Edit> {
 }
 
 /// An edited scene, and the painting prepared from it alone.
-struct Version {
-    name: &'static str,
-    loaded: Arc<LoadedScene>,
-    cold: Painting,
+pub(crate) struct Version {
+    pub(crate) name: &'static str,
+    pub(crate) loaded: Arc<LoadedScene>,
+    pub(crate) cold: Painting,
 }
 
 /// The scene after each edit, prepared once for all tests.
-fn versions() -> &'static [Version] {
+pub(crate) fn versions() -> &'static [Version] {
     static VERSIONS: OnceLock<Vec<Version>> = OnceLock::new();
     VERSIONS.get_or_init(|| {
         let mut loaded = start();

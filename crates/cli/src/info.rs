@@ -10,11 +10,11 @@ use impasto_scene::mesh_file::MeshFile;
 
 use crate::args::InfoArguments;
 use crate::failure::Failure;
-use crate::session;
+use crate::session::{self, Prepared};
 
 pub(crate) fn run(arguments: &InfoArguments) -> Result<(), Failure> {
     let loaded = session::read_scene(&arguments.scene, false)?;
-    let painting = session::prepare_scene(loaded, &arguments.scene, false)?;
+    let Prepared { painting, storing: _storing } = session::prepare_scene(loaded, &arguments.scene, false)?;
     let facts = facts(&painting);
     let mut out = std::io::stdout();
     if arguments.json {

@@ -2,6 +2,7 @@
 
 mod args;
 mod brushes;
+mod cache;
 mod check;
 mod doctor;
 #[cfg(feature = "editor")]

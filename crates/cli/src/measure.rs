@@ -9,6 +9,7 @@ use impasto_measure::{MeasureError, MeasureOptions, MeasureReport, Progress, mea
 use impasto_scene::whole_file;
 
 use crate::args::MeasureArguments;
+use crate::cache::CacheArguments;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::scene_args::{PlacingArguments, SceneArguments};
@@ -32,6 +33,7 @@ pub(crate) fn run(arguments: &MeasureArguments) -> Result<(), Failure> {
             memory: None,
             // The thread pool is built once, with the first scene.
             threads: arguments.threads.filter(|_| index == 0),
+            cache: CacheArguments::default(),
         };
         let mut loaded = session::read_scene(&scene, arguments.quiet)?;
         if let Some(plot) = &arguments.plot {

@@ -18,11 +18,12 @@ use impasto_scene::whole_file::WholeFile;
 use impasto_sequence::{Drawn, Ending, FileOutcome, FrameFiles, Sequence, Wanted};
 
 use crate::args::{ColorsChoice, RenderArguments, RotationChoice};
+use crate::cache::Storing;
 use crate::failure::Failure;
 use crate::ffmpeg::{Encoding, FrameFormat, Kind, Movie};
 use crate::interrupt::Interrupt;
 use crate::progress::{Progress, progress_bar};
-use crate::session;
+use crate::session::{self, Prepared};
 use crate::sheet::Sheet;
 
 /// Where the pictures go.
@@ -44,6 +45,7 @@ struct Plan {
     renderer: Renderer,
     frames: FrameList,
     destination: Destination,
+    storing: Storing,
 }
 
 pub(crate) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
@@ -57,6 +59,7 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
         Destination::Movie(path, encoding) => plan.movie(arguments, &path, encoding, &interrupt),
         Destination::Stream => plan.stream(&interrupt),
     }?;
+    drop(plan.storing);
     fault.map_or(Ok(()), |fault| Err(Failure::Other(fault)))
 }
 
@@ -123,8 +126,9 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
         },
         ..FrameOptions::new(size_px)
     };
+    let Prepared { painting, storing } = session::prepare_scene(loaded, &arguments.scene, verbose)?;
     let sequence = Sequence {
-        painting: session::prepare_scene(loaded, &arguments.scene, verbose)?,
+        painting,
         options,
         scene_name,
         driver: session::driver(arguments.driver),
@@ -133,7 +137,7 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
         timed: verbose,
         counted: verbose || arguments.json,
     };
-    Ok(Plan { sequence, renderer, frames, destination })
+    Ok(Plan { sequence, renderer, frames, destination, storing })
 }
 
 /// Refuses to take a frame of another scene for one that is done.

@@ -7,6 +7,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use impasto_scene::document::Up;
 use impasto_scene::new_scene::{Ground, Placing, ViewFrom};
 
+use crate::cache::CacheArguments;
 use crate::failure::Failure;
 
 /// How to read a scene.
@@ -26,8 +27,10 @@ pub(crate) struct SceneArguments {
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<usize>,
     /// The most memory that particles may take, such as 512M or 4G; what the system has free when left out.
-    #[arg(long, value_name = "SIZE", value_parser = memory_bytes)]
+    #[arg(long, value_name = "SIZE", value_parser = size_bytes)]
     pub(crate) memory: Option<u64>,
+    #[command(flatten)]
+    pub(crate) cache: CacheArguments,
 }
 
 /// How a model without a scene is placed.
@@ -89,7 +92,7 @@ impl PlacingArguments {
 }
 
 /// Reads a number of bytes, with or without K, M, G or T behind it.
-fn memory_bytes(text: &str) -> Result<u64, String> {
+pub(crate) fn size_bytes(text: &str) -> Result<u64, String> {
     let words = || format!("{text:?} is no size: write a number of bytes, or one such as 512M or 4G");
     let text = text.trim();
     let digits = text.trim_end_matches(|letter: char| letter.is_ascii_alphabetic());

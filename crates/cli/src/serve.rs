@@ -11,7 +11,7 @@ use std::time::SystemTime;
 use impasto_frame_files::exr_file::Packing;
 use impasto_frame_files::{FrameList, Pattern, not_an_input, ready_folder};
 use impasto_gl_render::{Renderer, ShaderTexts};
-use impasto_painting::{FrameOptions, Painting, Preparer};
+use impasto_painting::{FrameOptions, Preparer};
 use impasto_scene::aovs::AovSet;
 use impasto_scene::problem::Report;
 use impasto_sequence::{Ending, FileOutcome, FrameFiles, Sequence, Wanted};
@@ -19,7 +19,7 @@ use serde_json::{Value, json};
 
 use crate::args::ServeArguments;
 use crate::failure::Failure;
-use crate::session;
+use crate::session::{self, Prepared};
 use orders::{Current, Order, Orders, RenderOrder};
 
 /// The version of the lines.
@@ -73,7 +73,7 @@ type Stamp = Option<(u64, SystemTime)>;
 
 /// A scene that was prepared.
 struct Ready {
-    painting: Painting,
+    prepared: Prepared,
     warnings: Vec<String>,
     inputs: Vec<PathBuf>,
     /// Of each input as it was before it was read.
@@ -116,21 +116,21 @@ impl Server<'_> {
             *first = begun;
         }
         let warnings = loaded.warnings.iter().map(ToString::to_string).collect();
-        let painting = session::prepare_by(&mut self.preparer, Arc::new(loaded), of_scene)?;
-        self.ready = Some(Ready { painting, warnings, inputs, stamps });
+        let prepared = session::prepare_by(&mut self.preparer, Arc::new(loaded), of_scene)?;
+        self.ready = Some(Ready { prepared, warnings, inputs, stamps });
         Ok(())
     }
 
     fn words_of_ready(&self, id: u64) -> Value {
         let Some(ready) = &self.ready else { return Value::Null };
-        let scene = ready.painting.scene();
+        let scene = ready.prepared.painting.scene();
         json!({
             "event": "ready",
             "id": id,
             "first": scene.timeline.first,
             "last": scene.timeline.last,
             "size": [scene.size.0, scene.size.1],
-            "particles": ready.painting.particle_total(),
+            "particles": ready.prepared.painting.particle_total(),
             "warnings": ready.warnings,
         })
     }
@@ -140,7 +140,9 @@ impl Server<'_> {
         tell(&self.words_of_ready(order.id))?;
         let frames = FrameList::parse(&order.frames).map_err(Failure::Usage)?;
         let pattern = Pattern::parse(&order.output, frames.count());
-        let Some(Ready { painting, inputs, .. }) = &self.ready else { return Ok(Ending::Stopped) };
+        let Some(Ready { prepared: Prepared { painting, .. }, inputs, .. }) = &self.ready else {
+            return Ok(Ending::Stopped);
+        };
         for frame in frames.iter() {
             not_an_input(&pattern.path(frame), inputs)?;
         }

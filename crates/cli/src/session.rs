@@ -4,13 +4,14 @@ use std::sync::Arc;
 
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::{Driver, OpenOptions, open};
-use impasto_painting::{Painting, PrepareError, PrepareOptions, Preparer};
+use impasto_painting::{FindKept, KeptKey, Painting, PrepareError, PrepareOptions, Preparer};
 use impasto_scene::assets::AssetFolders;
 use impasto_scene::load::{LoadOptions, load};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::memory;
 
 use crate::args::DriverChoice;
+use crate::cache::{Cache, Storing};
 use crate::failure::Failure;
 use crate::scene_args::SceneArguments;
 
@@ -48,19 +49,27 @@ pub(crate) fn read_scene(arguments: &SceneArguments, quiet: bool) -> Result<Load
     Ok(loaded)
 }
 
+/// A scene that was prepared.
+pub(crate) struct Prepared {
+    pub(crate) painting: Painting,
+    /// While what was prepared is kept in the cache.
+    pub(crate) storing: Storing,
+}
+
 /// Prepares a scene within the memory that it may take. Where `verbose`, time and peak memory of each step go to stderr.
 pub(crate) fn prepare_scene(
     loaded: LoadedScene,
     arguments: &SceneArguments,
     verbose: bool,
-) -> Result<Painting, Failure> {
+) -> Result<Prepared, Failure> {
+    let memory_bytes = arguments.memory.or_else(memory::available_bytes);
+    let cache = Cache::of(&arguments.cache, memory_bytes, verbose);
     let options = PrepareOptions {
-        memory_bytes: arguments.memory.or_else(memory::available_bytes),
+        memory_bytes,
         peak_bytes: if verbose { &memory::peak_since_last_bytes } else { &|| None },
         ..PrepareOptions::default()
     };
-    let prepared = Preparer::default().prepare_with(Arc::new(loaded), &options);
-    let painting = prepared.map_err(unprepared)?;
+    let painting = prepare_with(&mut Preparer::default(), Arc::new(loaded), options, cache.as_ref())?;
     if verbose {
         let total: f64 = painting.steps().iter().map(|step| step.seconds).sum();
         let particles = painting.particle_total();
@@ -71,18 +80,34 @@ pub(crate) fn prepare_scene(
             eprintln!("  {:<12}{:>8.1} ms {share:>5.1} %{peak}", step.name, step.seconds * 1e3);
         }
     }
-    Ok(painting)
+    let storing = cache.map_or_else(Storing::default, |cache| cache.store(&painting));
+    Ok(Prepared { painting, storing })
 }
 
-/// As [`prepare_scene`], by a preparer that knows an earlier state of the scene.
+/// As [`prepare_scene`], by a preparer that may know an earlier state of the scene. What a new one prepares is kept.
 pub(crate) fn prepare_by(
     preparer: &mut Preparer,
     loaded: Arc<LoadedScene>,
     arguments: &SceneArguments,
-) -> Result<Painting, Failure> {
+) -> Result<Prepared, Failure> {
     let memory_bytes = arguments.memory.or_else(memory::available_bytes);
+    // What is edited later is remembered by the preparer.
+    let cache = Cache::of(&arguments.cache, memory_bytes, false).filter(|_| preparer.is_new());
     let options = PrepareOptions { memory_bytes, ..PrepareOptions::default() };
-    preparer.prepare_with(loaded, &options).map_err(unprepared)
+    let painting = prepare_with(preparer, loaded, options, cache.as_ref())?;
+    let storing = cache.map_or_else(Storing::default, |cache| cache.store(&painting));
+    Ok(Prepared { painting, storing })
+}
+
+fn prepare_with(
+    preparer: &mut Preparer,
+    loaded: Arc<LoadedScene>,
+    options: PrepareOptions<'_>,
+    cache: Option<&Cache>,
+) -> Result<Painting, Failure> {
+    let find = cache.map(|cache| |key: &KeptKey| cache.find(key));
+    let kept = find.as_ref().map(|find| find as &FindKept<'_>);
+    preparer.prepare_with(loaded, &PrepareOptions { kept, ..options }).map_err(unprepared)
 }
 
 fn unprepared(error: PrepareError) -> Failure {

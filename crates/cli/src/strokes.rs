@@ -16,7 +16,7 @@ use serde::Serialize;
 use crate::args::{StrokeFormat, StrokesArguments};
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
-use crate::session;
+use crate::session::{self, Prepared};
 
 /// One line of the table. Pixels from the lower left, Y up; angles counter-clockwise from +X.
 #[derive(Debug, Serialize)]
@@ -60,7 +60,7 @@ pub(crate) fn run(arguments: &StrokesArguments) -> Result<(), Failure> {
     }
     let size_px = arguments.size.unwrap_or([loaded.scene.size.0, loaded.scene.size.1]);
     let mut renderer = session::open_renderer(arguments.driver, false)?;
-    let painting = session::prepare_scene(loaded, &arguments.scene, false)?;
+    let Prepared { painting, storing } = session::prepare_scene(loaded, &arguments.scene, false)?;
     let frame_number = arguments.frame.unwrap_or(painting.scene().timeline.first as f64);
     if !frame_number.is_finite() {
         return Err(Failure::Usage("--frame wants a number".to_owned()));
@@ -92,6 +92,7 @@ pub(crate) fn run(arguments: &StrokesArguments) -> Result<(), Failure> {
         let path = Path::new(&arguments.output);
         whole_file::write(path, text.as_bytes()).map_err(|error| Failure::of_file(path, error))?;
     }
+    drop(storing);
     painting.fault_words().map_or(Ok(()), |fault| Err(Failure::Other(fault)))
 }
 

@@ -34,6 +34,19 @@ pub struct Neighbours {
     indices: Vec<u32>,
 }
 
+/// Lists of neighbours as plain arrays, to be kept.
+#[derive(Clone, Copy, Debug)]
+pub struct NeighbourArrays<'a> {
+    /// For each particle the slot of its list.
+    pub slots: &'a [u32],
+    /// Length of each list, by slot.
+    pub lengths: &'a [u8],
+    /// `most` indices for each slot, of which those beyond its length mean nothing.
+    pub indices: &'a [u32],
+    /// How many indices are reserved for each list.
+    pub most: usize,
+}
+
 /// How many lists one task finds.
 const CHUNK: usize = 1024;
 
@@ -54,6 +67,24 @@ impl Neighbours {
     pub fn of(&self, particle: usize) -> &[u32] {
         let slot = self.slots[particle] as usize;
         &self.indices[slot * self.most..][..usize::from(self.lengths[slot])]
+    }
+
+    /// As plain arrays.
+    pub fn arrays(&self) -> NeighbourArrays<'_> {
+        let Self { slots, lengths, most, indices } = self;
+        NeighbourArrays { slots, lengths, indices, most: *most }
+    }
+
+    /// Lists that [`Neighbours::arrays`] gave; `None` for arrays that no lists have.
+    pub fn from_arrays(slots: Vec<u32>, lengths: Vec<u8>, indices: Vec<u32>, most: usize) -> Option<Self> {
+        let count = slots.len();
+        let is_inside = |number: &u32| (*number as usize) < count;
+        let fits = lengths.len() == count
+            && most <= MAX_NEIGHBOURS
+            && indices.len() == count * most
+            && lengths.iter().all(|&length| usize::from(length) <= most)
+            && slots.iter().chain(&indices).all(is_inside);
+        fits.then_some(Self { slots, lengths, most, indices })
     }
 
     /// Finds, for each particle, the [`MAX_NEIGHBOURS`] nearest others of the same body within `radius` (model units,

@@ -91,6 +91,16 @@ pub(crate) struct BakedBody {
 }
 
 impl BakedBody {
+    /// As it was kept.
+    pub(crate) fn of_kept(baked: BakedParticles, base_angle_rad: Vec<f32>) -> Self {
+        Self { baked, base_angle_rad }
+    }
+
+    /// The base angles of all particles, or none.
+    pub(crate) fn base_angles_rad(&self) -> &[f32] {
+        &self.base_angle_rad
+    }
+
     /// The angle of a particle's stroke in the reference picture of its rule, radians.
     pub(crate) fn base_angle_rad(
         &self,

@@ -15,8 +15,8 @@ use crate::regions::RegionRule;
 static MARKS: [OnceLock<Arc<Vec<Mark>>>; brush::NAMES.len()] =
     [const { OnceLock::new() }; brush::NAMES.len()];
 
-/// The brushes of all layers that lay paint.
-pub(crate) fn of_rules(loaded: &LoadedScene, rules: &[RegionRule]) -> Brushes {
+/// The names of the brushes of all layers that lay paint, sorted.
+pub(crate) fn names_of_rules(rules: &[RegionRule]) -> Vec<String> {
     let mut names: Vec<String> = rules
         .iter()
         .flat_map(|rule| LayerKind::ALL.map(|kind| rule.strokes.layer_of(kind)))
@@ -25,9 +25,23 @@ pub(crate) fn of_rules(loaded: &LoadedScene, rules: &[RegionRule]) -> Brushes {
         .collect();
     names.sort();
     names.dedup();
+    names
+}
+
+/// The brushes of these names.
+pub(crate) fn of_names(loaded: &LoadedScene, names: Vec<String>) -> Brushes {
     make_built_in_marks(&names);
     let marks = names.iter().map(|name| marks_of(loaded, name)).collect();
     Brushes { names, marks }
+}
+
+/// Takes the marks of built-in brushes over where they have not been made yet.
+pub(crate) fn know(brushes: &Brushes) {
+    for (name, marks) in brushes.names.iter().zip(&brushes.marks) {
+        if let Some(index) = brush::NAMES.iter().position(|known| known == name) {
+            MARKS[index].get_or_init(|| Arc::clone(marks));
+        }
+    }
 }
 
 /// Makes the built-in marks that have not been made yet, on all threads. It holds no lock while it works: two callers

@@ -14,6 +14,8 @@ use rayon::prelude::*;
 use crate::bake::{BakedBody, LiftSources};
 use crate::bent::Bent;
 use crate::body::BodySurface;
+use crate::context::{Context, ObjectInputs};
+use crate::kept::KeptCoat;
 use crate::made_once::made_once;
 use crate::paper::PolygonCounts;
 use crate::particles::Particles;
@@ -38,6 +40,36 @@ pub(crate) struct Coat {
     pub(crate) surface: Arc<BodySurface>,
     /// For each rule and each of its brushes: the index of the brush's first mark in the list of all brushes' marks.
     pub(crate) first_marks: Vec<Vec<u32>>,
+}
+
+impl Sampled {
+    /// As they were kept; what is large is taken out of `kept`.
+    pub(crate) fn of_kept(body: &Arc<BodySurface>, kept: &mut KeptCoat) -> Self {
+        let none = Particles::new(body, Arc::default(), 0);
+        Self {
+            particles: Particles::new(body, Arc::new(std::mem::take(&mut kept.places)), kept.count),
+            albedo: Arc::new(match body.has_colors() {
+                true => Albedo::OfParticle(std::mem::take(&mut kept.albedo)),
+                false => body.albedo(none.par_range(0..0)),
+            }),
+            area: kept.area,
+            polygons: kept.polygons.take().map(Arc::new),
+            state: kept.state,
+        }
+    }
+
+    /// Where sampling goes on when more particles are wanted.
+    pub(crate) fn state(&self) -> ProgressiveState {
+        self.state
+    }
+
+    /// The albedo of every particle sampled so far; none where the surface's materials tell it.
+    pub(crate) fn albedo_of_particles(&self) -> &[u32] {
+        match &*self.albedo {
+            Albedo::OfParticle(all) => all,
+            Albedo::OfMaterial(_) => &[],
+        }
+    }
 }
 
 impl Coat {
@@ -110,6 +142,20 @@ pub(crate) struct SampleInputs {
 }
 
 impl SampleInputs {
+    /// Of a coat that is to have `count` particles.
+    pub(crate) fn new(
+        context: &Context<'_>,
+        object: ObjectInputs<'_>,
+        kind: LayerKind,
+        count: usize,
+    ) -> Self {
+        Self {
+            surface: object.surface.clone(),
+            name_hash: context.name_hash(object.index, kind),
+            per_polygon: (context.paper && count > 0).then_some(count),
+        }
+    }
+
     /// The first `count` particles of a body. If `before` has so many, they are taken from it. If not, further ones are
     /// sampled and appended to those of `before`; with the paper's rule, all are sampled anew. `before` must come from
     /// equal inputs. `surface` is called only if particles are sampled.

@@ -8,7 +8,6 @@ use impasto_scene::document::{Scene, Solver};
 use impasto_scene::presets::LayerKind;
 
 use crate::body_shape::BodyShape;
-use crate::frame::Brushes;
 use crate::parts::Cap;
 use crate::references::BodyReferences;
 use crate::regions::{BodyGuide, BodyRegions, RegionRule};
@@ -23,7 +22,6 @@ pub(crate) struct Context<'a> {
     pub(crate) views: &'a [(PictureView, Vec<DAffine3>)],
     /// For each of these views, the objects' shapes.
     pub(crate) shapes: &'a [Vec<BodyShape>],
-    pub(crate) brushes: &'a Brushes,
     pub(crate) solver: Solver,
     /// Whether strokes are painted by the source paper's own rule.
     pub(crate) paper: bool,

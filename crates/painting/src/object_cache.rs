@@ -18,12 +18,16 @@ use crate::coat::{Coat, SampleInputs, Sampled};
 use crate::context::{Context, ObjectInputs};
 use crate::counts::CountInputs;
 use crate::field::{BodyField, FieldInputs, FieldSamples};
+use crate::frame::Brushes;
+use crate::kept::{KeptCoat, KeptObject};
+use crate::late_field::LateField;
 use crate::noise_displace::NoiseInputs;
 use crate::particles::Particles;
 use crate::parts::BodyParts;
 use crate::references::Standing;
+use crate::regions::RegionRule;
 use crate::surface::SurfaceInputs;
-use crate::traits::{CoatTraits, TraitInputs};
+use crate::traits::{CoatTraits, TraitInputs, Traits};
 
 const LAYERS: usize = LayerKind::ALL.len();
 
@@ -193,9 +197,9 @@ impl ObjectCache {
         });
     }
 
-    /// How many particles all coats have together.
-    pub(crate) fn counted(&self) -> usize {
-        self.counts.output().map_or(0, |counts| counts.iter().sum())
+    /// How many particles each coat is to have.
+    pub(crate) fn counted(&self) -> [usize; LAYERS] {
+        self.counts.output().copied().unwrap_or([0; LAYERS])
     }
 
     /// Samples the particles of every coat.
@@ -203,14 +207,10 @@ impl ObjectCache {
         let body = self.surface();
         let surface = OnceLock::new();
         let surface = || surface.get_or_init(|| Surface::with_sides(&body.mesh, &body.sides, |_| true));
-        let counts = self.counts.output().copied().unwrap_or([0; LAYERS]);
+        let counts = self.counted();
         let coats = self.coats.par_iter_mut().zip(LayerKind::ALL).zip(counts);
         coats.for_each(|((coat, kind), count)| {
-            let inputs = SampleInputs {
-                surface: object.surface.clone(),
-                name_hash: context.name_hash(object.index, kind),
-                per_polygon: (context.paper && count > 0).then_some(count),
-            };
+            let inputs = SampleInputs::new(context, object, kind, count);
             coat.sampled.resize(inputs, |inputs, before| inputs.sample(before, count, &body, surface));
         });
     }
@@ -229,37 +229,23 @@ impl ObjectCache {
 
     /// Solves the direction field of the body, where it needs one.
     pub(crate) fn solve_field(&mut self, context: &Context<'_>, object: ObjectInputs<'_>) {
-        // The paper's rule has no field.
-        let needed = FieldInputs::may_be_needed(object.used, context.rules, object.guides);
-        if !needed || context.paper {
+        if !needs_field(context, object) {
             self.field.clear();
             return;
         }
-        let ObjectSurface { body, parts, extent, .. } = self.object_surface().clone();
+        let body = self.surface();
         let name_hash = context.name_hash(object.index, LayerKind::Body);
         let sample_inputs = FieldSampleInputs { surface: object.surface.clone(), name_hash };
-        let samples = self.samples.update(sample_inputs, |_, _| {
-            let sampled = Surface::with_sides(&body.mesh, &body.sides, |_| true);
-            Arc::new(FieldSamples::new(&sampled, name_hash))
-        });
-        let inputs = FieldInputs {
-            samples: Arc::clone(samples),
-            references: Arc::clone(object.references),
-            regions: Arc::clone(object.regions),
-            guides: Arc::clone(object.guides),
-            rules: Arc::clone(context.rules),
-            parts,
-            extent,
-            used: Arc::clone(object.used),
-            orthographic: context.orthographic,
-        };
+        let samples =
+            Arc::clone(self.samples.update(sample_inputs, |_, _| Arc::new(field_samples(&body, name_hash))));
+        let inputs = self.field_inputs(context, object, Arc::clone(&samples));
         self.field.update(Arc::new(inputs), |inputs, before| {
             let before = before.and_then(|(_, field)| field);
             BodyField::solve(inputs, before.as_deref()).map(Arc::new)
         });
         for coat in &mut self.coats {
             let inputs =
-                StencilInputs { particles: coat.sampled().particles.clone(), samples: Arc::clone(samples) };
+                StencilInputs { particles: coat.sampled().particles.clone(), samples: Arc::clone(&samples) };
             coat.stencils.resize(inputs, |StencilInputs { particles, samples }, before| {
                 // Stencils of more particles of the same order serve as well.
                 before.filter(|before| before.count >= particles.len()).unwrap_or_else(|| CoatStencils {
@@ -270,13 +256,51 @@ impl ObjectCache {
         }
     }
 
+    fn field_inputs(
+        &self,
+        context: &Context<'_>,
+        object: ObjectInputs<'_>,
+        samples: Arc<FieldSamples>,
+    ) -> FieldInputs {
+        let ObjectSurface { parts, extent, .. } = self.object_surface();
+        FieldInputs {
+            samples,
+            references: Arc::clone(object.references),
+            regions: Arc::clone(object.regions),
+            guides: Arc::clone(object.guides),
+            rules: Arc::clone(context.rules),
+            parts: Arc::clone(parts),
+            extent: *extent,
+            used: Arc::clone(object.used),
+            orthographic: context.orthographic,
+        }
+    }
+
     /// The field of the body, if it has one.
-    pub(crate) fn field(&self) -> Option<Arc<BodyField>> {
-        self.field.output().and_then(Clone::clone)
+    pub(crate) fn field(&self) -> Arc<LateField> {
+        Arc::new(LateField::solved(self.field.output().and_then(Clone::clone)))
+    }
+
+    /// The field of a body whose coats were kept, to be solved if anybody asks.
+    pub(crate) fn late_field(&self, context: &Context<'_>, object: ObjectInputs<'_>) -> Arc<LateField> {
+        if !needs_field(context, object) {
+            return Arc::new(LateField::solved(None));
+        }
+        let (body, name_hash) = (self.surface(), context.name_hash(object.index, LayerKind::Body));
+        let inputs = self.field_inputs(context, object, Arc::default());
+        Arc::new(LateField::later(move || {
+            let samples = Arc::new(field_samples(&body, name_hash));
+            BodyField::solve(&Arc::new(FieldInputs { samples, ..inputs.clone() }), None).map(Arc::new)
+        }))
     }
 
     /// Bakes the coats that have particles, and the body layer's in any case.
-    pub(crate) fn bake(&mut self, context: &Context<'_>, object: ObjectInputs<'_>) -> Vec<Arc<Coat>> {
+    pub(crate) fn bake(
+        &mut self,
+        context: &Context<'_>,
+        object: ObjectInputs<'_>,
+        brushes: &Brushes,
+    ) -> Vec<Arc<Coat>> {
         let surface = self.object_surface().clone();
         let field = self.field.inputs().cloned().zip(self.field.output().cloned());
         let coats = self.coats.par_iter_mut().zip(LayerKind::ALL);
@@ -290,9 +314,85 @@ impl ObjectCache {
                         field: field.clone(),
                         stencils: Arc::clone(&stencils.stencils),
                     });
-                Arc::new(coat.bake(context, object, kind, &surface, combed))
+                let given = CoatInputs { context, object, brushes, kind, surface: &surface };
+                Arc::new(coat.bake(&given, combed))
             })
             .collect()
+    }
+
+    /// The coats as they were kept. What later edits may go on from is remembered: counts, particles and lists of neighbours.
+    pub(crate) fn take_kept(
+        &mut self,
+        context: &Context<'_>,
+        object: ObjectInputs<'_>,
+        brushes: &Brushes,
+        kept: KeptObject,
+    ) -> Vec<Arc<Coat>> {
+        let surface = self.object_surface().clone();
+        let inputs = CountInputs::new(context, object, Arc::clone(&surface.body));
+        self.counts.update(inputs, |_, _| kept.counts);
+        let coats = self.coats.par_iter_mut().zip(LayerKind::ALL).zip(kept.coats);
+        let coats = coats.filter_map(|((coat, kind), kept)| {
+            coat.sampled.clear();
+            let given = CoatInputs { context, object, brushes, kind, surface: &surface };
+            kept.map(|kept| Arc::new(coat.take_kept(&given, kept)))
+        });
+        coats.collect()
+    }
+}
+
+/// Whether the body of an object has a direction field; the paper's rule has none.
+fn needs_field(context: &Context<'_>, object: ObjectInputs<'_>) -> bool {
+    FieldInputs::may_be_needed(object.used, context.rules, object.guides) && !context.paper
+}
+
+fn field_samples(body: &BodySurface, name_hash: u32) -> FieldSamples {
+    FieldSamples::new(&Surface::with_sides(&body.mesh, &body.sides, |_| true), name_hash)
+}
+
+/// What a coat is made from.
+struct CoatInputs<'a> {
+    context: &'a Context<'a>,
+    object: ObjectInputs<'a>,
+    brushes: &'a Brushes,
+    kind: LayerKind,
+    surface: &'a ObjectSurface,
+}
+
+impl CoatInputs<'_> {
+    /// What the traits of these particles are made from.
+    fn traits(&self, particles: Particles) -> TraitInputs {
+        TraitInputs::new(self.context, self.object, self.kind, particles, &self.surface.parts)
+    }
+
+    fn lift_sources(&self, traits: &Arc<Traits>, neighbours: Option<&Arc<Neighbours>>) -> LiftSources {
+        LiftSources {
+            traits: Arc::clone(traits),
+            neighbours: match self.context.solver {
+                Solver::Tangent => None,
+                Solver::Horn | Solver::HornExact => neighbours.cloned(),
+            },
+            references: Arc::clone(self.object.references),
+            rules: Arc::clone(self.context.rules),
+            extent: self.surface.extent,
+        }
+    }
+
+    fn coat(&self, sampled: &Arc<Sampled>, lift_sources: LiftSources, baked: Arc<BakedBody>) -> Coat {
+        let brushes = self.brushes;
+        let of_rule = |rule: &RegionRule| brushes.first_marks(rule.strokes.layer_of(self.kind));
+        Coat {
+            object: self.object.index,
+            kind: self.kind,
+            sampled: Arc::clone(sampled),
+            used: Arc::clone(self.object.used),
+            traits: Arc::clone(&lift_sources.traits),
+            lift_sources,
+            baked,
+            sorted: OnceLock::new(),
+            surface: Arc::clone(&self.surface.body),
+            first_marks: self.context.rules.iter().map(of_rule).collect(),
+        }
     }
 }
 
@@ -301,54 +401,32 @@ impl CoatCache {
         self.sampled.output().expect("the sampling step ran before")
     }
 
-    fn bake(
-        &mut self,
-        context: &Context<'_>,
-        object: ObjectInputs<'_>,
-        kind: LayerKind,
-        surface: &ObjectSurface,
-        combed: Option<Combed>,
-    ) -> Coat {
-        let particles = self.sampled().particles.clone();
-        let trait_inputs = TraitInputs::new(context, object, kind, particles, &surface.parts);
-        let trait_inputs = Arc::new(trait_inputs);
+    fn bake(&mut self, given: &CoatInputs<'_>, combed: Option<Combed>) -> Coat {
+        let trait_inputs = Arc::new(given.traits(self.sampled().particles.clone()));
         let CoatTraits { traits, stray_rad } =
             self.traits.resize(Arc::clone(&trait_inputs), |inputs, before| inputs.traits(before)).clone();
-        let lift_sources = LiftSources {
-            traits: Arc::clone(&traits),
-            neighbours: match context.solver {
-                Solver::Tangent => None,
-                Solver::Horn | Solver::HornExact => self.neighbours.output().cloned(),
-            },
-            references: Arc::clone(object.references),
-            rules: Arc::clone(context.rules),
-            extent: surface.extent,
-        };
+        let lift_sources = given.lift_sources(&traits, self.neighbours.output());
         let inputs = BakeInputs {
             sources: lift_sources.clone(),
             trait_inputs,
             stray_rad,
-            solver: context.solver,
-            used: Arc::clone(object.used),
+            solver: given.context.solver,
+            used: Arc::clone(given.object.used),
             combed,
         };
         let baked = Arc::clone(self.baked.resize(inputs, |inputs, before| inputs.bake(before)));
-        let first_marks = context
-            .rules
-            .iter()
-            .map(|rule| context.brushes.first_marks(rule.strokes.layer_of(kind)))
-            .collect();
-        Coat {
-            object: object.index,
-            kind,
-            sampled: Arc::clone(self.sampled()),
-            lift_sources,
-            used: Arc::clone(object.used),
-            traits,
-            baked,
-            sorted: OnceLock::new(),
-            surface: Arc::clone(&surface.body),
-            first_marks,
+        given.coat(self.sampled(), lift_sources, baked)
+    }
+
+    fn take_kept(&mut self, given: &CoatInputs<'_>, mut kept: KeptCoat) -> Coat {
+        let sampled = Arc::new(Sampled::of_kept(&given.surface.body, &mut kept));
+        let inputs = SampleInputs::new(given.context, given.object, given.kind, kept.wanted);
+        self.sampled.update(inputs, |_, _| Arc::clone(&sampled));
+        if let Some(lists) = kept.neighbours {
+            self.neighbours.update(sampled.particles.clone(), |_, _| Arc::new(lists));
         }
+        let traits = given.traits(sampled.particles.clone()).of_kept(kept.dabbed, kept.drift);
+        let lift_sources = given.lift_sources(&Arc::new(traits), self.neighbours.output());
+        given.coat(&sampled, lift_sources, Arc::new(kept.baked))
     }
 }

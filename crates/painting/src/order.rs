@@ -33,6 +33,28 @@ impl PaintingOrder {
     /// How many particles share one word of flags. Every coat begins with a new word.
     pub(crate) const WORD: usize = u64::BITS as usize;
 
+    /// An order that was kept, of coats of so many particles; `None` for numbers that are none of theirs.
+    pub(crate) fn of_kept(numbers: Vec<u32>, firsts: Vec<u32>, counts: &[usize]) -> Option<Self> {
+        let (begins, end) = begins(counts.iter().copied());
+        let mut coat_of_word = Vec::with_capacity(end / Self::WORD);
+        for (coat, count) in counts.iter().enumerate() {
+            coat_of_word.resize(coat_of_word.len() + count.div_ceil(Self::WORD), coat);
+        }
+        let is_particle = |&number: &u32| {
+            let coat = coat_of_word.get(number as usize / Self::WORD);
+            coat.is_some_and(|&coat| ((number - begins[coat]) as usize) < counts[coat])
+        };
+        let fits = firsts == begins
+            && numbers.len() == counts.iter().sum::<usize>()
+            && numbers.par_iter().with_min_len(4096).all(is_particle);
+        fits.then_some(Self { numbers, firsts })
+    }
+
+    /// What is kept of it.
+    pub(crate) fn to_keep(&self) -> [&[u32]; 2] {
+        [&self.numbers, &self.firsts]
+    }
+
     /// The numbers, in painting order.
     pub(crate) fn numbers(&self) -> &[u32] {
         &self.numbers
@@ -44,6 +66,18 @@ impl PaintingOrder {
         let coat = self.firsts.partition_point(|&first| first <= number) - 1;
         OrderEntry { coat: coat as u32, particle: number - self.firsts[coat] }
     }
+}
+
+/// The number of the first particle of each coat, and the number after the last coat.
+fn begins(counts: impl Iterator<Item = usize>) -> (Vec<u32>, usize) {
+    let mut next = 0;
+    let mut begin = |count: usize| {
+        let first = next as u32;
+        next = (next + count).next_multiple_of(PaintingOrder::WORD);
+        first
+    };
+    let firsts = counts.map(&mut begin).collect();
+    (firsts, next)
 }
 
 /// All that the order depends on.
@@ -95,12 +129,7 @@ impl OrderInputs {
 
     /// All particles in painting order; equal ranks of two objects are ordered by the hash of their names.
     pub(crate) fn order(&self) -> PaintingOrder {
-        let mut firsts = Vec::with_capacity(self.coats.len());
-        let mut next = 0;
-        for coat in &self.coats {
-            firsts.push(next as u32);
-            next = (next + coat.count).next_multiple_of(PaintingOrder::WORD);
-        }
+        let (firsts, _) = begins(self.coats.iter().map(|coat| coat.count));
         let mut runs: BTreeMap<(i32, LayerKind), Vec<Queue>> = BTreeMap::new();
         for (index, coat) in self.coats.iter().enumerate() {
             for (layer, particles) in coat.by_layer(&self.layers) {

@@ -15,9 +15,10 @@ use crate::bent::{Bent, BentMemo};
 use crate::body::BodySurface;
 use crate::body_shape::{BodyNoise, BodyShape, FrameNoise};
 use crate::coat::Coat;
-use crate::field::BodyField;
 use crate::finish::FinishRule;
 use crate::frame::{ANY_COLOR, Brushes, Palette};
+use crate::kept::Kept;
+use crate::late_field::LateField;
 use crate::order::PaintingOrder;
 use crate::particles::Particles;
 use crate::parts::Cap;
@@ -53,6 +54,7 @@ pub struct Painting {
     /// A sphere (centre, radius) round everything over the whole timeline.
     pub(crate) shadow_bounds: (Vec3, f32),
     pub(crate) steps: Vec<Step>,
+    pub(crate) kept: Kept,
 }
 
 /// One object, prepared: what all its coats lie on.
@@ -66,7 +68,9 @@ pub(crate) struct PreparedBody {
     /// Left out of the picture.
     pub(crate) hidden: bool,
     /// The direction field, where directions are not all stated outright.
-    pub(crate) field: Option<Arc<BodyField>>,
+    pub(crate) field: Option<Arc<LateField>>,
+    /// How many particles each layer was to have.
+    pub(crate) counts: [usize; LayerKind::ALL.len()],
     /// Which region lies where.
     pub(crate) regions: Arc<BodyRegions>,
 }
@@ -104,6 +108,11 @@ impl Painting {
     /// How long each step of preparing took.
     pub fn steps(&self) -> &[Step] {
         &self.steps
+    }
+
+    /// What came of asking for what another process kept.
+    pub fn kept(&self) -> &Kept {
+        &self.kept
     }
 
     /// How many particles the body layer of an object has; objects in the order of the scene.
@@ -220,7 +229,8 @@ impl Painting {
 
     /// The points of one object where the direction field has no direction; none where there is no field.
     pub fn singularities(&self, object: usize) -> &[Singularity] {
-        self.bodies[object].field.as_ref().map_or(&[], |field| field.singularities())
+        let field = self.bodies[object].field.as_ref().and_then(|field| field.get());
+        field.map_or(&[], |field| field.singularities())
     }
 
     /// For each particle of an object's body layer, whether its stated direction has a singular point near by: there the surface
@@ -229,7 +239,7 @@ impl Painting {
         self.coat(object, LayerKind::Body).map_or_else(Vec::new, |coat| coat.lift_sources.poles())
     }
 
-    fn coat(&self, object: usize, kind: LayerKind) -> Option<&Coat> {
+    pub(crate) fn coat(&self, object: usize, kind: LayerKind) -> Option<&Coat> {
         self.coats.iter().map(Arc::as_ref).find(|coat| coat.object == object && coat.kind == kind)
     }
 }

@@ -1,6 +1,7 @@
 //! Counts strokes by the source paper's own rule: each polygon shows as many of its particles as its projected area
 //! asks for.
 
+use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
 use impasto_core::ScreenMap;
 use impasto_core::TriangleMesh;
@@ -19,16 +20,57 @@ pub(crate) struct PolygonCounts {
 }
 
 /// One side of one polygon.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct PolygonSide {
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub(crate) struct PolygonSide {
     center: DVec3,
     normal: DVec3,
     area: f64,
     /// How many particles it has.
     count: u32,
+    unused: u32,
+}
+
+/// What is kept of [`PolygonCounts`].
+pub(crate) struct KeptPolygons<'a> {
+    pub(crate) of_particle: Vec<[u32; 2]>,
+    pub(crate) sides: &'a [PolygonSide],
+    pub(crate) faces: Vec<[u32; 3]>,
 }
 
 impl PolygonCounts {
+    /// As they were kept; `None` where a number counts in nothing.
+    pub(crate) fn of_kept(
+        of_particle: Vec<[u32; 2]>,
+        sides: Vec<PolygonSide>,
+        faces: Vec<[u32; 3]>,
+        triangles: usize,
+    ) -> Option<Self> {
+        let is_side = |side: u32| (side as usize) < sides.len();
+        let fits = of_particle.iter().all(|&[side, _]| is_side(side))
+            && faces.iter().all(|&[triangle, side, flipped]| {
+                (triangle as usize) < triangles && is_side(side) && flipped < 2
+            });
+        fits.then(|| Self {
+            of_particle: of_particle.into_iter().map(|[side, number]| (side, number)).collect(),
+            faces: faces
+                .into_iter()
+                .map(|[triangle, side, flipped]| (triangle, side, flipped == 1))
+                .collect(),
+            sides,
+        })
+    }
+
+    /// What is kept of them.
+    pub(crate) fn to_keep(&self) -> KeptPolygons<'_> {
+        let Self { of_particle, sides, faces } = self;
+        KeptPolygons {
+            of_particle: of_particle.iter().map(|&(side, number)| [side, number]).collect(),
+            sides,
+            faces: faces.iter().map(|&(triangle, side, flipped)| [triangle, side, flipped.into()]).collect(),
+        }
+    }
+
     pub(crate) fn new(surface: &Surface<'_>, mesh: &TriangleMesh, particles: &[PolygonParticle]) -> Self {
         let mut index_of: std::collections::HashMap<(u32, bool), u32> = std::collections::HashMap::new();
         let (mut sides, mut faces): (Vec<PolygonSide>, _) = (Vec::new(), Vec::new());
@@ -38,7 +80,7 @@ impl PolygonCounts {
             let [a, b, c] = mesh.corners(triangle as usize).map(Vec3::as_dvec3);
             let index = *index_of.entry((polygon_of(triangle), flipped)).or_insert(sides.len() as u32);
             if index as usize == sides.len() {
-                sides.push(PolygonSide { center: DVec3::ZERO, normal: DVec3::ZERO, area: 0.0, count: 0 });
+                sides.push(PolygonSide::zeroed());
             }
             faces.push((triangle, index, flipped));
             let side = &mut sides[index as usize];

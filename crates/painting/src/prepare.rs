@@ -8,9 +8,11 @@ use std::sync::Arc;
 use glam::DAffine3;
 use impasto_scene::document::{Lens, Scene, Solver, Style};
 use impasto_scene::loaded::LoadedScene;
+use impasto_scene::presets::LayerKind;
 use impasto_scene::{motion, presets};
 use rayon::prelude::*;
 
+use crate::body::BodySurface;
 use crate::body_shape::{BodyNoise, BodyShape};
 use crate::brushes;
 use crate::cached::Cached;
@@ -18,12 +20,14 @@ use crate::coat::Coat;
 use crate::context::{Context, ObjectInputs};
 use crate::finish::FinishRule;
 use crate::frame::Brushes;
+use crate::kept::{Kept, KeptPainting, SceneKey, Wanted};
 use crate::noise_displace::NoiseInputs;
 use crate::object_cache::ObjectCache;
 use crate::order::{OrderInputs, PaintingOrder};
 use crate::painting::{Painting, PreparedBody};
+use crate::parts::Cap;
 use crate::references::{BodyReferences, SceneReferences};
-use crate::regions::{self, BodyGuide, BodyRegions, RegionRule};
+use crate::regions::{self, BodyGuide, BodyRegions};
 use crate::shadow_bounds;
 use crate::shapes::{BodyShapes, file_bend, shapes};
 use crate::surface::SurfaceInputs;
@@ -50,6 +54,11 @@ pub fn prepare(loaded: Arc<LoadedScene>) -> Result<Painting, PrepareError> {
 }
 
 impl Preparer {
+    /// Whether it has prepared nothing yet.
+    pub fn is_new(&self) -> bool {
+        self.objects.is_empty()
+    }
+
     /// Prepares a scene, reusing every step whose inputs are those of the scene before.
     ///
     /// # Errors
@@ -78,8 +87,6 @@ impl Preparer {
         let Plain { painting: plain, references: of_body, guides, shapes } =
             plain(&loaded, &mut caches, &views, &frames);
         clock.lap("surfaces");
-        let brushes = self.brushes(&loaded, &plain.rules);
-        clock.lap("brushes");
         if give_up() {
             return self.given_up(scene, caches);
         }
@@ -90,7 +97,6 @@ impl Preparer {
             rules,
             views: &views,
             shapes: &shapes,
-            brushes: &brushes,
             solver: *solver,
             paper,
             underpainting: scene.style.settings().preparation().underpainting && !paper,
@@ -109,6 +115,7 @@ impl Preparer {
             body.regions = Arc::clone(regions);
         }
         let used: Vec<Arc<Vec<u16>>> = regions.iter().map(|regions| Arc::new(regions.all())).collect();
+        let caps: Vec<Vec<Cap>> = bodies.iter().map(|body| body.caps.clone()).collect();
         let objects: Vec<ObjectInputs<'_>> = (0..caches.len())
             .map(|index| ObjectInputs {
                 index,
@@ -117,53 +124,103 @@ impl Preparer {
                 used: &used[index],
                 guides: &guides[index],
                 references: &of_body[index],
-                caps: &bodies[index].caps,
+                caps: &caps[index],
             })
             .collect();
-        caches.par_iter_mut().zip(&objects).for_each(|(cache, &object)| cache.count(&context, object));
-        let counts: Vec<u64> = caches.iter().map(|cache| cache.counted() as u64).collect();
-        if let Err(error) = fits(options.memory_bytes, scene, &counts, *solver) {
-            self.put_back(scene, caches);
-            return Err(error);
+        let work = Work { loaded: &loaded, context: &context, objects: &objects, options };
+        let (kept, found) = work.find_kept(&bodies);
+        if options.kept.is_some() {
+            clock.lap("cache");
         }
-        caches.par_iter_mut().zip(&objects).for_each(|(cache, &object)| cache.sample(&context, object));
-        if give_up() {
-            return self.given_up(scene, caches);
+        let strokes = match found {
+            Some(found) => self.take_kept(&work, &mut caches, &mut bodies, found),
+            None => self.make(&work, &mut caches, &mut bodies, &mut clock),
+        };
+        self.put_back(scene, caches);
+        let Strokes { coats, brushes, order } = strokes?;
+        if matches!(kept, Kept::Taken(..)) {
+            clock.lap("taken");
         }
+        Ok(Painting { bodies, coats, brushes, order, kept, steps: clock.steps, ..plain })
+    }
+
+    /// Makes the strokes, step by step.
+    fn make(
+        &mut self,
+        work: &Work<'_>,
+        caches: &mut [ObjectCache],
+        bodies: &mut [PreparedBody],
+        clock: &mut StepClock<'_>,
+    ) -> Result<Strokes, PrepareError> {
+        let &Work { loaded, context, objects, options } = work;
+        let go_on = || if (options.give_up)() { Err(PrepareError::GivenUp) } else { Ok(()) };
+        let brushes = self.brushes(brushes::of_names(loaded, brushes::names_of_rules(context.rules)));
+        clock.lap("brushes");
+        go_on()?;
+        caches.par_iter_mut().zip(objects).for_each(|(cache, &object)| cache.count(context, object));
+        bodies.iter_mut().zip(&*caches).for_each(|(body, cache)| body.counts = cache.counted());
+        work.fits(bodies)?;
+        caches.par_iter_mut().zip(objects).for_each(|(cache, &object)| cache.sample(context, object));
+        go_on()?;
         clock.lap("sampling");
-        if matches!(solver, Solver::Horn | Solver::HornExact) {
+        if matches!(context.solver, Solver::Horn | Solver::HornExact) {
             caches.par_iter_mut().for_each(ObjectCache::find_neighbours);
             clock.lap("neighbours");
         }
-        if give_up() {
-            return self.given_up(scene, caches);
-        }
-        caches.par_iter_mut().zip(&objects).for_each(|(cache, &object)| {
-            if !give_up() {
-                cache.solve_field(&context, object);
+        go_on()?;
+        caches.par_iter_mut().zip(objects).for_each(|(cache, &object)| {
+            if go_on().is_ok() {
+                cache.solve_field(context, object);
             }
         });
         clock.lap("field");
-        if give_up() {
-            return self.given_up(scene, caches);
-        }
+        go_on()?;
         let coats: Vec<Vec<Arc<Coat>>> = caches
             .par_iter_mut()
-            .zip(&objects)
-            .map(|(cache, &object)| cache.bake(&context, object))
+            .zip(objects)
+            .map(|(cache, &object)| cache.bake(context, object, &brushes))
             .collect();
         let coats: Vec<Arc<Coat>> = coats.into_iter().flatten().collect();
-        for (body, cache) in bodies.iter_mut().zip(&caches) {
-            body.field = cache.field();
+        for (body, cache) in bodies.iter_mut().zip(&*caches) {
+            body.field = Some(cache.field());
         }
         clock.lap("lift");
-        let order = self.order.resize(OrderInputs::new(&coats, rules), |inputs, before| {
+        let order = self.order.resize(OrderInputs::new(&coats, context.rules), |inputs, before| {
             before.unwrap_or_else(|| Arc::new(inputs.order()))
         });
         let order = Arc::clone(order);
         clock.lap("order");
-        self.put_back(scene, caches);
-        Ok(Painting { bodies, coats, brushes, order, steps: clock.steps, ..plain })
+        Ok(Strokes { coats, brushes, order })
+    }
+
+    /// Takes the strokes as they were kept.
+    fn take_kept(
+        &mut self,
+        work: &Work<'_>,
+        caches: &mut [ObjectCache],
+        bodies: &mut [PreparedBody],
+        found: KeptPainting,
+    ) -> Result<Strokes, PrepareError> {
+        let &Work { context, objects, .. } = work;
+        for (body, object) in bodies.iter_mut().zip(&found.objects) {
+            body.counts = object.counts;
+        }
+        work.fits(bodies)?;
+        brushes::know(&found.brushes);
+        let brushes = self.brushes(found.brushes);
+        let coats: Vec<Vec<Arc<Coat>>> = caches
+            .par_iter_mut()
+            .zip(objects)
+            .zip(found.objects)
+            .map(|((cache, &object), kept)| cache.take_kept(context, object, &brushes, kept))
+            .collect();
+        let coats: Vec<Arc<Coat>> = coats.into_iter().flatten().collect();
+        for ((body, cache), &object) in bodies.iter_mut().zip(&*caches).zip(objects) {
+            body.field = Some(cache.late_field(context, object));
+        }
+        let order = Arc::new(found.order);
+        self.order.update(OrderInputs::new(&coats, context.rules), |_, _| Arc::clone(&order));
+        Ok(Strokes { coats, brushes, order })
     }
 
     /// The scene without strokes, in the style `Reference`: ready long before the strokes are.
@@ -198,12 +255,49 @@ impl Preparer {
         self.objects = scene.objects.iter().map(|object| object.name.clone()).zip(caches).collect();
     }
 
-    /// The marks of the brushes; the same `Arc` as before where they are equal, so that a renderer need not compare them.
-    fn brushes(&mut self, loaded: &LoadedScene, rules: &[RegionRule]) -> Arc<Brushes> {
-        let now = brushes::of_rules(loaded, rules);
+    /// These brushes; the same `Arc` as before where they are equal, so that a renderer need not compare them.
+    fn brushes(&mut self, now: Brushes) -> Arc<Brushes> {
         let brushes = self.brushes.take().filter(|before| **before == now).unwrap_or_else(|| Arc::new(now));
         self.brushes = Some(Arc::clone(&brushes));
         brushes
+    }
+}
+
+/// What the heavy steps are given.
+struct Work<'a> {
+    loaded: &'a LoadedScene,
+    context: &'a Context<'a>,
+    objects: &'a [ObjectInputs<'a>],
+    options: &'a PrepareOptions<'a>,
+}
+
+/// What the heavy steps make.
+struct Strokes {
+    coats: Vec<Arc<Coat>>,
+    brushes: Arc<Brushes>,
+    order: Arc<PaintingOrder>,
+}
+
+impl Work<'_> {
+    /// Asks for what another process kept.
+    fn find_kept(&self, bodies: &[PreparedBody]) -> (Kept, Option<KeptPainting>) {
+        let Self { loaded, context, objects, options } = *self;
+        let Some(find) = options.kept else { return (Kept::NotAsked, None) };
+        let surfaces: Vec<Arc<BodySurface>> = bodies.iter().map(|body| Arc::clone(&body.surface)).collect();
+        let key = SceneKey { loaded, context, objects, surfaces: &surfaces }.find();
+        let Some(bytes) = find(&key) else { return (Kept::NotThere(key), None) };
+        let brushes = brushes::names_of_rules(context.rules);
+        let wanted = Wanted { surfaces: &surfaces, rules: context.rules.len(), brushes };
+        match KeptPainting::read(&*bytes, &key, wanted) {
+            Ok(found) => (Kept::Taken(key, bytes.count()), Some(found)),
+            Err(unfit) => (Kept::Unfit(key, unfit.to_string()), None),
+        }
+    }
+
+    /// Checks that all particles fit into memory.
+    fn fits(&self, bodies: &[PreparedBody]) -> Result<(), PrepareError> {
+        let counts: Vec<u64> = bodies.iter().map(|body| body.counts.iter().sum::<usize>() as u64).collect();
+        fits(self.options.memory_bytes, self.context.scene, &counts, self.context.solver)
     }
 }
 
@@ -278,6 +372,7 @@ fn plain(
         caps: cache.parts().caps(of_body[index].own()),
         least_form: cache.parts().form.least(),
         field: None,
+        counts: [0; LayerKind::ALL.len()],
         regions: Arc::default(),
     });
     let bodies = bodies.collect();
@@ -312,6 +407,7 @@ fn plain(
         style: scene.style.clone(),
         shadow_bounds: shadow_bounds::find(&bounds, &lit, views),
         steps: Vec::new(),
+        kept: Kept::NotAsked,
     };
     let guides = guides.into_iter().map(Arc::new).collect();
     Plain { painting, references: of_body, guides, shapes }

@@ -15,6 +15,7 @@ use impasto_scene::motion;
 
 use crate::bent::Bent;
 use crate::body_shape::BodyShape;
+use crate::kept::KeyHasher;
 use crate::view::PictureView;
 
 /// Cosines of the angle between the normal and the direction to the eye. A reference states nothing about surfaces
@@ -114,6 +115,20 @@ pub(crate) struct Standing {
 impl PartialEq for Standing {
     fn eq(&self, other: &Self) -> bool {
         self.shape == other.shape
+    }
+}
+
+impl Standing {
+    /// Where it stands.
+    pub(crate) fn feed_key(&self, key: &mut KeyHasher) {
+        // Its vertices follow from the shape.
+        let Self { shape: _, bent, centers } = self;
+        key.numbers(&[u8::from(bent.is_some())]);
+        if let Some(bent) = bent {
+            key.numbers(&bent.vertices.positions);
+            key.numbers(&bent.vertices.normals);
+        }
+        key.numbers(centers);
     }
 }
 
@@ -231,6 +246,17 @@ impl BodyReferences {
     /// The scene's own.
     pub(crate) fn own(&self) -> &BodyReference {
         &self.all[0]
+    }
+
+    /// All of them.
+    pub(crate) fn feed_key(&self, key: &mut KeyHasher) {
+        let Self { all, further, of_rule } = self;
+        for BodyReference { map, near, roll_sin_cos, up_in_model, size_px, stands } in all {
+            key.value(&(map, near, roll_sin_cos, up_in_model, size_px));
+            stands.feed_key(key);
+        }
+        key.numbers(&[*further as u64]);
+        key.numbers(of_rule);
     }
 
     /// The one that a rule's directions refer to.

@@ -14,6 +14,7 @@ use impasto_scene::mesh_file::MeshFile;
 use impasto_scene::presets::{self, ResolvedStrokes};
 
 use crate::frame::{ANY_COLOR, Palette};
+use crate::kept::KeyHasher;
 use crate::lights::linear;
 use crate::references::Standing;
 
@@ -69,6 +70,19 @@ pub(crate) struct BodyGuideView {
     pub(crate) frame: Option<f64>,
     /// How the body stands at that frame; at rest without a frame.
     pub(crate) stands: Standing,
+}
+
+impl BodyGuide {
+    /// All of it.
+    pub(crate) fn feed_key(&self, key: &mut KeyHasher) {
+        let Self { rule, mode, guide, view } = self;
+        key.value(&(rule, mode, guide));
+        key.numbers(&[u8::from(view.is_some())]);
+        if let Some(BodyGuideView { eye, target, frame, stands }) = view {
+            key.value(&(eye, target, frame));
+            stands.feed_key(key);
+        }
+    }
 }
 
 /// The guides of an object, in the order of the file; those without a direction are left out (`check` refuses them).
@@ -205,6 +219,19 @@ impl BodyRegions {
     #[inline]
     pub(crate) fn of_triangle(&self, triangle: usize) -> u16 {
         self.of_triangle[triangle]
+    }
+
+    /// All of them.
+    pub(crate) fn feed_key(&self, key: &mut KeyHasher) {
+        let Self { of_triangle, dabbed, implicit } = self;
+        key.numbers(of_triangle);
+        key.numbers(&[*implicit]);
+        // Which dabs are in which cell follows from the dabs.
+        for Dabbed { rule, cell, dabs, in_cell: _, whole } in dabbed {
+            key.value(&(rule, cell));
+            dabs.iter().for_each(|dab| key.value(dab));
+            key.numbers(whole);
+        }
     }
 
     /// Whether there are dabs, so that particles of one triangle may belong to different regions.

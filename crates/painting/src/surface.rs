@@ -212,9 +212,14 @@ impl BodySurface {
         (((low + high) * 0.5).as_dvec3(), f64::from((high - low).length()))
     }
 
+    /// Whether the albedo may differ from place to place of one material.
+    pub(crate) fn has_colors(&self) -> bool {
+        !self.mesh.colors.is_empty() || self.materials.iter().any(|material| material.texture.is_some())
+    }
+
     /// sRGB albedo of each material; if any material has a texture, or the mesh has colours of its own, of each of `particles` instead.
     pub(crate) fn albedo(&self, particles: impl IndexedParallelIterator<Item = Particle>) -> Albedo {
-        if !self.mesh.colors.is_empty() || self.materials.iter().any(|material| material.texture.is_some()) {
+        if self.has_colors() {
             return Albedo::OfParticle(particles.map(|particle| self.albedo_srgb8(&particle)).collect());
         }
         Albedo::OfMaterial(self.materials.iter().map(|material| srgb8(material, material.albedo)).collect())

@@ -129,6 +129,11 @@ pub(crate) struct CoatTraits {
 }
 
 impl Traits {
+    /// The region of each particle where there are dabs; none where triangles tell it.
+    pub(crate) fn dabbed(&self) -> &[u16] {
+        &self.dabbed
+    }
+
     /// The region of a particle.
     #[inline]
     pub(crate) fn region(&self, particle: usize) -> u16 {
@@ -217,6 +222,23 @@ impl TraitInputs {
         }
     }
 
+    /// The traits as they were kept.
+    pub(crate) fn of_kept(&self, dabbed: Vec<u16>, drift: Vec<[f32; 2]>) -> Traits {
+        Traits { drift, ..self.without_noise(dabbed) }
+    }
+
+    fn without_noise(&self, dabbed: Vec<u16>) -> Traits {
+        Traits {
+            particles: self.particles.clone(),
+            regions: Arc::clone(&self.regions),
+            parts: Arc::clone(&self.parts),
+            name_hash: self.name_hash,
+            dabbed,
+            drift: Vec::new(),
+            form: FormMemo::new(if self.fits { self.particles.len() } else { 0 }),
+        }
+    }
+
     /// The traits of all particles. `before` was made from equal inputs: it is shortened or extended.
     pub(crate) fn traits(&self, before: Option<CoatTraits>) -> CoatTraits {
         let count = self.particles.len();
@@ -239,15 +261,7 @@ impl TraitInputs {
         }
         drift.resize(count, [0.0; 2]);
         stray_rad.resize(count, 0.0);
-        let traits = Traits {
-            particles: self.particles.clone(),
-            regions: Arc::clone(&self.regions),
-            parts: Arc::clone(&self.parts),
-            name_hash: self.name_hash,
-            dabbed,
-            drift: Vec::new(),
-            form: FormMemo::new(if self.fits { count } else { 0 }),
-        };
+        let traits = self.without_noise(dabbed);
         let chunks = drift[from..].par_chunks_mut(CHUNK).zip(stray_rad[from..].par_chunks_mut(CHUNK));
         chunks.enumerate().for_each(|(chunk, (drift, stray_rad))| {
             self.fill_noise(&traits, from + chunk * CHUNK, drift, stray_rad);

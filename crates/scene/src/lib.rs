@@ -8,6 +8,7 @@ pub mod check;
 pub mod document;
 mod found_files;
 pub mod gltf;
+pub mod kept_folder;
 pub mod limits;
 pub mod load;
 pub mod loaded;

@@ -1,5 +1,6 @@
 //! Particles in 12 bytes each, since millions of them are held in memory.
 
+use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use super::Particle;
@@ -9,7 +10,8 @@ use crate::TriangleMesh;
 const FLIPPED: u32 = 1 << 31;
 
 /// The part of a [`Particle`] that cannot be computed from its mesh, in 12 bytes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct PackedParticle {
     /// Index of the triangle; the top bit is [`FLIPPED`].
     triangle_and_side: u32,

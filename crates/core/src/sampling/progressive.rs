@@ -63,6 +63,17 @@ impl Default for ProgressiveState {
 }
 
 impl ProgressiveState {
+    /// As two numbers, to be kept.
+    pub fn to_numbers(self) -> [u64; 2] {
+        [u64::from(self.thrown), self.level_end as u64]
+    }
+
+    /// What [`ProgressiveState::to_numbers`] gave; `None` for numbers that it never gives.
+    pub fn from_numbers([thrown, level_end]: [u64; 2]) -> Option<Self> {
+        let level_end = usize::try_from(level_end).ok().filter(|&end| end > 0)?;
+        Some(Self { thrown: u32::try_from(thrown).ok()?, level_end })
+    }
+
     /// Grows `particles` by whole levels to at least `count`, unless the surface is empty. Surface, seed and particles
     /// must be those of the call before. The first `n` particles are those that [`progressive`] gives.
     pub fn grow(&mut self, surface: &Surface<'_>, seed: u32, particles: &mut Vec<Particle>, count: usize) {

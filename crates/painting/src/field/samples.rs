@@ -9,7 +9,7 @@ use impasto_core::sampling::{self, Particle, Surface};
 use crate::particles::Particles;
 
 /// The samples of a body.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct FieldSamples {
     pub(super) particles: Vec<Particle>,
     pub(super) positions: Vec<Vec3>,

@@ -4,6 +4,8 @@ use std::time::Instant;
 
 use impasto_scene::document::{Scene, Solver};
 
+use crate::kept::FindKept;
+
 /// Why a scene cannot be prepared.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PrepareError {
@@ -56,12 +58,15 @@ pub struct PrepareOptions<'a> {
     pub memory_bytes: Option<u64>,
     /// Gives the process's peak memory since the last call, bytes, or `None` where that is not known.
     pub peak_bytes: &'a dyn Fn() -> Option<u64>,
+    /// Gives the bytes that another process kept under a key (see [`crate::Painting::to_keep`]), if there are any. It is called once,
+    /// when the surfaces are there. `None` keeps nothing and asks for nothing.
+    pub kept: Option<&'a FindKept<'a>>,
 }
 
 impl Default for PrepareOptions<'_> {
-    /// Never gives up, and sets no limit.
+    /// Never gives up, sets no limit, and asks for nothing that was kept.
     fn default() -> Self {
-        Self { give_up: &|| false, memory_bytes: None, peak_bytes: &|| None }
+        Self { give_up: &|| false, memory_bytes: None, peak_bytes: &|| None, kept: None }
     }
 }
 

@@ -1,0 +1,139 @@
+//! `--cache`: what preparing makes is kept in a folder, for the next process that paints the same scene.
+
+use std::io;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::JoinHandle;
+
+use clap::Args;
+use impasto_painting::{Kept, KeptBytes, KeptKey, Painting};
+use impasto_scene::kept_folder::{KeptFile, KeptFolder, ToWrite};
+
+use crate::scene_args::size_bytes;
+
+/// Names the folder where `--cache` is left out.
+const VARIABLE: &str = "IMPASTO_CACHE";
+
+/// Where prepared scenes are kept.
+#[derive(Args, Clone, Debug, Default)]
+pub(crate) struct CacheArguments {
+    /// A folder to keep prepared scenes in: who paints the same scene again begins at once; $IMPASTO_CACHE when left out, else none.
+    #[arg(long, value_name = "DIR")]
+    cache: Option<PathBuf>,
+    /// The most that this folder may hold; what was used longest ago is removed.
+    #[arg(long, value_name = "SIZE", value_parser = size_bytes, default_value = "4G")]
+    cache_size: u64,
+}
+
+/// A folder of prepared scenes.
+#[derive(Clone)]
+pub(crate) struct Cache {
+    folder: KeptFolder,
+    /// The most memory that a file may take.
+    memory_bytes: Option<u64>,
+    verbose: bool,
+    /// Whether it was said that something is wrong: once is enough.
+    was_told: Arc<AtomicBool>,
+}
+
+impl Cache {
+    /// The folder that the command line or the environment names.
+    pub(crate) fn of(arguments: &CacheArguments, memory_bytes: Option<u64>, verbose: bool) -> Option<Self> {
+        let of_environment = || std::env::var_os(VARIABLE).filter(|folder| !folder.is_empty());
+        let path = arguments.cache.clone().or_else(|| of_environment().map(PathBuf::from))?;
+        let folder = KeptFolder { path, most_bytes: arguments.cache_size };
+        Some(Self { folder, memory_bytes, verbose, was_told: Arc::default() })
+    }
+
+    /// What is kept under a key.
+    pub(crate) fn find(&self, key: &KeptKey) -> Option<Box<dyn KeptBytes>> {
+        let key = key.to_string();
+        let found = self.folder.find(&key, self.memory_bytes.unwrap_or(u64::MAX));
+        let found = found.unwrap_or_else(|error| {
+            self.tell(&format!("{}: {error}: it is made anew", self.folder.file(&key).display()));
+            None
+        });
+        found.map(|file| Box::new(OpenFile(file)) as Box<dyn KeptBytes>)
+    }
+
+    /// Keeps a painting that was not taken from the folder, while other work goes on.
+    pub(crate) fn store(self, painting: &Painting) -> Storing {
+        let (key, is_new, replace) = match painting.kept() {
+            Kept::NotAsked => return Storing::default(),
+            Kept::NotThere(key) => (*key, true, false),
+            Kept::Taken(key, bytes) => {
+                if self.verbose {
+                    let path = self.folder.file(&key.to_string());
+                    eprintln!("  taken from the cache: {:.1} MB, {}", *bytes as f64 / 1e6, path.display());
+                }
+                (*key, false, false)
+            }
+            Kept::Unfit(key, why) => {
+                let path = self.folder.file(&key.to_string());
+                self.tell(&format!("{}: {why}: it is made anew", path.display()));
+                (*key, true, true)
+            }
+        };
+        let painting = painting.clone();
+        Storing(Some(std::thread::spawn(move || {
+            if is_new {
+                self.keep(&painting, &key, replace);
+            }
+            self.folder.tidy(&key.to_string());
+        })))
+    }
+
+    fn keep(&self, painting: &Painting, key: &KeptKey, replace: bool) {
+        let Some(to_keep) = painting.to_keep() else { return };
+        let wanted = ToWrite {
+            key: key.to_string(),
+            bytes: to_keep.bytes(),
+            write: &|out| to_keep.write(key, out),
+            replace,
+        };
+        match self.folder.keep(&wanted) {
+            Ok(()) if self.verbose => {
+                let path = self.folder.file(&wanted.key);
+                eprintln!("kept in the cache: {:.1} MB, {}", wanted.bytes as f64 / 1e6, path.display());
+            }
+            Ok(()) => {}
+            Err(error) => {
+                let folder = self.folder.path.display();
+                self.tell(&format!("{folder}: the prepared scene is not kept: {error}"));
+            }
+        }
+    }
+
+    fn tell(&self, words: &str) {
+        if !self.was_told.swap(true, Ordering::Relaxed) {
+            eprintln!("warning: {words}");
+        }
+    }
+}
+
+/// A file of the folder.
+struct OpenFile(KeptFile);
+
+impl KeptBytes for OpenFile {
+    fn count(&self) -> u64 {
+        self.0.bytes
+    }
+
+    fn read(&self, from: u64, to: &mut [u8]) -> io::Result<()> {
+        self.0.read(from, to)
+    }
+}
+
+/// A painting that is being kept. Whoever drops this waits until that is done.
+#[derive(Default)]
+pub(crate) struct Storing(Option<JoinHandle<()>>);
+
+impl Drop for Storing {
+    fn drop(&mut self) {
+        if let Some(storing) = self.0.take() {
+            // It is kept or not: no picture depends on it.
+            let _ = storing.join();
+        }
+    }
+}

@@ -1,0 +1,287 @@
+//! What kept bytes hold, in the order in which it is written, and reading it: every index is held against what it counts in.
+
+use std::sync::Arc;
+
+use bytemuck::{Pod, Zeroable};
+use impasto_core::brush::{self, Mark};
+use impasto_core::neighbours::Neighbours;
+use impasto_core::sampling::{PackedParticle, ProgressiveState};
+use impasto_core::solve::BakedParticles;
+use impasto_scene::presets::LayerKind;
+use rayon::prelude::*;
+
+use super::arrays::{Array, Arrays, Unfit};
+use super::{KeptBytes, KeptKey};
+use crate::bake::BakedBody;
+use crate::body::BodySurface;
+use crate::frame::Brushes;
+use crate::order::PaintingOrder;
+use crate::paper::{PolygonCounts, PolygonSide};
+
+pub(super) const LAYERS: usize = LayerKind::ALL.len();
+
+/// The texels of a brush's marks.
+const TEXELS: usize = brush::SIZE[0] * brush::SIZE[1];
+
+/// How much there is of everything.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub(super) struct Sizes {
+    pub(super) objects: u64,
+    pub(super) rules: u64,
+    pub(super) brushes: u64,
+}
+
+/// The numbers of a coat.
+#[repr(C)]
+#[derive(Clone, Copy, Default, Pod, Zeroable)]
+pub(super) struct CoatNumbers {
+    pub(super) count: u64,
+    pub(super) state: [u64; 2],
+    /// The bits of a float.
+    pub(super) area: u64,
+    /// 0 or 1.
+    pub(super) has_polygons: u64,
+    pub(super) has_neighbours: u64,
+    /// How many neighbours a list has room for.
+    pub(super) most_neighbours: u64,
+}
+
+/// Everything that was kept.
+pub(crate) struct KeptPainting {
+    pub(crate) brushes: Brushes,
+    /// In the order of the scene.
+    pub(crate) objects: Vec<KeptObject>,
+    pub(crate) order: PaintingOrder,
+}
+
+/// What was kept of an object.
+pub(crate) struct KeptObject {
+    /// How many particles each layer is to have.
+    pub(crate) counts: [usize; LAYERS],
+    /// In the order of [`LayerKind::ALL`]; `None` for layers that the object does not have.
+    pub(crate) coats: [Option<KeptCoat>; LAYERS],
+}
+
+/// What was kept of a coat.
+pub(crate) struct KeptCoat {
+    /// All that were sampled.
+    pub(crate) places: Vec<PackedParticle>,
+    /// The first so many are the coat.
+    pub(crate) count: usize,
+    /// So many were wanted; a surface without area has none.
+    pub(crate) wanted: usize,
+    pub(crate) state: ProgressiveState,
+    pub(crate) area: f64,
+    /// Of all that were sampled; empty where the materials tell.
+    pub(crate) albedo: Vec<u32>,
+    pub(crate) polygons: Option<PolygonCounts>,
+    /// The region of each particle; empty where the triangles tell.
+    pub(crate) dabbed: Vec<u16>,
+    pub(crate) drift: Vec<[f32; 2]>,
+    pub(crate) baked: BakedBody,
+    pub(crate) neighbours: Option<Neighbours>,
+}
+
+/// What the bytes are held against.
+pub(crate) struct Wanted<'a> {
+    pub(crate) surfaces: &'a [Arc<BodySurface>],
+    /// How many rules there are.
+    pub(crate) rules: usize,
+    /// The names of the brushes.
+    pub(crate) brushes: Vec<String>,
+}
+
+impl KeptPainting {
+    /// Reads what is kept under a key.
+    pub(crate) fn read(bytes: &dyn KeptBytes, key: &KeptKey, wanted: Wanted<'_>) -> Result<Self, Unfit> {
+        let mut arrays = Arrays::open(bytes, key)?;
+        let [sizes] = arrays.next::<Sizes>()?.numbers()?;
+        let is = (sizes.objects, sizes.rules, sizes.brushes);
+        if is != (wanted.surfaces.len() as u64, wanted.rules as u64, wanted.brushes.len() as u64) {
+            return Err(Unfit::Damaged);
+        }
+        let mut marks = Vec::new();
+        for _ in 0..wanted.brushes.len() * brush::VARIANTS as usize {
+            marks.push(arrays.next::<[u8; 3]>()?);
+        }
+        let mut objects = Vec::new();
+        for surface in wanted.surfaces {
+            objects.push(ObjectArrays::next(&mut arrays, surface)?);
+        }
+        let [order, firsts] = [arrays.next::<u32>()?, arrays.next::<u32>()?];
+        arrays.end()?;
+        // From here on, memory is taken: as much as there are bytes.
+        let mark = |texels: Array<'_, [u8; 3]>| Ok(Mark { texels: texels.of_len(TEXELS)? });
+        let read_marks = || marks.into_par_iter().map(mark).collect::<Result<Vec<Mark>, Unfit>>();
+        let read_objects = || {
+            let objects = objects.into_par_iter().map(|object| object.read(wanted.rules));
+            objects.collect::<Result<Vec<KeptObject>, Unfit>>()
+        };
+        let ((marks, order), objects) =
+            rayon::join(|| rayon::join(read_marks, || order.read()), read_objects);
+        let objects = objects?;
+        let counts: Vec<usize> =
+            objects.iter().flat_map(|object| object.coats.iter().flatten()).map(|coat| coat.count).collect();
+        let mut marks = marks?.into_iter();
+        let variants = brush::VARIANTS as usize;
+        let of_brush = |_: &String| Arc::new(marks.by_ref().take(variants).collect());
+        Ok(Self {
+            brushes: Brushes { marks: wanted.brushes.iter().map(of_brush).collect(), names: wanted.brushes },
+            order: PaintingOrder::of_kept(order?, firsts.read()?, &counts).ok_or(Unfit::Damaged)?,
+            objects,
+        })
+    }
+}
+
+impl<T: Pod> Array<'_, T> {
+    /// A few numbers, if there are just so many.
+    fn numbers<const COUNT: usize>(self) -> Result<[T; COUNT], Unfit> {
+        <[T; COUNT]>::try_from(self.of_len(COUNT)?).map_err(|_| Unfit::Damaged)
+    }
+}
+
+/// The arrays of an object that were not read yet.
+struct ObjectArrays<'a> {
+    counts: [usize; LAYERS],
+    coats: Vec<Option<CoatArrays<'a>>>,
+}
+
+impl<'a> ObjectArrays<'a> {
+    fn next(arrays: &mut Arrays<'a>, surface: &'a BodySurface) -> Result<Self, Unfit> {
+        let [counts, has] = arrays.next::<[u64; LAYERS]>()?.numbers()?;
+        let mut coats = Vec::new();
+        for has in has {
+            coats.push(match has {
+                0 => None,
+                1 => Some(CoatArrays::next(arrays, surface)?),
+                _ => return Err(Unfit::Damaged),
+            });
+        }
+        let mut whole = [0; LAYERS];
+        for (whole, count) in whole.iter_mut().zip(counts) {
+            *whole = usize::try_from(count).map_err(|_| Unfit::Damaged)?;
+        }
+        Ok(Self { counts: whole, coats })
+    }
+
+    fn read(self, rules: usize) -> Result<KeptObject, Unfit> {
+        let read = |(coat, wanted): (Option<CoatArrays<'_>>, usize)| {
+            coat.map(|coat| coat.read(rules, wanted)).transpose()
+        };
+        let coats = self.coats.into_par_iter().zip(self.counts);
+        let coats: Result<Vec<Option<KeptCoat>>, Unfit> = coats.map(read).collect();
+        let coats = coats?.try_into().map_err(|_| Unfit::Damaged)?;
+        Ok(KeptObject { counts: self.counts, coats })
+    }
+}
+
+/// Those of [`PolygonCounts`]: of particles, sides, faces.
+type PolygonArrays<'a> = (Array<'a, [u32; 2]>, Array<'a, PolygonSide>, Array<'a, [u32; 3]>);
+
+/// Those of [`Neighbours`]: slots, lengths, indices.
+type NeighbourArrays<'a> = (Array<'a, u32>, Array<'a, u8>, Array<'a, u32>);
+
+/// The arrays of a coat that were not read yet.
+struct CoatArrays<'a> {
+    surface: &'a BodySurface,
+    numbers: CoatNumbers,
+    places: Array<'a, PackedParticle>,
+    albedo: Array<'a, u32>,
+    dabbed: Array<'a, u16>,
+    drift: Array<'a, [f32; 2]>,
+    /// Position, normal, and both columns of the lift, by component.
+    vectors: [Array<'a, f32>; 12],
+    flatness: Array<'a, f32>,
+    base_angle_rad: Array<'a, f32>,
+    polygons: Option<PolygonArrays<'a>>,
+    neighbours: Option<NeighbourArrays<'a>>,
+}
+
+impl<'a> CoatArrays<'a> {
+    fn next(arrays: &mut Arrays<'a>, surface: &'a BodySurface) -> Result<Self, Unfit> {
+        let [numbers] = arrays.next::<CoatNumbers>()?.numbers()?;
+        let (places, albedo, dabbed, drift) =
+            (arrays.next()?, arrays.next()?, arrays.next()?, arrays.next()?);
+        let mut vectors = Vec::new();
+        for _ in 0..12 {
+            vectors.push(arrays.next()?);
+        }
+        let (flatness, base_angle_rad) = (arrays.next()?, arrays.next()?);
+        let polygons = match numbers.has_polygons {
+            0 => None,
+            _ => Some((arrays.next()?, arrays.next()?, arrays.next()?)),
+        };
+        let neighbours = match numbers.has_neighbours {
+            0 => None,
+            _ => Some((arrays.next()?, arrays.next()?, arrays.next()?)),
+        };
+        Ok(Self {
+            surface,
+            numbers,
+            places,
+            albedo,
+            dabbed,
+            drift,
+            vectors: vectors.try_into().map_err(|_| Unfit::Damaged)?,
+            flatness,
+            base_angle_rad,
+            polygons,
+            neighbours,
+        })
+    }
+
+    fn read(self, rules: usize, wanted: usize) -> Result<KeptCoat, Unfit> {
+        let Self { surface, numbers, .. } = self;
+        let count = usize::try_from(numbers.count).map_err(|_| Unfit::Damaged)?;
+        let (triangles, has_colors) = (surface.mesh.triangles.len(), surface.has_colors());
+        let places = self.places.read()?;
+        let is_inside = |place: &PackedParticle| place.triangle() < triangles;
+        if places.len() < count || !places.par_iter().all(is_inside) {
+            return Err(Unfit::Damaged);
+        }
+        let dabbed = self.dabbed.of_len_or_empty(count)?;
+        if dabbed.iter().any(|&region| usize::from(region) >= rules) {
+            return Err(Unfit::Damaged);
+        }
+        let vectors: Result<Vec<Vec<f32>>, Unfit> =
+            self.vectors.into_par_iter().map(|array| array.of_len(count)).collect();
+        let mut vectors = vectors?.into_iter();
+        let mut three = || std::array::from_fn(|_| vectors.next().unwrap_or_default());
+        let baked = BakedParticles {
+            position: three(),
+            normal: three(),
+            along: three(),
+            across: three(),
+            flatness: self.flatness.of_len_or_empty(count)?,
+        };
+        let polygons = match self.polygons {
+            Some((of_particle, sides, faces)) => Some(
+                PolygonCounts::of_kept(of_particle.of_len(count)?, sides.read()?, faces.read()?, triangles)
+                    .ok_or(Unfit::Damaged)?,
+            ),
+            None => None,
+        };
+        let most = usize::try_from(numbers.most_neighbours).map_err(|_| Unfit::Damaged)?;
+        let neighbours = match self.neighbours {
+            Some((slots, lengths, indices)) => Some(
+                Neighbours::from_arrays(slots.of_len(count)?, lengths.read()?, indices.read()?, most)
+                    .ok_or(Unfit::Damaged)?,
+            ),
+            None => None,
+        };
+        Ok(KeptCoat {
+            albedo: self.albedo.of_len(if has_colors { places.len() } else { 0 })?,
+            count,
+            wanted,
+            state: ProgressiveState::from_numbers(numbers.state).ok_or(Unfit::Damaged)?,
+            area: f64::from_bits(numbers.area),
+            polygons,
+            dabbed,
+            drift: self.drift.of_len(count)?,
+            baked: BakedBody::of_kept(baked, self.base_angle_rad.of_len_or_empty(count)?),
+            neighbours,
+            places,
+        })
+    }
+}

@@ -1,0 +1,96 @@
+//! Hands out what is to be kept of a painting.
+
+use std::io::{self, Write};
+
+use impasto_scene::presets::LayerKind;
+
+use super::KeptKey;
+use super::arrays::ArraysToWrite;
+use super::contents::{CoatNumbers, LAYERS, Sizes};
+use crate::coat::Coat;
+use crate::painting::Painting;
+use crate::paper::KeptPolygons;
+
+/// What is to be kept of a painting, ready to be written.
+pub struct ToKeep<'a>(ArraysToWrite<'a>);
+
+impl ToKeep<'_> {
+    /// How many bytes are written.
+    pub fn bytes(&self) -> u64 {
+        self.0.bytes()
+    }
+
+    /// Writes them under the painting's key.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write(&self, key: &KeptKey, out: &mut dyn Write) -> io::Result<()> {
+        self.0.write(key, out)
+    }
+}
+
+impl Painting {
+    /// What is to be kept for another process that prepares the same scene. `None` where something was odd (a point cache that could
+    /// not be read any more), so that it would be kept.
+    pub fn to_keep(&self) -> Option<ToKeep<'_>> {
+        if !self.faults().is_empty() {
+            return None;
+        }
+        let mut arrays = ArraysToWrite::default();
+        arrays.push_made(&[Sizes {
+            objects: self.bodies.len() as u64,
+            rules: self.rules.len() as u64,
+            brushes: self.brushes.names.len() as u64,
+        }]);
+        for mark in self.brushes.marks.iter().flat_map(|marks| marks.iter()) {
+            arrays.push(&mark.texels);
+        }
+        for (object, body) in self.bodies.iter().enumerate() {
+            let coats = LayerKind::ALL.map(|kind| self.coat(object, kind));
+            let has = coats.map(|coat| u64::from(coat.is_some()));
+            let counts: [u64; LAYERS] = body.counts.map(|count| count as u64);
+            arrays.push_made(&[counts, has]);
+            coats.into_iter().flatten().for_each(|coat| push_coat(coat, &mut arrays));
+        }
+        let [numbers, firsts] = self.order.to_keep();
+        arrays.push(numbers);
+        arrays.push(firsts);
+        Some(ToKeep(arrays))
+    }
+}
+
+fn push_coat<'a>(coat: &'a Coat, arrays: &mut ArraysToWrite<'a>) {
+    let Coat { sampled, lift_sources, traits, baked, .. } = coat;
+    let neighbours = lift_sources.neighbours.as_ref().map(|lists| lists.arrays());
+    let polygons = sampled.polygons.as_ref().map(|polygons| polygons.to_keep());
+    arrays.push_made(&[CoatNumbers {
+        count: sampled.particles.len() as u64,
+        state: sampled.state().to_numbers(),
+        area: sampled.area.to_bits(),
+        has_polygons: u64::from(polygons.is_some()),
+        has_neighbours: u64::from(neighbours.is_some()),
+        most_neighbours: neighbours.map_or(0, |lists| lists.most as u64),
+    }]);
+    arrays.push(sampled.particles.places());
+    arrays.push(sampled.albedo_of_particles());
+    arrays.push(traits.dabbed());
+    arrays.push(&traits.drift);
+    let particles = &baked.baked;
+    for array in
+        [&particles.position, &particles.normal, &particles.along, &particles.across].into_iter().flatten()
+    {
+        arrays.push(array);
+    }
+    arrays.push(&particles.flatness);
+    arrays.push(baked.base_angles_rad());
+    if let Some(KeptPolygons { of_particle, sides, faces }) = polygons {
+        arrays.push_made(&of_particle);
+        arrays.push(sides);
+        arrays.push_made(&faces);
+    }
+    if let Some(lists) = neighbours {
+        arrays.push(lists.slots);
+        arrays.push(lists.lengths);
+        arrays.push(lists.indices);
+    }
+}
