@@ -52,6 +52,12 @@ pub(crate) enum Command {
         /// Which shell.
         shell: clap_complete::Shell,
     },
+    /// Write the manual pages into a folder.
+    #[command(hide = true)]
+    Man {
+        /// The folder, which is made where it is not there.
+        folder: PathBuf,
+    },
 }
 
 /// How much to say.

@@ -10,6 +10,7 @@ mod failure;
 mod ffmpeg;
 mod info;
 mod interrupt;
+mod manual;
 mod measure;
 mod movie;
 mod new;
@@ -77,6 +78,7 @@ fn main() -> ExitCode {
             clap_complete::generate(shell, &mut Arguments::command(), "impasto", &mut std::io::stdout());
             Ok(())
         }
+        Command::Man { folder } => manual::write(&folder),
     };
     let _ = std::io::stdout().flush();
     match result {
