@@ -28,12 +28,13 @@ inside() {
 
 apt_install() { inside apt-get install --quiet=2 --yes --no-install-recommends "$@" >> "$work/apt.log" 2>&1; }
 
-close_root() { mountpoint --quiet "$root/proc" && umount "$root/proc" || true; }
+# Nothing below $root is removed while the system's own /proc lies there.
+close_root() { if mountpoint --quiet "$root/proc"; then umount "$root/proc"; fi; }
 
 # A fresh copy of the bare Debian.
 open_root() {
     close_root
-    rm -rf "$root"
+    rm -rf --one-file-system "$root"
     cp --archive --reflink=auto "$base" "$root"
     cp /etc/resolv.conf "$root/etc/resolv.conf"
     mount -t proc proc "$root/proc"
@@ -124,4 +125,5 @@ for kind in "$@"; do
     cmp "$pictures/$1.png" "$pictures/$kind.png"
 done
 say "all painted the same picture; look at it: $pictures/$1.png"
-rm -rf "$root"
+close_root
+rm -rf --one-file-system "$root"

@@ -32,6 +32,7 @@ pub fn run(root: &Path, install: Install) -> anyhow::Result<()> {
     let tree = step("files", || tree::lay(root, &folder, &binary))?;
     changelog::write(root, &folder.join("changelog"), &when)?;
     let deb = step("Debian package", || debian_package(root, &folder, &when))?;
+    tree::add_licences(root, &tree)?;
     let archive = step("archive", || archive(root, &tree, &when))?;
     let wheel = step("wheel", || wheel(root, &folder, &when))?;
     for made in [deb, archive, wheel] {
@@ -84,7 +85,7 @@ fn debian_package(root: &Path, folder: &Path, when: &Moment) -> anyhow::Result<P
     let is_there = Command::new(&tool)
         .arg("--version")
         .output()
-        .is_ok_and(|said| said.stdout.trim_ascii() == CARGO_DEB.as_bytes());
+        .is_ok_and(|said| said.stdout.trim_ascii() == format!("cargo-deb {CARGO_DEB}").as_bytes());
     if !is_there {
         let tools = tools.to_string_lossy();
         steps::run(
@@ -93,9 +94,9 @@ fn debian_package(root: &Path, folder: &Path, when: &Moment) -> anyhow::Result<P
             &["install", "cargo-deb", "--locked", "--version", CARGO_DEB, "--root", &tools],
         )?;
     }
-    let made = folder.join(format!("impasto_{}_{}.deb", version(), debian_architecture()?));
+    let made = folder.join(format!("impasto_{}-1_{}.deb", version(), debian_architecture()?));
     let mut command = Command::new(&tool);
-    command.args(["--package", "impasto-cli", "--no-build", "--no-strip", "--output"]).arg(&made);
+    command.args(["--package", "impasto-cli", "--no-build", "--no-strip", "--quiet", "--output"]).arg(&made);
     succeed(command.current_dir(root).env("SOURCE_DATE_EPOCH", &when.seconds))?;
     Ok(made)
 }
@@ -149,7 +150,8 @@ fn wheel(root: &Path, folder: &Path, when: &Moment) -> anyhow::Result<PathBuf> {
     command.args(["-m", "maturin", "build", "--release", "--locked", "--quiet", "--out"]).arg(&into);
     command.current_dir(root.join("packaging/wheel")).env("SOURCE_DATE_EPOCH", &when.seconds);
     succeed(&mut command)?;
-    let mut made = std::fs::read_dir(&into)?.map(|entry| Ok(entry?.path())).collect::<std::io::Result<Vec<_>>>()?;
+    let mut made =
+        std::fs::read_dir(&into)?.map(|entry| Ok(entry?.path())).collect::<std::io::Result<Vec<_>>>()?;
     let made = made.pop().context("maturin made no wheel")?;
     let beside = folder.join(made.file_name().context("a wheel has a name")?);
     std::fs::rename(&made, &beside)?;

@@ -12,7 +12,7 @@ use crate::scene_args::{PlacingArguments, SceneArguments};
 
 /// Paints 3D scenes with brush strokes that turn with what they lie on.
 #[derive(Debug, Parser)]
-#[command(name = "impasto", version, about, max_term_width = 100)]
+#[command(name = "impasto", version, max_term_width = 100)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub(crate) command: Command,

@@ -27,7 +27,8 @@ fn pages() -> Result<Vec<(String, Vec<u8>)>, std::io::Error> {
     let commands: Vec<clap::Command> = std::iter::once(program.clone()).chain(parts).collect();
     let source = format!("impasto {}", env!("CARGO_PKG_VERSION"));
     let page = |command: clap::Command| {
-        let page = Man::new(command).source(&source).manual("Impasto");
+        let title = command.get_display_name().unwrap_or_else(|| command.get_name()).to_uppercase();
+        let page = Man::new(command).title(title).source(&source).manual("Impasto");
         let mut text = Vec::new();
         page.render(&mut text)?;
         Ok((page.get_filename(), text))

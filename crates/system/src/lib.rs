@@ -45,7 +45,8 @@ impl System {
     fn of(release: &str, has: impl Fn(&str) -> bool) -> Self {
         let named = |family: &str| {
             let lines = release.lines().filter_map(|line| line.split_once('='));
-            let mut values = lines.filter(|(key, _)| matches!(*key, "ID" | "ID_LIKE")).map(|(_, value)| value);
+            let mut values =
+                lines.filter(|(key, _)| matches!(*key, "ID" | "ID_LIKE")).map(|(_, value)| value);
             values.any(|value| value.trim_matches(['"', '\'']).split_whitespace().any(|word| word == family))
         };
         let known = [
@@ -93,7 +94,11 @@ fn in_words(parts: &[Part], with_files: bool) -> String {
     };
     let mut names: Vec<String> = parts.iter().map(name).collect();
     let last = names.pop().unwrap_or_default();
-    if names.is_empty() { format!("install {last}") } else { format!("install {} and {last}", names.join(", ")) }
+    if names.is_empty() {
+        format!("install {last}")
+    } else {
+        format!("install {} and {last}", names.join(", "))
+    }
 }
 
 /// [`System::mend`] of the system that the program runs on.
@@ -119,7 +124,11 @@ mod tests {
         assert_eq!(System::of(ARCH, has("pacman")), System::Arch);
         // Fedora has apt among its packages: with it, it is still no Debian.
         assert_eq!(System::of("ID=fedora\n", has("apt-get")), System::OtherLinux);
-        assert_eq!(System::of(DEBIAN, |_| false), System::OtherLinux, "nobody is told to use what is not there");
+        assert_eq!(
+            System::of(DEBIAN, |_| false),
+            System::OtherLinux,
+            "nobody is told to use what is not there"
+        );
         assert_eq!(System::of("ID=nixos\n", |_| true), System::OtherLinux);
         assert_eq!(System::of("", |_| true), System::OtherLinux);
     }

@@ -17,7 +17,7 @@ pub fn write(root: &Path, to: &Path, when: &Moment) -> anyhow::Result<()> {
     let text = entry(&std::fs::read_to_string(root.join("CHANGELOG.md"))?, version());
     ensure!(text.contains('*'), "CHANGELOG.md says nothing of version {}", version());
     let written = format!(
-        "impasto ({}) unstable; urgency=medium\n\n{text}\n -- {MAINTAINER}  {}\n",
+        "impasto ({}-1) unstable; urgency=medium\n\n{text}\n -- {MAINTAINER}  {}\n",
         version(),
         when.in_words
     );

@@ -52,7 +52,8 @@ pub fn of_dependencies(root: &Path) -> anyhow::Result<String> {
 fn in_the_program(root: &Path) -> anyhow::Result<Vec<Value>> {
     let host = output(root, "rustc", &["--print", "host-tuple"])?;
     let listed = ["tree", "--package", "impasto-cli", "--edges", "normal", "--prefix", "none", "--locked"];
-    let tree = output(root, &cargo(), &[&listed[..], &["--target", host.trim(), "--format", "{p}"]].concat())?;
+    let tree =
+        output(root, &cargo(), &[&listed[..], &["--target", host.trim(), "--format", "{p}"]].concat())?;
     let linked: BTreeSet<String> = tree
         .lines()
         .filter_map(|line| {
@@ -60,8 +61,8 @@ fn in_the_program(root: &Path) -> anyhow::Result<Vec<Value>> {
             Some(format!("{} {}", words.next()?, words.next()?.trim_start_matches('v')))
         })
         .collect();
-    let metadata: Value =
-        serde_json::from_str(&output(root, &cargo(), &["metadata", "--format-version", "1", "--locked"])?)?;
+    let listed = ["metadata", "--format-version", "1", "--locked", "--filter-platform", host.trim()];
+    let metadata: Value = serde_json::from_str(&output(root, &cargo(), &listed)?)?;
     let packages = metadata["packages"].as_array().context("cargo metadata lists packages")?;
     let is_linked = |package: &&Value| {
         let word = |key: &str| package[key].as_str().unwrap_or_default();

@@ -14,7 +14,6 @@ const COPIED: &[(&str, &str)] = &[
     ("packaging/impasto-128.png", "share/icons/hicolor/128x128/apps/impasto.png"),
     ("packaging/impasto-256.png", "share/icons/hicolor/256x256/apps/impasto.png"),
     ("packaging/impasto-scene.xml", "share/mime/packages/impasto.xml"),
-    ("packaging/copyright", "share/doc/impasto/copyright"),
     ("docs", "share/doc/impasto/docs"),
     ("scenes", "share/impasto/scenes"),
     ("blender", "share/impasto/blender"),
@@ -56,6 +55,18 @@ pub fn lay(root: &Path, folder: &Path, binary: &Path) -> anyhow::Result<PathBuf>
     Ok(tree)
 }
 
+/// Adds the texts of the licences, which the Debian package has in places of its own.
+pub fn add_licences(root: &Path, tree: &Path) -> anyhow::Result<()> {
+    for (from, to) in [
+        ("packaging/copyright", "copyright"),
+        ("LICENSE-MIT", "LICENSE-MIT"),
+        ("LICENSE-APACHE", "LICENSE-APACHE"),
+    ] {
+        std::fs::copy(root.join(from), place(tree, &format!("share/doc/impasto/{to}"))?)?;
+    }
+    Ok(())
+}
+
 /// The path of a file in the tree, whose folder is made.
 fn place(tree: &Path, file: &str) -> anyhow::Result<PathBuf> {
     let path = tree.join(file);
@@ -83,6 +94,35 @@ fn copy(from: &Path, to: &Path, below: &str) -> anyhow::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_shipped_scene_has_the_marks_by_which_a_desktop_knows_it() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let rules = std::fs::read_to_string(root.join("packaging/impasto-scene.xml")).expect("read");
+        let marks: Vec<(usize, String)> = rules
+            .split("<match ")
+            .skip(1)
+            .map(|rule| {
+                let of = |key: &str, end: char| {
+                    let rest = rule.split_once(key).expect("a key").1;
+                    rest.split_once(end).expect("an end").0.replace("&quot;", "\"")
+                };
+                (of("offset=\"0:", '"').parse().expect("a number"), of("value=\"", '"'))
+            })
+            .collect();
+        let mut scenes = 0;
+        for entry in std::fs::read_dir(root.join("scenes")).expect("read") {
+            let path = entry.expect("read").path();
+            if path.extension().is_some_and(|ending| ending == "ron") {
+                let text = std::fs::read_to_string(&path).expect("read");
+                let has =
+                    |(last, mark): &(usize, String)| text.find(mark.as_str()).is_some_and(|at| at <= *last);
+                assert!(has(&marks[0]) && marks[1..].iter().any(has), "{}", path.display());
+                scenes += 1;
+            }
+        }
+        assert!(scenes > 20 && marks.len() == 5, "{scenes} scenes, {marks:?}");
+    }
 
     #[test]
     fn what_python_leaves_behind_and_pictures_of_the_docs_are_not_packed() {

@@ -29,7 +29,10 @@ fn a_tidy_tree_passes() {
 fn a_planted_long_file_is_named() {
     let long = "// line\n".repeat(501);
     found(&[("crates/core/src/long.rs", &long)], "crates/core/src/long.rs:501: 501 lines");
-    found(&[("crates/gl-render/shaders/shared/long.glsl", &long)], "crates/gl-render/shaders/shared/long.glsl:501: 501 lines");
+    found(
+        &[("crates/gl-render/shaders/shared/long.glsl", &long)],
+        "crates/gl-render/shaders/shared/long.glsl:501: 501 lines",
+    );
     assert_eq!(verdict(&[("crates/core/src/long.rs", &"// line\n".repeat(500))]), Ok(()));
 }
 
