@@ -1,7 +1,7 @@
 //! The parts that a system has to bring, with the packages that bring them. The names for Debian are tried; those for Fedora
 //! and Arch are from their package lists.
 
-use crate::System;
+use crate::systems::System;
 
 /// A library or a program that the system has to bring.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -38,8 +38,12 @@ pub fn lay(root: &Path, folder: &Path, binary: &Path) -> anyhow::Result<PathBuf>
         std::fs::remove_dir_all(&tree)?;
     }
     let program = place(&tree, "bin/impasto")?;
-    succeed(Command::new("strip").arg("--output-file").args([&program, &binary.to_path_buf()]))
-        .context("strip comes with the C compiler")?;
+    succeed(
+        Command::new("strip")
+            .args(["--remove-section=.comment", "--output-file"])
+            .args([&program, &binary.to_path_buf()]),
+    )
+    .context("strip comes with the C compiler")?;
     for (from, to) in COPIED {
         copy(&root.join(from), &tree.join(to), from).with_context(|| format!("{from} is packed"))?;
     }
