@@ -146,10 +146,10 @@ fn wheel(root: &Path, folder: &Path, when: &Moment) -> anyhow::Result<PathBuf> {
     if into.exists() {
         std::fs::remove_dir_all(&into)?;
     }
+    let project = wheel_project(root, folder)?;
     let mut command = Command::new(&python);
     command.args(["-m", "maturin", "build", "--release", "--locked", "--quiet", "--out"]).arg(&into);
-    command.current_dir(root.join("packaging/wheel")).env("SOURCE_DATE_EPOCH", &when.seconds);
-    succeed(&mut command)?;
+    succeed(command.current_dir(project).env("SOURCE_DATE_EPOCH", &when.seconds))?;
     let mut made =
         std::fs::read_dir(&into)?.map(|entry| Ok(entry?.path())).collect::<std::io::Result<Vec<_>>>()?;
     let made = made.pop().context("maturin made no wheel")?;
@@ -157,4 +157,21 @@ fn wheel(root: &Path, folder: &Path, when: &Moment) -> anyhow::Result<PathBuf> {
     std::fs::rename(&made, &beside)?;
     std::fs::remove_dir(&into)?;
     Ok(beside)
+}
+
+/// Lays out what maturin packs: the files of packaging/wheel, and the licences, which have to lie beside them.
+fn wheel_project(root: &Path, folder: &Path) -> anyhow::Result<PathBuf> {
+    let project = folder.join("wheel-project");
+    let licences = project.join("licences");
+    std::fs::create_dir_all(&licences)?;
+    let from = root.join("packaging/wheel");
+    let manifest = root.join("crates/cli/Cargo.toml");
+    let settings = std::fs::read_to_string(from.join("pyproject.toml"))?;
+    let settings = settings.replace("../../crates/cli/Cargo.toml", &manifest.to_string_lossy());
+    std::fs::write(project.join("pyproject.toml"), settings)?;
+    std::fs::copy(from.join("README.md"), project.join("README.md"))?;
+    for name in ["LICENSE-MIT", "LICENSE-APACHE", "third_party.txt"] {
+        std::fs::copy(folder.join("tree/share/doc/impasto").join(name), licences.join(name))?;
+    }
+    Ok(project)
 }
