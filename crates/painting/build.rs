@@ -13,13 +13,17 @@ fn main() {
     let mut hash = Fnv(0xcbf2_9ce4_8422_2325);
     for name in CRATES {
         let sources = crates.join(name).join("src");
+        // Beside crates that come packaged there is only the version, which names the sources of all of them.
+        if !sources.is_dir() {
+            continue;
+        }
         println!("cargo:rerun-if-changed={}", sources.display());
         hash.folder(&sources);
     }
     let lock = crates.join("../Cargo.lock");
     println!("cargo:rerun-if-changed={}", lock.display());
     hash.bytes(&std::fs::read(lock).unwrap_or_default());
-    for name in ["TARGET", "OPT_LEVEL", "CARGO_ENCODED_RUSTFLAGS"] {
+    for name in ["CARGO_PKG_VERSION", "TARGET", "OPT_LEVEL", "CARGO_ENCODED_RUSTFLAGS"] {
         hash.bytes(env::var(name).unwrap_or_default().as_bytes());
     }
     let compiler = env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());

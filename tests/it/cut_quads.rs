@@ -7,8 +7,8 @@ use impasto_painting::{FrameOptions, Quality};
 use impasto_tests::pictures::renderer;
 use impasto_tests::scenes;
 
-const PAINT: &str = include_str!("../../shaders/rotating_strokes/paint.vert");
-const FRAGMENTS: &str = include_str!("../../shaders/rotating_strokes/paint.frag");
+const PAINT: &str = include_str!("../../crates/gl-render/shaders/rotating_strokes/paint.vert");
+const FRAGMENTS: &str = include_str!("../../crates/gl-render/shaders/rotating_strokes/paint.frag");
 
 #[test]
 fn cut_quads_look_as_whole_ones_do() {

@@ -10,7 +10,7 @@ use impasto_painting::{Frame, FrameOptions, Painting, Quality};
 use impasto_tests::command::impasto;
 use impasto_tests::scenes;
 
-const ENCODE: &str = include_str!("../../shaders/shared/encode.glsl");
+const ENCODE: &str = include_str!("../../crates/gl-render/shaders/shared/encode.glsl");
 
 fn painting() -> Arc<Painting> {
     scenes::painting("roll")

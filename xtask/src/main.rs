@@ -9,6 +9,7 @@ mod demo;
 mod gallery;
 mod layers;
 mod measure;
+mod package;
 mod packages;
 mod same;
 mod steps;
@@ -35,6 +36,7 @@ cargo xtask <command>
   same [--keep]               pictures and strokes are, byte for byte, those of the last `same --keep`
   bench [-- …]                the benchmarks of bench/
   blender                     build the Blender extension, install it into real Blenders (fetched where they are not), test it
+  package [--no-install]      a .deb, a .tar.zst and a wheel of the program, in target/package/ (docs/install.md)
   meshes                      write the meshes of scenes/meshes/ anew";
 
 fn main() -> ExitCode {
@@ -59,7 +61,7 @@ fn run(arguments: &[String]) -> anyhow::Result<()> {
     let mut keep = false;
     for flag in own {
         match (command.as_str(), flag.as_str()) {
-            ("test" | "demo", "--no-install") => install = Install::PrintOnly,
+            ("test" | "demo" | "package", "--no-install") => install = Install::PrintOnly,
             ("same", "--keep") => keep = true,
             ("measure", "--shots") => {}
             ("gallery" | "measure", name) if !name.starts_with('-') => {}
@@ -80,6 +82,7 @@ fn run(arguments: &[String]) -> anyhow::Result<()> {
         "same" => same::run(&root, keep),
         "bench" => bench::run(&root, passed_on),
         "blender" => blender::run(&root, blender::Fetch::Yes),
+        "package" => package::run(&root, install),
         "meshes" => steps::run(&root, &steps::cargo(), &["run", "--locked", "--package", "impasto-meshes"]),
         "help" | "--help" | "-h" => {
             println!("{USAGE}");

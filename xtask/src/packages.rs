@@ -83,6 +83,15 @@ const WINDOW_TESTS: &[Need] = &[
     program_of("xdotool", &["xdotool"]),
 ];
 
+/// What `cargo xtask package` needs: it packs an archive, finds out which libraries the program is linked with, and makes a
+/// place for the tool that makes wheels.
+pub const PACKAGING: &[Need] = &[
+    program_of("zstd", &["zstd"]),
+    program_of("dpkg-dev", &["dpkg-shlibdeps"]),
+    program_of("binutils", &["strip"]),
+    program_of("python3-venv", &["python3"]),
+];
+
 /// What the tests of movies need.
 const MOVIE_TESTS: &[Need] = &[program_of("ffmpeg", &["ffmpeg"])];
 

@@ -14,7 +14,7 @@ use crate::scene_args::{PlacingArguments, SceneArguments};
 
 /// Paints 3D scenes with brush strokes that turn with what they lie on.
 #[derive(Debug, Parser)]
-#[command(name = "impasto", version, about, max_term_width = 100)]
+#[command(name = "impasto", version, max_term_width = 100)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub(crate) command: Command,
@@ -58,6 +58,12 @@ pub(crate) enum Command {
     Completions {
         /// Which shell.
         shell: clap_complete::Shell,
+    },
+    /// Write the manual pages into a folder.
+    #[command(hide = true)]
+    Man {
+        /// The folder, which is made where it is not there.
+        folder: PathBuf,
     },
 }
 

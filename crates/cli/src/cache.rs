@@ -10,7 +10,7 @@ use clap::Args;
 use impasto_painting::{Kept, KeptBytes, KeptKey, Painting};
 use impasto_scene::kept_folder::{KeptFile, KeptFolder, ToWrite};
 
-use crate::scene_args::size_bytes;
+use crate::memory_size::size_bytes;
 
 /// Names the folder where `--cache` is left out.
 const VARIABLE: &str = "IMPASTO_CACHE";

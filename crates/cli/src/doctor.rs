@@ -4,10 +4,11 @@ use std::io::Write as _;
 use std::sync::Arc;
 
 use impasto_gl_render::Renderer;
-use impasto_gl_render::context::{ContextReport, Driver, Mend, OpenOptions, open};
+use impasto_gl_render::context::{ContextReport, Driver, OpenOptions, open};
 use impasto_painting::frame::{
     Brushes, Finish, Frame, FrameLights, FrameView, LayerKind, LayerRun, Quality, Stroke, StrokeSource, Style,
 };
+use impasto_system::System;
 
 use crate::args::DoctorArguments;
 use crate::failure::Failure;
@@ -20,12 +21,12 @@ struct Finding {
 
 pub(crate) fn run(arguments: &DoctorArguments) -> Result<(), Failure> {
     let findings: Vec<Finding> = [Driver::Egl, Driver::Osmesa].into_iter().map(examine).collect();
+    let system = System::here();
     let mut out = std::io::stdout();
     for finding in &findings {
-        let mend = Mend::ALL.into_iter().find(|mend| mend.driver == finding.driver);
-        let packages = mend.map_or_else(String::new, |mend| mend.packages.join(" "));
+        let parts = finding.driver.parts();
         if arguments.json {
-            writeln!(out, "{}", as_json(finding, &packages))?;
+            writeln!(out, "{}", as_json(finding, &system.packages(parts).join(" ")))?;
             continue;
         }
         match &finding.outcome {
@@ -41,12 +42,12 @@ pub(crate) fn run(arguments: &DoctorArguments) -> Result<(), Failure> {
             }
             Err(reason) => {
                 writeln!(out, "{}: does not work: {reason}", finding.driver)?;
-                writeln!(out, "  mend, on Debian and Ubuntu: apt-get install {packages}")?;
+                writeln!(out, "  mend: {}", system.mend(parts))?;
             }
         }
     }
     #[cfg(feature = "editor")]
-    print_window(&mut out, arguments.json)?;
+    print_window(&mut out, system, arguments.json)?;
     if findings.iter().any(|finding| finding.outcome.is_ok()) {
         return Ok(());
     }
@@ -58,10 +59,16 @@ pub(crate) fn run(arguments: &DoctorArguments) -> Result<(), Failure> {
 
 /// Whether the editor could open a window. Rendering needs none, so a missing one does not change the exit code.
 #[cfg(feature = "editor")]
-fn print_window(out: &mut std::io::Stdout, json: bool) -> Result<(), Failure> {
+fn print_window(out: &mut std::io::Stdout, system: System, json: bool) -> Result<(), Failure> {
+    if system == System::NotLinux {
+        if !json {
+            writeln!(out, "window: not looked into: Impasto was never tried on this system")?;
+        }
+        return Ok(());
+    }
     let found = crate::window_libraries::find();
     if json {
-        let (display, packages) = (&found.display, found.packages.join(" "));
+        let (display, packages) = (&found.display, system.packages(&found.missing).join(" "));
         let works = found.could_open();
         writeln!(
             out,
@@ -87,8 +94,8 @@ fn print_window(out: &mut std::io::Stdout, json: bool) -> Result<(), Failure> {
             )?;
         }
     }
-    if !found.packages.is_empty() {
-        writeln!(out, "  mend, on Debian and Ubuntu: apt-get install {}", found.packages.join(" "))?;
+    if !found.missing.is_empty() {
+        writeln!(out, "  mend: {}", system.mend(&found.missing))?;
     }
     Ok(())
 }

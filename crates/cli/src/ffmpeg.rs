@@ -7,6 +7,7 @@ use std::thread::JoinHandle;
 
 use impasto_frame_files::frame_reader::Depth;
 use impasto_scene::whole_file::WholeFile;
+use impasto_system::{FOR_MOVIES, mend};
 
 use crate::failure::Failure;
 
@@ -147,11 +148,12 @@ impl Encoding {
             return Ok(());
         }
         Err(Failure::Refused(format!(
-            "{}: the ffmpeg that is installed has no encoder {} ({}); install one that has it (apt install ffmpeg), or \
+            "{}: the ffmpeg that is installed has no encoder {} ({}); this may bring one that has it: {}; or \
              let the name end in {}, which need others",
             path.display(),
             self.encoder,
             self.codec,
+            mend(FOR_MOVIES),
             self.others().join(" or ")
         )))
     }
@@ -172,9 +174,10 @@ fn one_line(words: &str) -> String {
 fn not_started(path: &Path, error: &std::io::Error) -> Failure {
     match error.kind() {
         std::io::ErrorKind::NotFound => Failure::Refused(format!(
-            "{}: movies are made by ffmpeg, which is not installed; install it (apt install ffmpeg), or let impasto \
+            "{}: movies are made by ffmpeg, which is not installed; {}, or let impasto \
              render write frames (-o out/frame_####.png) or one animated PNG (--apng)",
-            path.display()
+            path.display(),
+            mend(FOR_MOVIES)
         )),
         _ => Failure::Other(format!("ffmpeg cannot be started: {error}")),
     }

@@ -13,7 +13,9 @@ mod farm_args;
 mod ffmpeg;
 mod info;
 mod interrupt;
+mod manual;
 mod measure;
+mod memory_size;
 mod movie;
 mod new;
 mod picture_args;
@@ -83,6 +85,7 @@ fn main() -> ExitCode {
             clap_complete::generate(shell, &mut Arguments::command(), "impasto", &mut std::io::stdout());
             Ok(())
         }
+        Command::Man { folder } => manual::write(&folder),
     };
     let _ = std::io::stdout().flush();
     match result {

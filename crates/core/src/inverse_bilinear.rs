@@ -11,7 +11,7 @@
 //! s is the sign of the quad's area; on a convex quad b₁∧b₂ has the same sign. This form of the root also holds where
 //! A is 0 (rectangles, parallelograms, trapezoids), and for either winding. Where its denominator would cancel, the
 //! same root is computed as (−B − s√) / 2A. u follows from X or from Y, whichever has the larger denominator.
-//! `shaders/shared/inverse_bilinear.glsl` computes the same in 32 bits.
+//! `crates/gl-render/shaders/shared/inverse_bilinear.glsl` computes the same in 32 bits.
 
 use glam::DVec2;
 

@@ -1,4 +1,4 @@
-//! Tests that `shaders/shared/inverse_bilinear.glsl` finds what the same function in `core` finds, on both drivers.
+//! Tests that `crates/gl-render/shaders/shared/inverse_bilinear.glsl` finds what the same function in `core` finds, on both drivers.
 
 use std::rc::Rc;
 

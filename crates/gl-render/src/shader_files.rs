@@ -4,7 +4,7 @@ use crate::gl::{ShaderFile, ShaderTexts};
 
 macro_rules! shader_files {
     ($($path:literal),* $(,)?) => {
-        &[$(ShaderFile { path: $path, text: include_str!(concat!("../../../shaders/", $path)) }),*]
+        &[$(ShaderFile { path: $path, text: include_str!(concat!("../shaders/", $path)) }),*]
     };
 }
 
@@ -113,7 +113,7 @@ mod tests {
 
     #[test]
     fn every_file_of_the_folder_is_part_of_the_program_and_none_else() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shaders");
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders");
         let groups = std::fs::read_dir(&folder).unwrap().map(|group| group.unwrap().path());
         let files = groups.flat_map(|group| std::fs::read_dir(group).unwrap());
         let paths = files.map(|file| file.unwrap().path());

@@ -32,6 +32,7 @@ mod made_once;
 mod noise_displace;
 mod object_cache;
 mod order;
+mod ordering;
 mod painting;
 mod painting_view;
 mod paper;

@@ -8,7 +8,7 @@ use super::finding::Finding;
 /// for a folder).
 type Place = (&'static str, &'static [&'static str], &'static str);
 const PLACES: &[Place] = &[
-    ("a shader folder", &["shaders/"], "/"),
+    ("a shader folder", &["crates/gl-render/shaders/"], "/"),
     ("a style", STYLES, ".rs"),
     ("a page", &["docs/techniques/"], ".md"),
 ];

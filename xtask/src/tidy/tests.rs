@@ -29,7 +29,10 @@ fn a_tidy_tree_passes() {
 fn a_planted_long_file_is_named() {
     let long = "// line\n".repeat(501);
     found(&[("crates/core/src/long.rs", &long)], "crates/core/src/long.rs:501: 501 lines");
-    found(&[("shaders/shared/long.glsl", &long)], "shaders/shared/long.glsl:501: 501 lines");
+    found(
+        &[("crates/gl-render/shaders/shared/long.glsl", &long)],
+        "crates/gl-render/shaders/shared/long.glsl:501: 501 lines",
+    );
     assert_eq!(verdict(&[("crates/core/src/long.rs", &"// line\n".repeat(500))]), Ok(()));
 }
 
@@ -56,7 +59,7 @@ fn an_empty_name_is_named() {
 #[test]
 fn half_a_technique_is_named() {
     let whole = [
-        ("shaders/sumi_e/ink.frag", ""),
+        ("crates/gl-render/shaders/sumi_e/ink.frag", ""),
         ("crates/gl-render/src/styles/sumi_e.rs", ""),
         ("docs/techniques/sumi_e.md", ""),
         ("tests/it/sumi_e.rs", ""),
@@ -66,7 +69,7 @@ fn half_a_technique_is_named() {
     material[1].0 = "crates/gl-render/src/materials/sumi_e.rs";
     assert_eq!(verdict(&material), Ok(()), "a technique may be a material");
     for (missing, expected) in [
-        (0, "no shader folder: shaders/sumi_e"),
+        (0, "no shader folder: crates/gl-render/shaders/sumi_e"),
         (1, "no style: crates/gl-render/src/styles/sumi_e.rs"),
         (2, "no page: docs/techniques/sumi_e.md"),
         (3, "no test module: tests/it/sumi_e.rs"),

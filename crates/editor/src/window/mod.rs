@@ -10,6 +10,7 @@ mod numpad;
 use std::time::Duration;
 
 use egui::vec2;
+use impasto_system::{FOR_EGL, FOR_WAYLAND, FOR_X11, mend};
 use winit::event_loop::EventLoopProxy;
 
 pub use event_loop::run;
@@ -127,9 +128,11 @@ pub enum WindowError {
     /// Neither X11 nor Wayland could be reached.
     #[error(
         "no display: {reason}\n\
-         The editor needs X11 or Wayland. On Debian: apt install libx11-6 libx11-xcb1 libxcursor1 libxi6 \
-         libxkbcommon-x11-0 libegl1 libgl1-mesa-dri, and for Wayland libwayland-client0 libwayland-egl1.\n\
-         `impasto render` needs no display."
+         The editor needs a display, and the libraries of X11 or Wayland.\n\
+         For X11: {}\nFor Wayland: {}\n\
+         `impasto render` needs no display.",
+        mend(FOR_X11),
+        mend(FOR_WAYLAND)
     )]
     NoDisplay {
         /// What the window system said.
@@ -138,7 +141,8 @@ pub enum WindowError {
     /// There is a window system but no OpenGL.
     #[error(
         "no OpenGL for a window: {reason}\n\
-         On Debian: apt install libegl1 libgl1-mesa-dri. `impasto doctor` tells what was found."
+         The mend: {}\n`impasto doctor` tells what was found.",
+        mend(FOR_EGL)
     )]
     NoOpenGl {
         /// What the driver said.

@@ -20,7 +20,7 @@ use crate::gl::{DriverMessages, Gpu, Limits};
 use opening::Opened;
 
 pub use opening::OpenOptions;
-pub use report::{ContextError, ContextReport, Driver, FailedAttempt, Mend};
+pub use report::{ContextError, ContextReport, Driver, FailedAttempt};
 
 /// An OpenGL context of version 3.3 core or later, with no window.
 ///

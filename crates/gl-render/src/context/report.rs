@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use impasto_system::{FOR_EGL, FOR_OSMESA, Part, mend};
+
 use crate::gl::Gpu;
 
 /// Which library to take OpenGL from.
@@ -26,6 +28,17 @@ impl fmt::Display for Driver {
     }
 }
 
+impl Driver {
+    /// What the system has to bring for this driver.
+    pub fn parts(self) -> &'static [Part] {
+        match self {
+            Driver::Auto => &[],
+            Driver::Egl => FOR_EGL,
+            Driver::Osmesa => FOR_OSMESA,
+        }
+    }
+}
+
 /// An attempt to open a context that failed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FailedAttempt {
@@ -37,36 +50,11 @@ pub struct FailedAttempt {
     pub reason: String,
 }
 
-/// System packages that bring a driver, by their Debian and Ubuntu names.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Mend {
-    /// The driver that they bring.
-    pub driver: Driver,
-    /// Package names for `apt-get install`.
-    pub packages: &'static [&'static str],
-}
-
-impl Mend {
-    /// The packages for each driver that has any.
-    pub const ALL: [Mend; 2] = [
-        Mend { driver: Driver::Egl, packages: &["libegl1", "libgl1-mesa-dri"] },
-        Mend { driver: Driver::Osmesa, packages: &["libosmesa6"] },
-    ];
-}
-
 /// No driver could open a context.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub struct ContextError {
     /// Every attempt, in order.
     pub tried: Vec<FailedAttempt>,
-}
-
-impl ContextError {
-    /// The packages that would bring the drivers that were tried.
-    pub fn mends(&self) -> Vec<Mend> {
-        let tried = |mend: &Mend| self.tried.iter().any(|attempt| attempt.driver == mend.driver);
-        Mend::ALL.into_iter().filter(tried).collect()
-    }
 }
 
 impl fmt::Display for ContextError {
@@ -75,12 +63,13 @@ impl fmt::Display for ContextError {
         for attempt in &self.tried {
             write!(formatter, "\n  {}: {}", attempt.way, attempt.reason)?;
         }
-        let mends: Vec<String> = self
-            .mends()
-            .iter()
-            .map(|mend| format!("`apt-get install {}` ({})", mend.packages.join(" "), mend.driver))
+        let tried = |driver: &Driver| self.tried.iter().any(|attempt| attempt.driver == *driver);
+        let mends: Vec<String> = [Driver::Egl, Driver::Osmesa]
+            .into_iter()
+            .filter(tried)
+            .map(|driver| format!("{} ({driver})", mend(driver.parts())))
             .collect();
-        write!(formatter, "\n  on Debian and Ubuntu: {}", mends.join(" or "))
+        write!(formatter, "\n  mend: {}", mends.join(", or "))
     }
 }
 

@@ -1,0 +1,160 @@
+//! Puts particles in the order in which they are painted: by the regions' layers, then by the layers of paint, then by rank from
+//! high to low.
+
+use std::cmp::Reverse;
+use std::collections::binary_heap::PeekMut;
+use std::collections::{BTreeMap, BinaryHeap};
+use std::sync::Arc;
+
+use impasto_scene::presets::LayerKind;
+use rayon::prelude::*;
+
+use crate::coat::Coat;
+use crate::order::{PaintingOrder, begins};
+use crate::regions::RegionRule;
+use crate::traits::Traits;
+
+/// All that the order depends on.
+pub(crate) struct OrderInputs {
+    coats: Vec<OrderedCoat>,
+    /// The layer of each rule; empty if all have the same.
+    layers: Vec<i32>,
+}
+
+struct OrderedCoat {
+    kind: LayerKind,
+    name_hash: u32,
+    count: usize,
+    /// Tells the region of each particle; `None` if all regions have the same layer.
+    traits: Option<Arc<Traits>>,
+}
+
+impl PartialEq for OrderedCoat {
+    fn eq(&self, other: &Self) -> bool {
+        let same_regions = match (&self.traits, &other.traits) {
+            (Some(a), Some(b)) => Arc::ptr_eq(a, b) || a.same_regions(b),
+            (a, b) => a.is_none() && b.is_none(),
+        };
+        (self.kind, self.name_hash, self.count) == (other.kind, other.name_hash, other.count) && same_regions
+    }
+}
+
+impl PartialEq for OrderInputs {
+    fn eq(&self, other: &Self) -> bool {
+        self.coats == other.coats && self.layers == other.layers
+    }
+}
+
+impl OrderInputs {
+    pub(crate) fn new(coats: &[Arc<Coat>], rules: &[RegionRule]) -> Self {
+        let layers: Vec<i32> = rules.iter().map(|rule| rule.strokes.layer).collect();
+        let one_layer = layers.windows(2).all(|pair| pair[0] == pair[1]);
+        let coats = coats
+            .iter()
+            .map(|coat| OrderedCoat {
+                kind: coat.kind,
+                name_hash: coat.traits.name_hash,
+                count: coat.sampled.particles.len(),
+                traits: (!one_layer).then(|| Arc::clone(&coat.traits)),
+            })
+            .collect();
+        Self { coats, layers: if one_layer { Vec::new() } else { layers } }
+    }
+
+    /// All particles in painting order; equal ranks of two objects are ordered by the hash of their names.
+    pub(crate) fn order(&self) -> PaintingOrder {
+        let (firsts, _) = begins(self.coats.iter().map(|coat| coat.count));
+        let mut runs: BTreeMap<(i32, LayerKind), Vec<Queue>> = BTreeMap::new();
+        for (index, coat) in self.coats.iter().enumerate() {
+            for (layer, particles) in coat.by_layer(&self.layers) {
+                let queue =
+                    Queue { first: firsts[index], name_hash: coat.name_hash, count: coat.count, particles };
+                runs.entry((layer, coat.kind)).or_default().push(queue);
+            }
+        }
+        let runs: Vec<Vec<Queue>> = runs.into_values().collect();
+        let runs: Vec<Vec<u32>> = runs.into_par_iter().map(merged).collect();
+        PaintingOrder::new(runs.concat(), firsts)
+    }
+}
+
+impl OrderedCoat {
+    /// The particles of each of the regions' layers, in progressive order.
+    fn by_layer(&self, layers: &[i32]) -> BTreeMap<i32, LayerParticles> {
+        let Some(traits) = &self.traits else {
+            return BTreeMap::from([(0, LayerParticles::First(self.count as u32))]);
+        };
+        let mut of_layer: BTreeMap<i32, Vec<u32>> = BTreeMap::new();
+        for particle in 0..self.count {
+            let layer = layers[usize::from(traits.region(particle))];
+            of_layer.entry(layer).or_default().push(particle as u32);
+        }
+        of_layer.into_iter().map(|(layer, particles)| (layer, LayerParticles::These(particles))).collect()
+    }
+}
+
+/// Particles of a coat that are in one layer, in progressive order.
+enum LayerParticles {
+    /// This many particles, the first ones of the coat.
+    First(u32),
+    These(Vec<u32>),
+}
+
+/// The particles of a coat that are not in the order yet. They are taken from the end.
+struct Queue {
+    /// The number of the coat's first particle.
+    first: u32,
+    name_hash: u32,
+    /// How many particles the coat has.
+    count: usize,
+    particles: LayerParticles,
+}
+
+impl Queue {
+    fn len(&self) -> usize {
+        match &self.particles {
+            LayerParticles::First(count) => *count as usize,
+            LayerParticles::These(particles) => particles.len(),
+        }
+    }
+
+    fn pop(&mut self) -> Option<u32> {
+        match &mut self.particles {
+            LayerParticles::First(count) => {
+                *count = count.checked_sub(1)?;
+                Some(*count)
+            }
+            LayerParticles::These(particles) => particles.pop(),
+        }
+    }
+
+    /// Twice the rank of a particle, (2 index + 1) / count, as bits: the bits of positive floats sort as the floats do.
+    fn rank(&self, particle: u32) -> u64 {
+        ((u64::from(particle) * 2 + 1) as f64 / self.count as f64).to_bits()
+    }
+}
+
+/// The next particle of a queue as the heap compares it. The highest rank comes first; of equal ranks the least hash of
+/// the name, then the least particle, then the least index of the queue.
+type Head = (u64, Reverse<(u32, u32, usize)>);
+
+/// The numbers of the particles of queues, the highest rank first; each queue is sorted already.
+fn merged(mut queues: Vec<Queue>) -> Vec<u32> {
+    let mut order = Vec::with_capacity(queues.iter().map(Queue::len).sum());
+    let mut heads: BinaryHeap<Head> = BinaryHeap::new();
+    for (index, queue) in queues.iter_mut().enumerate() {
+        if let Some(particle) = queue.pop() {
+            heads.push((queue.rank(particle), Reverse((queue.name_hash, particle, index))));
+        }
+    }
+    while let Some(mut head) = heads.peek_mut() {
+        let (_, Reverse((_, particle, index))) = *head;
+        let queue = &mut queues[index];
+        order.push(queue.first + particle);
+        match queue.pop() {
+            Some(next) => *head = (queue.rank(next), Reverse((queue.name_hash, next, index))),
+            None => drop(PeekMut::pop(head)),
+        }
+    }
+    order
+}

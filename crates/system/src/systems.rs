@@ -1,0 +1,82 @@
+//! Which system the program runs on.
+
+use std::path::Path;
+
+/// The kinds of systems that are told apart: by the names of their packages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum System {
+    /// Debian, Ubuntu and what is made from them, with apt.
+    Debian,
+    /// Fedora and what is made from it, with dnf.
+    Fedora,
+    /// Arch Linux and what is made from it, with pacman.
+    Arch,
+    /// A Linux whose packages are not known here.
+    OtherLinux,
+    /// No Linux: Impasto was never tried there.
+    NotLinux,
+}
+
+impl System {
+    /// The system that the program runs on.
+    pub fn here() -> Self {
+        if !cfg!(target_os = "linux") {
+            return Self::NotLinux;
+        }
+        let release = ["/etc/os-release", "/usr/lib/os-release"]
+            .iter()
+            .find_map(|path| std::fs::read_to_string(path).ok())
+            .unwrap_or_default();
+        let path = std::env::var_os("PATH").unwrap_or_default();
+        Self::of(&release, |program| {
+            std::env::split_paths(&path).any(|folder| folder.join(program).is_file())
+                || Path::new("/usr/bin").join(program).is_file()
+        })
+    }
+
+    /// The Linux that calls itself so in `os-release`, if it also has the program that installs packages.
+    fn of(release: &str, has: impl Fn(&str) -> bool) -> Self {
+        let named = |family: &str| {
+            let lines = release.lines().filter_map(|line| line.split_once('='));
+            let mut values =
+                lines.filter(|(key, _)| matches!(*key, "ID" | "ID_LIKE")).map(|(_, value)| value);
+            values.any(|value| value.trim_matches(['"', '\'']).split_whitespace().any(|word| word == family))
+        };
+        let known = [
+            (Self::Debian, ["debian", "ubuntu"].as_slice(), "apt-get"),
+            (Self::Fedora, &["fedora"], "dnf"),
+            (Self::Arch, &["arch"], "pacman"),
+        ];
+        let is = |families: &[&str], program| families.iter().any(|family| named(family)) && has(program);
+        let found = known.into_iter().find(|(_, families, program)| is(families, program));
+        found.map_or(Self::OtherLinux, |(system, ..)| system)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DEBIAN: &str = "PRETTY_NAME=\"Debian GNU/Linux 12 (bookworm)\"\nID=debian\n";
+    const MINT: &str = "ID=linuxmint\nID_LIKE=\"ubuntu debian\"\n";
+    const ROCKY: &str = "ID=\"rocky\"\nID_LIKE=\"rhel centos fedora\"\n";
+    const ARCH: &str = "NAME=\"Arch Linux\"\nID=arch\n";
+
+    #[test]
+    fn a_system_is_known_by_its_release_and_by_the_program_it_has() {
+        let has = |wanted: &'static str| move |program: &str| program == wanted;
+        assert_eq!(System::of(DEBIAN, has("apt-get")), System::Debian);
+        assert_eq!(System::of(MINT, has("apt-get")), System::Debian);
+        assert_eq!(System::of(ROCKY, has("dnf")), System::Fedora);
+        assert_eq!(System::of(ARCH, has("pacman")), System::Arch);
+        // Fedora has apt among its packages: with it, it is still no Debian.
+        assert_eq!(System::of("ID=fedora\n", has("apt-get")), System::OtherLinux);
+        assert_eq!(
+            System::of(DEBIAN, |_| false),
+            System::OtherLinux,
+            "nobody is told to use what is not there"
+        );
+        assert_eq!(System::of("ID=nixos\n", |_| true), System::OtherLinux);
+        assert_eq!(System::of("", |_| true), System::OtherLinux);
+    }
+}
