@@ -492,7 +492,7 @@ fn frames_are_piped_to_ffmpeg_where_it_is_installed() {
     };
     let without = render();
     assert_eq!(code(&without), 3);
-    assert!(words(&without.stderr).contains("ffmpeg, which is not installed; install it"));
+    assert!(words(&without.stderr).contains("ffmpeg, which is not installed; "));
     // A stand-in for ffmpeg that has an encoder, and copies its input into the file that its last argument names.
     let install = |script: &str| {
         let path = programs.join("ffmpeg");

@@ -25,6 +25,7 @@ mod hostile_directions;
 mod hostile_scenes;
 mod inverse_bilinear;
 mod kept_paintings;
+mod kills;
 mod lamp_shadows;
 mod light_billboards;
 mod measure;

@@ -19,7 +19,8 @@ pub fn renderer(driver: Driver) -> Renderer {
 /// # Panics
 /// When `from` is not in the file, or the faulty shader does not compile.
 pub fn faulty_renderer(path: &str, from: &str, to: &str) -> Renderer {
-    let text = std::fs::read_to_string(root().join("shaders").join(path)).expect("a shader file");
+    let text =
+        std::fs::read_to_string(root().join("crates/gl-render/shaders").join(path)).expect("a shader file");
     assert!(text.contains(from), "{path} has no `{from}`");
     let mut texts = ShaderTexts::default();
     assert!(texts.put(path, text.replace(from, to)));
