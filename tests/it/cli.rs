@@ -247,9 +247,31 @@ fn outputs_are_refused_before_anything_is_drawn() {
         let output = folder.run(&["render", "scene.ron", "-o", input, "--frames", "0"]);
         assert_eq!(code(&output), 3, "{input}");
     }
+    std::fs::create_dir(folder.path("folder.png")).unwrap();
+    let long = format!("{}.png", "x".repeat(300));
+    for (output, why) in [("folder.png", "it is a folder"), (long.as_str(), "too long")] {
+        let output = folder.run(&["render", "scene.ron", "-o", output, "--frames", "0"]);
+        let words = words(&output.stderr);
+        assert!(code(&output) == 3 && words.contains(why) && words.lines().count() == 1, "{words}");
+    }
     assert_eq!(std::fs::read_to_string(folder.path("scene.ron")).unwrap(), SCENE);
     assert_eq!(std::fs::read_to_string(folder.path("cube.obj")).unwrap(), CUBE);
-    assert_eq!(folder.names("."), ["cube.obj", "file", "scene.ron"]);
+    assert_eq!(folder.names("."), ["cube.obj", "file", "folder.png", "scene.ron"]);
+}
+
+/// As where a share goes away, or a disk is full.
+#[test]
+fn a_frame_that_cannot_be_written_ends_the_render_and_those_before_it_stay() {
+    let folder = Folder::new();
+    std::fs::create_dir_all(folder.path("out/f_0002.png")).unwrap();
+    let output = folder.run(&["render", "scene.ron", "-o", "out/f_####.png", "--frames", "0-3"]);
+    let words = words(&output.stderr);
+    assert_eq!((code(&output), words.lines().count()), (5, 1), "{words}");
+    assert!(
+        words.contains("frame 2: out/f_0002.png: ") && words.contains("2 frames are done and whole"),
+        "{words}"
+    );
+    assert_eq!(folder.names("out"), ["f_0000.png", "f_0001.png", "f_0002.png"]);
 }
 
 #[test]
@@ -338,6 +360,18 @@ fn info_doctor_and_completions_answer() {
     );
     for shell in ["bash", "zsh", "fish"] {
         assert!(words(&folder.run(&["completions", shell]).stdout).contains("impasto"), "{shell}");
+    }
+    // Who does not read on, and a device that is full.
+    for (command, wanted) in [("completions zsh", "0"), ("info cube.obj", "0"), ("check cube.obj", "0")] {
+        let piped = format!("{} {command} | true; echo ${{PIPESTATUS[0]}}", impasto().display());
+        let output =
+            Command::new("bash").current_dir(folder.path(".")).args(["-c", &piped]).output().unwrap();
+        let said = (words(&output.stdout), words(&output.stderr));
+        assert_eq!((said.0.trim(), said.1), (wanted, String::new()), "{command}");
+        let full = format!("{} {command} > /dev/full", impasto().display());
+        let output = Command::new("bash").current_dir(folder.path(".")).args(["-c", &full]).output().unwrap();
+        assert_eq!(code(&output), 1, "{command}");
+        assert!(words(&output.stderr).contains("No space left on device"), "{command}");
     }
 }
 

@@ -32,6 +32,8 @@ pub(crate) enum Failure {
     NoWindow(String),
     /// Some frames failed; the others are written.
     SomeFrames { failed: u64, done: u64 },
+    /// A frame could not be written, in words, after so many were.
+    NotWritten { words: String, done: u64 },
     /// A signal came after so many frames were written.
     Interrupted { done: u64 },
 }
@@ -51,7 +53,7 @@ impl Failure {
             Self::NoOpenGl(_) => 4,
             #[cfg(feature = "editor")]
             Self::NoWindow(_) => 4,
-            Self::SomeFrames { .. } => 5,
+            Self::SomeFrames { .. } | Self::NotWritten { .. } => 5,
             Self::Interrupted { .. } => 130,
         }
     }
@@ -68,6 +70,14 @@ impl Failure {
             Self::NoWindow(words) => format!("impasto: error: {words}"),
             Self::SomeFrames { failed, done } => {
                 format!("impasto: error: {failed} frames failed, {done} are done")
+            }
+            Self::NotWritten { words, done } => {
+                let whole = match done {
+                    0 => "nothing is written".to_owned(),
+                    1 => "1 frame is done and whole (go on with --skip-existing)".to_owned(),
+                    _ => format!("{done} frames are done and whole (go on with --skip-existing)"),
+                };
+                format!("impasto: error: {words}; {whole}")
             }
             Self::Interrupted { done: 0 } => "impasto: interrupted; nothing is written".to_owned(),
             Self::Interrupted { done } => {

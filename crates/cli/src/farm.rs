@@ -128,7 +128,10 @@ pub(crate) fn pack(arguments: &PackArguments) -> Result<(), Failure> {
         Some(output) => {
             let loaded = read(scene, asset_dirs, *quiet)?;
             not_an_input(output, &loaded.inputs())?;
-            ready_folder(output)?;
+            // A folder that is there is refused in the words of packs.
+            if !output.is_dir() {
+                ready_folder(output)?;
+            }
             (pack::pack(&loaded, output).map_err(refused)?, output)
         }
         None => (pack::check(scene).map_err(refused)?, scene),

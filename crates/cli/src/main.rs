@@ -82,8 +82,10 @@ fn main() -> ExitCode {
         Command::Relight(arguments) => relight::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
         Command::Completions { shell } => {
-            clap_complete::generate(shell, &mut Arguments::command(), "impasto", &mut std::io::stdout());
-            Ok(())
+            // Generating cannot fail, and would panic where nobody reads.
+            let mut text = Vec::new();
+            clap_complete::generate(shell, &mut Arguments::command(), "impasto", &mut text);
+            std::io::stdout().write_all(&text).map_err(Failure::from)
         }
         Command::Man { folder } => manual::write(&folder),
     };

@@ -15,7 +15,7 @@ use impasto_scene::document::{Scene, Style};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::memory;
 use impasto_scene::whole_file::WholeFile;
-use impasto_sequence::{Drawn, Ending, FileOutcome, FrameFiles, Sequence, Wanted};
+use impasto_sequence::{Drawn, Ending, FileOutcome, FrameError, FrameFiles, Sequence, Wanted};
 
 use crate::args::{ColorsChoice, RenderArguments, RotationChoice};
 use crate::cache::Storing;
@@ -247,6 +247,11 @@ impl Plan {
                 let path = pattern.path(frame_number);
                 match outcome {
                     FileOutcome::Kept => {}
+                    // A folder that is full or away takes no further frame either.
+                    FileOutcome::Failed(FrameError::Write(error)) => {
+                        let words = format!("frame {frame_number}: {}: {error}", path.display());
+                        return Err(Failure::NotWritten { words, done });
+                    }
                     FileOutcome::Failed(error) => {
                         failed += 1;
                         bar.suspend(|| eprintln!("frame {frame_number}: {}: {error}", path.display()));

@@ -13,15 +13,23 @@ pub enum PlaceError {
         /// What the system said.
         error: std::io::Error,
     },
+    /// No file can have this name: it is a folder's, or too long.
+    #[error("{} cannot be written: {why}", path.display())]
+    NoFile {
+        /// The name.
+        path: PathBuf,
+        /// What the system says of it.
+        why: String,
+    },
     /// The command reads this file, so it must not write there.
     #[error("{} is read by this command and would be written over", .0.display())]
     Input(PathBuf),
 }
 
-/// Makes the folder of an output file, checks that a file can be written there, and returns the folder.
+/// Makes the folder of an output file, checks that a file of this name can be written there, and returns the folder.
 ///
 /// # Errors
-/// [`PlaceError::NotWritable`].
+/// [`PlaceError::NotWritable`], [`PlaceError::NoFile`].
 pub fn ready_folder(path: &Path) -> Result<PathBuf, PlaceError> {
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder.to_path_buf(),
@@ -32,9 +40,14 @@ pub fn ready_folder(path: &Path) -> Result<PathBuf, PlaceError> {
         return Ok(folder);
     }
     // Tries to write a file. It has no name, so that nothing of it is ever left.
-    match std::fs::create_dir_all(&folder).and_then(|()| tempfile::tempfile_in(&folder)) {
-        Ok(_) => Ok(folder),
-        Err(error) => Err(PlaceError::NotWritable { folder, error }),
+    if let Err(error) = std::fs::create_dir_all(&folder).and_then(|()| tempfile::tempfile_in(&folder)) {
+        return Err(PlaceError::NotWritable { folder, error });
+    }
+    let no_file = |why: String| Err(PlaceError::NoFile { path: path.to_owned(), why });
+    match std::fs::symlink_metadata(path) {
+        Ok(there) if there.is_dir() => no_file("it is a folder".to_owned()),
+        Err(error) if error.kind() == std::io::ErrorKind::InvalidFilename => no_file(error.to_string()),
+        _ => Ok(folder),
     }
 }
 

@@ -59,13 +59,18 @@ impl WholeFile {
         let name: String =
             target.file_name().unwrap_or_default().to_string_lossy().chars().take(NAME_CHARS).collect();
         let prefix = format!(".{name}~");
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(&prefix).suffix(".part");
+        let mut options = File::options();
+        options.read(true).write(true).create_new(true);
         #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(mode));
+        std::os::unix::fs::OpenOptionsExt::mode(&mut options, mode);
         #[cfg(not(unix))]
         let _ = mode;
-        let (file, part) = builder.tempfile_in(folder_of(&target))?.into_parts();
+        // Opened here, so that an error is what the system said, without the name of the unfinished file.
+        let part = tempfile::Builder::new()
+            .prefix(&prefix)
+            .suffix(".part")
+            .make_in(folder_of(&target), |path| options.open(path))?;
+        let (file, part) = part.into_parts();
         if let Some(permissions) = permissions {
             file.set_permissions(permissions)?;
         }
