@@ -47,6 +47,7 @@ mod shot_looks;
 mod shots;
 mod sidecars;
 mod steadiness;
+mod strange_models;
 mod sumi_e;
 mod turntable;
 mod warm_prepare;

@@ -42,7 +42,12 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<(), Failure> {
         eprintln!(
             "impasto: {} lies outside the scene's folder: render it with --asset-dir {}",
             arguments.model.display(),
-            arguments.model.parent().unwrap_or(Path::new(".")).display()
+            arguments
+                .model
+                .parent()
+                .filter(|folder| *folder != Path::new(""))
+                .unwrap_or(Path::new("."))
+                .display()
         );
     }
     Ok(())

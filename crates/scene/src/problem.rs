@@ -54,7 +54,7 @@ pub struct Report(pub Vec<Problem>);
 impl fmt::Display for Problem {
     /// `file:line:column: error: what is wrong; the mend`.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{}", self.path.display())?;
+        write!(formatter, "{}", harmless(&self.path.to_string_lossy()))?;
         if let Some(place) = self.place {
             write!(formatter, ":{}:{}", place.line, place.column)?;
         }
@@ -63,9 +63,30 @@ impl fmt::Display for Problem {
             Severity::Error => "error",
             Severity::Limit => "limit",
         };
-        write!(formatter, ": {word}: {}", self.message)?;
-        if self.mend.is_empty() { Ok(()) } else { write!(formatter, "; {}", self.mend) }
+        write!(formatter, ": {word}: {}", harmless(&self.message))?;
+        if self.mend.is_empty() { Ok(()) } else { write!(formatter, "; {}", harmless(&self.mend)) }
     }
+}
+
+/// The most characters of a word that are shown: no name of a file needs more, and a hostile one may have millions.
+const MOST_OF_A_WORD: usize = 200;
+
+/// A text that a terminal shows as it stands: no character steers it, and no word goes on without end.
+pub fn harmless(text: &str) -> String {
+    let mut shown = String::with_capacity(text.len().min(1 << 12));
+    let mut length = 0;
+    for letter in text.chars() {
+        length = if letter.is_whitespace() { 0 } else { length + 1 };
+        match length {
+            ..=MOST_OF_A_WORD if letter.is_control() && letter != '\n' && letter != '\t' => {
+                shown.extend(letter.escape_debug());
+            }
+            ..=MOST_OF_A_WORD => shown.push(letter),
+            _ if length == MOST_OF_A_WORD + 1 => shown.push('…'),
+            _ => {}
+        }
+    }
+    shown
 }
 
 impl fmt::Display for Report {
@@ -77,5 +98,17 @@ impl fmt::Display for Report {
             write!(formatter, "{problem}")?;
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_shown_steers_no_terminal_and_has_an_end() {
+        assert_eq!(harmless("a \u{1b}[31mred\u{7}\n\tb é"), "a \\u{1b}[31mred\\u{7}\n\tb é");
+        let long = format!("{} next {}", "x".repeat(10_000_000), "y".repeat(200));
+        assert_eq!(harmless(&long), format!("{}… next {}", "x".repeat(200), "y".repeat(200)));
     }
 }

@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use foldhash::fast::RandomState;
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3, Vec3Swizzles as _};
 use impasto_core::TriangleMesh;
 use impasto_core::color::linear_from_srgb;
 use indexmap::IndexSet;
@@ -68,6 +68,10 @@ pub(crate) struct Oddities {
     pub rough_faces: (usize, u32),
     /// How many faces have over 1,000 corners, and the index of the first.
     pub large_faces: (usize, u32),
+    /// How many faces have normals of the file that run along them, and the index of the first. Their normals are made.
+    pub along_faces: (usize, u32),
+    /// How many faces lie on others with the same corners, and the index of the first. They are left out.
+    pub doubled_faces: (usize, u32),
 }
 
 impl Oddities {
@@ -95,6 +99,8 @@ pub(crate) struct Builder<'a> {
     triangles: Vec<Triangle>,
     /// Cutting a polygon with care takes tests of its corners against each other; this many more may be made.
     tests_left: u64,
+    /// Whether normals of the file that run along their faces are not used.
+    drops_along: bool,
     pub odd: Oddities,
 }
 
@@ -117,6 +123,7 @@ impl<'a> Builder<'a> {
             geometry,
             triangles: Vec::new(),
             tests_left: polygon::MAX_TESTS,
+            drops_along: false,
             odd: Oddities::default(),
         };
         let count = geometry.ends.len();
@@ -129,7 +136,7 @@ impl<'a> Builder<'a> {
         if spent.into_inner() >= polygon::MAX_TESTS {
             // The tests are used up. Which polygons must do without them depends on the polygons before, so all are cut again in
             // order.
-            return empty().cut(0..count, &AtomicU64::new(0));
+            return empty().cut(0..count, &AtomicU64::new(0)).mended();
         }
         let mut whole = empty();
         whole.triangles.reserve_exact(parts.iter().map(|part| part.triangles.len()).sum());
@@ -137,7 +144,79 @@ impl<'a> Builder<'a> {
             whole.triangles.extend(part.triangles);
             whole.odd.join(&part.odd);
         }
-        whole
+        whole.mended()
+    }
+
+    /// Without what lies double, and with an eye on the file's normals.
+    fn mended(mut self) -> Self {
+        self.drop_doubled();
+        self.find_along();
+        self
+    }
+
+    /// Leaves out triangles that lie on others with the same corners in the same order, where there are so many that the area is
+    /// many times what a body of this size has. They would take strokes that cannot show.
+    fn drop_doubled(&mut self) {
+        /// The area of a body over that of the box around it.
+        const MUCH_AREA: f64 = 16.0;
+        if self.geometry.keeps_vertices {
+            return;
+        }
+        let mut bounds = (DVec3::MAX, DVec3::MIN);
+        let mut area = 0.0;
+        for triangle in &self.triangles {
+            let [a, b, c] = triangle.vertices.map(|vertex| self.at(vertex));
+            bounds = [a, b, c].into_iter().fold(bounds, |(low, high), at| (low.min(at), high.max(at)));
+            area += (b - a).cross(c - a).length() / 2.0;
+        }
+        let size = bounds.1 - bounds.0;
+        if self.triangles.is_empty() || area < MUCH_AREA * 2.0 * (size * size.yzx()).element_sum() {
+            return;
+        }
+        let mut seen: IndexSet<[[u32; 3]; 3], RandomState> = IndexSet::default();
+        let (geometry, odd) = (self.geometry, &mut self.odd);
+        self.triangles.retain(|triangle| {
+            let mut places =
+                triangle.vertices.map(|vertex| bits(geometry.positions[vertex as usize].to_array()));
+            // From the least corner on, in the same sense.
+            let least = (0..3).min_by_key(|&corner| places[corner]).unwrap_or_default();
+            places.rotate_left(least);
+            let is_new = seen.insert(places);
+            if !is_new {
+                count(&mut odd.doubled_faces, triangle.face);
+            }
+            is_new
+        });
+    }
+
+    /// Finds faces whose normals in the file run along them, which would be lit from nowhere. Slivers may have such normals and be
+    /// right, so it takes a share of the area.
+    fn find_along(&mut self) {
+        const SHARE_OF_AREA: f64 = 0.01;
+        let mut areas = [0.0; 2];
+        let mut found = (0, 0);
+        for triangle in &self.triangles {
+            let Some(is_along) = self.is_along(triangle) else { continue };
+            let [a, b, c] = triangle.vertices.map(|vertex| self.at(vertex));
+            areas[usize::from(is_along)] += (b - a).cross(c - a).length();
+            if is_along {
+                count(&mut found, triangle.face);
+            }
+        }
+        if areas[1] > SHARE_OF_AREA * (areas[0] + areas[1]) {
+            self.odd.along_faces = found;
+            self.drops_along = true;
+        }
+    }
+
+    /// Whether the normals of all three corners, which the file gives, run along the triangle. `None` where it does not give them.
+    fn is_along(&self, triangle: &Triangle) -> Option<bool> {
+        /// The cosine of 84 degrees.
+        const NEARLY_ALONG: f64 = 0.1;
+        let normals = self.stated_normals(triangle)?;
+        let [a, b, c] = triangle.vertices.map(|vertex| self.at(vertex));
+        let across = (b - a).cross(c - a).normalize_or_zero();
+        Some(normals.iter().all(|normal| normal.as_dvec3().dot(across).abs() < NEARLY_ALONG))
     }
 
     /// Cuts a range of the faces. A part of the faces stops when all cores together have `spent` too many tests, because
@@ -271,8 +350,13 @@ impl<'a> Builder<'a> {
         Built { mesh, face_of_triangle, source_of_vertex }
     }
 
-    /// The file's normals for a triangle, where all three corners have one.
+    /// The file's normals for a triangle, where all three corners have one that can be used.
     fn file_normals(&self, triangle: &Triangle) -> Option<[Vec3; 3]> {
+        self.stated_normals(triangle).filter(|_| !self.drops_along || self.is_along(triangle) == Some(false))
+    }
+
+    /// The file's normals for a triangle, where all three corners have one.
+    fn stated_normals(&self, triangle: &Triangle) -> Option<[Vec3; 3]> {
         let [a, b, c] = triangle.vertices.map(|vertex| self.geometry.normals[vertex as usize]);
         Some([a?, b?, c?])
     }

@@ -19,6 +19,9 @@ pub(super) struct Dart {
 /// How many darts are tested together.
 const LANES: usize = 8;
 
+/// So many darts in two cells are a crowd, as where faces lie on each other.
+const CROWDED: usize = 256;
+
 /// Size of a cell in search radii, a little over 2 and 4 because of rounding. A search reads two neighbouring cells
 /// along x, in its own row of cells and in the next rows in y and z where they are within reach.
 const CELL: Vec3 = Vec3::new(2.02, 4.04, 4.04);
@@ -167,9 +170,10 @@ impl DartGrid {
         let scaled = position * self.cells_per_unit;
         let [x, y, z] = [floor(scaled.x), floor(scaled.y), floor(scaled.z)];
         let first_x = x.wrapping_sub(i32::from(scaled.x - (x as f32) < 0.5));
+        let is_first = x == first_x;
         let mut in_row = |y: i32, z: i32| {
             let bucket = self.bucket_of([first_x, y, z]) as usize;
-            self.any_in_row(bucket, position, radius * radius, &mut found)
+            self.any_in_row((bucket, is_first), position, radius * radius, &mut found)
         };
         // The position's own row comes first, because most of the near darts are there.
         if in_row(y, z) {
@@ -182,16 +186,24 @@ impl DartGrid {
             || dz != 0 && (in_row(y, beside_z) || dy != 0 && in_row(beside_y, beside_z))
     }
 
+    /// Searches two neighbouring buckets; `is_first` tells that the position's own column is that of the first one.
     #[inline]
     fn any_in_row(
         &self,
-        bucket: usize,
+        (bucket, is_first): (usize, bool),
         position: Vec3,
         radius_sq: f32,
         found: &mut impl FnMut(&Dart) -> bool,
     ) -> bool {
         let last = self.mask as usize;
         let run = self.starts[bucket] as usize..self.starts[(bucket + 2).min(last + 1)] as usize;
+        if run.len() > CROWDED && !is_first {
+            // The own column first: where faces lie on each other, the other one may hold half of all darts, far away.
+            let middle = self.starts[bucket + 1] as usize;
+            if self.any_in_run(middle..run.end, position, radius_sq, found) {
+                return true;
+            }
+        }
         if self.any_in_run(run, position, radius_sq, found) {
             return true;
         }

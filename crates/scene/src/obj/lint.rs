@@ -198,7 +198,10 @@ impl<'a> Linter<'_, 'a> {
             words.len() - 1
         });
         let rest = &words[1..];
-        let ends_early = rest.last().is_some_and(|word| is_cut_number(*word));
+        // A file may end each corner with a slash.
+        let is_usual =
+            |word: &Word<'_>| word.bytes.last() == Some(&b'/') && rest[0].bytes.last() == Some(&b'/');
+        let ends_early = rest.last().is_some_and(|word| is_cut_number(*word) && !is_usual(word));
         let is_cut = match words[0].bytes {
             b"v" => rest.len() < 3 || (rest.len() == 3 && ends_early),
             b"f" => rest.len() < 3 || ends_early,
@@ -226,10 +229,11 @@ impl<'a> Linter<'_, 'a> {
                 self.findings.error(word.offset, message, "scale the model down");
             }
         }
-        let others: Vec<f64> = rest.iter().skip(3).take(5).map(|word| self.number(*word)).collect();
+        let others: Vec<Option<f64>> = rest.iter().skip(3).take(5).map(|word| finite(word.bytes)).collect();
         match others.len() {
             0 => {}
-            1 | 4 if others[0] == 0.0 => self.odd.zero_w.add(keyword.offset),
+            _ if others.contains(&None) => self.odd.bad_color.add(keyword.offset),
+            1 | 4 if others[0] == Some(0.0) => self.odd.zero_w.add(keyword.offset),
             1 => {}
             3 | 4 => self.odd.color.add(keyword.offset),
             _ => self.odd.extra.add(keyword.offset),

@@ -3,6 +3,7 @@
 
 use super::text::{Findings, Lines, Walk, Word, name_of, to_utf8};
 use crate::problem::{Problem, TextPosition};
+use std::collections::HashSet;
 use std::path::Path;
 
 /// The colour (sRGB) of whatever has no material.
@@ -40,6 +41,7 @@ pub(super) fn parse(path: &Path, bytes: Vec<u8>) -> (Vec<Described>, Vec<Problem
         findings.warning(0, "the file is UTF-16", "save it as UTF-8");
     }
     let mut materials: Vec<Described> = Vec::new();
+    let mut names: HashSet<String> = HashSet::new();
     let mut lines = Lines::new(&text);
     let mut words = Vec::new();
     let mut walk = Walk::default();
@@ -47,6 +49,14 @@ pub(super) fn parse(path: &Path, bytes: Vec<u8>) -> (Vec<Described>, Vec<Problem
         let (keyword, rest) = (words[0], &words[1..]);
         if keyword.bytes == b"newmtl" {
             check_name(keyword, rest, &mut findings);
+            if !names.insert(name_of(rest)) {
+                let message = format!("the material {:?} is described already", name_of(rest));
+                findings.warning(
+                    keyword.offset,
+                    message,
+                    "the first description is used; give this one a name of its own",
+                );
+            }
             materials.push(Described {
                 name: name_of(rest),
                 color: None,

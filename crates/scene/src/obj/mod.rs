@@ -152,6 +152,12 @@ fn tell(odd: &surface::Oddities, faces: &[Face], findings: &mut Findings<'_>) {
             "cut it into triangles",
         ),
         (odd.large_faces, "this face has more than 1000 corners", "cut it into triangles before export"),
+        (
+            odd.along_faces,
+            "the normals of this face run along it",
+            "normals are worked out from the surface; export them again",
+        ),
+        (odd.doubled_faces, "this face lies on another one with the same corners", "it is left out"),
     ];
     for ((count, first), what, mend) in told {
         if count > 0 {

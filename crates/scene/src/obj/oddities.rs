@@ -46,6 +46,7 @@ pub(super) struct Oddities {
     /// [`super::scan::Kind`].
     pub absent: [Tally; 3],
     pub color: Tally,
+    pub bad_color: Tally,
     pub extra: Tally,
     pub free_form: Tally,
     pub free_form_words: BTreeSet<String>,
@@ -93,6 +94,11 @@ impl Oddities {
             findings,
             "this vertex has a colour, and colours of vertices are not used",
             "use a material",
+        );
+        self.bad_color.tell(
+            findings,
+            "this vertex has a colour or weight that is not made of finite numbers",
+            "it is ignored; colours come from materials",
         );
         self.extra.tell(
             findings,
