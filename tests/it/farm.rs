@@ -209,6 +209,45 @@ fn the_tasks_of_a_slurm_script_paint_all_frames_once() {
 }
 
 #[test]
+fn frames_of_another_state_are_not_taken_for_this_ones() {
+    let folder = shot();
+    let here = folder.path();
+    let again = |more: &[&str]| {
+        let render = ["render", "shot/scene.ron", "--asset-dir", "library", "-f", "0-1", "-o", "out/f.png"];
+        run(here, &[&render[..], &["--skip-existing"], more].concat())
+    };
+    let is_taken = |more: &[&str]| {
+        let done = again(more);
+        let words = String::from_utf8(done.stderr).unwrap();
+        let is_other = words.contains("f_0000.png was painted from another state of this scene");
+        assert_ne!(done.status.success(), is_other, "{words}");
+        !is_other
+    };
+    assert!(is_taken(&[]));
+    let painted = files(&here.join("out"));
+    assert!(is_taken(&[]) && is_taken(&["--threads", "1"]));
+    for more in [&["--size", "64x32"][..], &["--alpha"], &["--set", "strokes.scale=2"], &["--bits", "16"]] {
+        assert!(!is_taken(more), "{more:?}");
+    }
+    // A comment in the scene is no other state; what it says, a mesh and a texture are.
+    std::fs::write(here.join("shot/scene.ron"), format!("// mine\n{SCENE}")).unwrap();
+    assert!(is_taken(&[]));
+    std::fs::write(here.join("shot/scene.ron"), SCENE.replace("roll_deg: 30", "roll_deg: 31")).unwrap();
+    assert!(!is_taken(&[]));
+    std::fs::write(here.join("shot/scene.ron"), SCENE).unwrap();
+    for (name, bytes) in [
+        ("shot/meshes/sheet.obj", format!("# moved\n{SHEET}").into_bytes()),
+        ("library/far/blue.tga", std::fs::read(here.join("shot/meshes/skin/red.tga")).unwrap()),
+    ] {
+        let before = std::fs::read(here.join(name)).unwrap();
+        std::fs::write(here.join(name), bytes).unwrap();
+        assert!(!is_taken(&[]), "{name}");
+        std::fs::write(here.join(name), before).unwrap();
+    }
+    assert!(is_taken(&[]) && files(&here.join("out")) == painted);
+}
+
+#[test]
 fn a_template_is_one_that_runners_take_and_odd_ones_are_refused() {
     let folder = shot();
     let here = folder.path();
@@ -251,6 +290,8 @@ fn a_template_is_one_that_runners_take_and_odd_ones_are_refused() {
     openjd(&["-o", "film.mp4"], "farms paint frames");
     openjd(&["-o", "f.exr", "--movie", "a.mp4"], "--exr");
     openjd(&["--", "--output", "x.png"], "the job says it itself");
+    openjd(&["--", "--sizee", "1x1"], "unexpected argument '--sizee'");
+    openjd(&["--", "--aov", "all"], "add --exr");
     std::fs::write(here.join("bad.ron"), "(version: 1, camera: 7)").unwrap();
     assert!(refused(here, &["farm", "openjd", "bad.ron"]).contains("bad.ron:1:"));
     let done = run(

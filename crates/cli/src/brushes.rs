@@ -35,8 +35,12 @@ pub(crate) fn run(arguments: &BrushesArguments) -> Result<(), Failure> {
         rows.push((picture.display().to_string(), marks_of_picture(picture)?));
     }
     let picture = sheet(&rows);
-    let provenance =
-        Provenance { scene: "brushes".to_owned(), frame: "sheet".to_owned(), driver: String::new() };
+    let provenance = Provenance {
+        scene: "brushes".to_owned(),
+        state: String::new(),
+        frame: "sheet".to_owned(),
+        driver: String::new(),
+    };
     let pixels = Pixels { size_px: picture.size_px, rgba8: &picture.rgba8 };
     picture_file::write(path, pixels, &provenance).map_err(|error| Failure::of_file(path, error))?;
     eprintln!("{}, from the top:", path.display());

@@ -1,8 +1,10 @@
 //! `impasto farm` and `impasto pack`: a shot for many machines.
 
+use std::ffi::OsString;
 use std::io::Write as _;
 use std::path::Path;
 
+use clap::Parser as _;
 use impasto_farm::job::{Frames, Job};
 use impasto_farm::pack::{self, PackList};
 use impasto_farm::{openjd, slurm};
@@ -12,6 +14,7 @@ use impasto_scene::load::{LoadOptions, load};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::whole_file::WholeFile;
 
+use crate::args::{Arguments, Command};
 use crate::failure::Failure;
 use crate::farm_args::{FarmArguments, FarmCommand, PackArguments, SlurmArguments};
 use crate::ffmpeg::Kind;
@@ -53,7 +56,9 @@ pub(crate) fn farm(command: &FarmCommand) -> Result<(), Failure> {
         file.write_all(text.as_bytes())?;
         file.finish()
     });
-    written.map_err(|error| Failure::of_file(path, error))
+    written.map_err(|error| Failure::of_file(path, error))?;
+    eprintln!("the job is in {}", path.display());
+    Ok(())
 }
 
 /// A path as it is from a folder that it lies in; as it is elsewhere.
@@ -105,6 +110,7 @@ fn job(arguments: &FarmArguments) -> Result<Job, Failure> {
         let words = || Failure::Usage(format!("{}: the name is not UTF-8", path.display()));
         path.to_str().map(str::to_owned).ok_or_else(words)
     };
+    check_further(arguments)?;
     let mut further = Vec::new();
     for folder in &arguments.asset_dirs {
         further.extend(["--asset-dir".to_owned(), text(folder)?]);
@@ -119,6 +125,27 @@ fn job(arguments: &FarmArguments) -> Result<Job, Failure> {
         movie: arguments.movie.clone(),
         fps: timeline.fps,
     })
+}
+
+/// Further arguments are those of `impasto render`: what that would refuse is refused here, and not on a hundred machines.
+fn check_further(arguments: &FarmArguments) -> Result<(), Failure> {
+    let own = ["impasto", "render", "-o", &arguments.output, "--"].map(OsString::from);
+    let [program, command, flag, output, end] = own;
+    let more = arguments.more.iter().map(OsString::from);
+    let words = [program, command, flag, output].into_iter().chain(more);
+    let words = words.chain([end, arguments.scene.clone().into_os_string()]);
+    let parsed = Arguments::try_parse_from(words).map_err(|error| {
+        let told = error.to_string();
+        let first = told.lines().next().unwrap_or_default().trim_start_matches("error: ").to_owned();
+        Failure::Usage(format!("behind --: {first}; see impasto render --help"))
+    })?;
+    let Command::Render(render) = parsed.command else { return Ok(()) };
+    let is_exr = render.picture.exr || arguments.output.to_lowercase().ends_with(".exr");
+    if !render.picture.aovs.is_empty() && !is_exr {
+        let words = "behind --: --aov is for EXR files: let -o end in .exr, or add --exr for EXR files beside the frames";
+        return Err(Failure::Usage(words.to_owned()));
+    }
+    Ok(())
 }
 
 pub(crate) fn pack(arguments: &PackArguments) -> Result<(), Failure> {

@@ -31,7 +31,7 @@ pub(crate) struct FarmArguments {
     /// Write the job into this file; left out, it goes to standard output.
     #[arg(long, value_name = "FILE")]
     pub(crate) job: Option<PathBuf>,
-    /// Further arguments of impasto render, after --, such as -- --size 1920x1080 --aov all.
+    /// Further arguments of impasto render, after --, such as -- --size 1920x1080 --samples 3.
     #[arg(last = true, value_name = "RENDER ARGUMENTS")]
     pub(crate) more: Vec<String>,
 }

@@ -37,8 +37,12 @@ pub(crate) fn run(arguments: &RelightArguments) -> Result<(), Failure> {
     ready_folder(output)?;
     let rgba8 = relit(&planes, arguments.light);
     let name = arguments.frame.file_name().map(|name| name.to_string_lossy().into_owned());
-    let provenance =
-        Provenance { scene: name.unwrap_or_default(), frame: "relit".to_owned(), driver: "none".to_owned() };
+    let provenance = Provenance {
+        scene: name.unwrap_or_default(),
+        state: String::new(),
+        frame: "relit".to_owned(),
+        driver: "none".to_owned(),
+    };
     let pixels = Pixels { size_px: planes.size_px, rgba8: &rgba8 };
     picture_file::write(output, pixels, &provenance).map_err(|error| Failure::of_file(output, error))
 }

@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use impasto_frame_files::frame_reader::Depth;
 use impasto_frame_files::picture_file::{self, Pixels};
-use impasto_frame_files::{FrameList, Pattern, not_an_input, ready_folder, scene_of};
+use impasto_frame_files::{FrameList, Pattern, not_an_input, ready_folder, scene_of, state_of};
 use impasto_gl_render::shader_folder::ShaderFolder;
 use impasto_gl_render::{Cost, PassTime, Renderer, ShaderTexts};
 use impasto_painting::{FrameOptions, Rotation, StrokeColors};
@@ -92,9 +92,6 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
                 }
             }
             ready_folder(&pattern.path(frames.iter().next().unwrap_or(0)))?;
-            if arguments.skip_existing {
-                frames.iter().try_for_each(|frame| of_this_scene(&pattern.path(frame), &loaded))?;
-            }
         }
         Destination::Animation(path) | Destination::Movie(path, _) => {
             not_an_input(path, &inputs)?;
@@ -126,11 +123,18 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
         },
         ..FrameOptions::new(size_px)
     };
+    let state = impasto_sequence::state(&loaded, &options, &wanted, &shaders);
+    if let Destination::Files(pattern) = &destination
+        && arguments.skip_existing
+    {
+        frames.iter().try_for_each(|frame| of_this_scene(&pattern.path(frame), &scene_name, &state))?;
+    }
     let Prepared { painting, storing } = session::prepare_scene(loaded, &arguments.scene, verbose)?;
     let sequence = Sequence {
         painting,
         options,
         scene_name,
+        state,
         driver: session::driver(arguments.driver),
         shaders,
         wanted,
@@ -140,16 +144,17 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
     Ok(Plan { sequence, renderer, frames, destination, storing })
 }
 
-/// Refuses to take a frame of another scene for one that is done.
-fn of_this_scene(path: &Path, loaded: &LoadedScene) -> Result<(), Failure> {
-    let own = name_of(loaded);
-    match scene_of(path) {
-        Some(other) if other != own => Err(Failure::Refused(format!(
-            "{} was painted from {other}, and this is {own}: name another -o, or leave out --skip-existing to write over it",
-            path.display()
-        ))),
-        _ => Ok(()),
-    }
+/// Refuses to take a frame of another scene, or of another state of it, for one that is done.
+fn of_this_scene(path: &Path, own_scene: &str, own_state: &str) -> Result<(), Failure> {
+    let other = match (scene_of(path), state_of(path)) {
+        (Some(scene), _) if scene != own_scene => format!("{scene}, and this is {own_scene}"),
+        (_, Some(state)) if state != own_state => {
+            "another state of this scene or its files, or with other settings".to_owned()
+        }
+        _ => return Ok(()),
+    };
+    let mend = "name another -o, or leave out --skip-existing to write over it";
+    Err(Failure::Refused(format!("{} was painted from {other}: {mend}", path.display())))
 }
 
 fn name_of(loaded: &LoadedScene) -> String {
@@ -230,7 +235,7 @@ impl Plan {
         let Self { sequence, renderer, frames, .. } = self;
         let bar = progress_bar(frames.count(), arguments.talk.quiet);
         let mut sheet = arguments.contact_sheet.then(|| Sheet::new(frames.count(), sequence.options.size_px));
-        let (mut done, mut failed, mut passed, start) = (0, 0, 0, Instant::now());
+        let (mut done, mut kept, mut failed, mut passed, start) = (0, 0, 0, 0, Instant::now());
         let sheet_provenance = sequence.provenance("sheet", renderer);
         if arguments.json {
             let driver = renderer.report().to_string();
@@ -246,7 +251,10 @@ impl Plan {
             sequence.render_files(renderer, &files, &|| interrupt.came(), |frame_number, outcome| {
                 let path = pattern.path(frame_number);
                 match outcome {
-                    FileOutcome::Kept => {}
+                    FileOutcome::Kept => {
+                        kept += 1;
+                        of_this_scene(&path, &sequence.scene_name, &sequence.state)?;
+                    }
                     // A folder that is full or away takes no further frame either.
                     FileOutcome::Failed(FrameError::Write(error)) => {
                         let words = format!("frame {frame_number}: {}: {error}", path.display());
@@ -308,7 +316,8 @@ impl Plan {
             let frames = if done == 1 { "frame" } else { "frames" };
             let first = pattern.path(0);
             let folder = first.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
-            eprintln!("{done} {frames} in {seconds:.1} s, into {}", folder.display());
+            let kept = if kept > 0 { format!(" ({kept} were there)") } else { String::new() };
+            eprintln!("{done} {frames} in {seconds:.1} s, into {}{kept}", folder.display());
         }
         Ok(fault)
     }

@@ -164,6 +164,8 @@ impl Server<'_> {
                 .file_name()
                 .map(|name| name.to_string_lossy().into_owned())
                 .unwrap_or_default(),
+            // Who asked knows what was asked for.
+            state: String::new(),
             driver: session::driver(self.arguments.driver),
             shaders: ShaderTexts::default(),
             wanted: Wanted {

@@ -197,10 +197,12 @@ fn run(
     };
     shared.note(|board| board.progress.stage = Stage::Drawing);
     wake();
+    let options = FrameOptions { transparent: plan.transparent, ..FrameOptions::new(plan.size_px) };
     let sequence = Sequence {
         painting,
-        options: FrameOptions { transparent: plan.transparent, ..FrameOptions::new(plan.size_px) },
+        options,
         scene_name: plan.scene_name(),
+        state: impasto_sequence::state(&plan.loaded, &options, &wanted(plan), shaders),
         driver,
         shaders: shaders.clone(),
         wanted: wanted(plan),

@@ -122,6 +122,10 @@ pub fn pack(loaded: &LoadedScene, to: &Path) -> Result<PackList, PackError> {
 /// # Errors
 /// The first file that is not as it was packed.
 pub fn check(folder: &Path) -> Result<PackList, PackError> {
+    if folder.is_file() {
+        let what = "it is a file: unpack it (tar -xf) and name the folder that comes out".to_owned();
+        return Err(PackError::NotAsPacked { path: folder.to_owned(), what });
+    }
     let list_path = folder.join(LIST_NAME);
     let text =
         std::fs::read(&list_path).map_err(|error| PackError::File { path: list_path.clone(), error })?;
@@ -136,7 +140,7 @@ pub fn check(folder: &Path) -> Result<PackList, PackError> {
         io::copy(&mut summed, &mut io::sink()).map_err(|error| wrong(error.to_string()))?;
         let (bytes, sha256) = summed.finish();
         if bytes != known.bytes || sha256 != known.sha256 {
-            return Err(wrong("its bytes are others".to_owned()));
+            return Err(wrong("its content has changed".to_owned()));
         }
     }
     Ok(list)

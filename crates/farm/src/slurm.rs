@@ -36,13 +36,14 @@ pub fn script(job: &Job, frames_a_task: Option<usize>) -> Result<String, String>
                 of_shell(movie)
             );
             let submit = format!(
-                "if [ -z \"${{SLURM_JOB_ID:-}}\" ]; then\n    \
-                 job=$(sbatch --parsable \"$0\")\n    \
-                 sbatch --job-name={name}-movie --dependency=\"afterok:${{job%%;*}}\" --output={log}_movie.log --wrap {}\n    \
+                "if [ -z \"${{SLURM_ARRAY_TASK_ID:-}}\" ]; then\n    \
+                 job=$(sbatch --parsable \"$@\" \"$0\")\n    \
+                 echo \"Submitted batch job $job\"\n    \
+                 sbatch \"$@\" --kill-on-invalid-dep=yes --job-name={name}-movie --dependency=\"afterok:${{job%%;*}}\" --output={log}_movie.log --wrap {}\n    \
                  exit\nfi\n\n",
                 of_shell(&encode)
             );
-            (submit, "#   sh THIS_FILE        paints, then makes the movie\n")
+            (submit, "#   sh THIS_FILE        paints, then makes the movie; both take options of sbatch\n")
         }
         None => (String::new(), ""),
     };

@@ -136,6 +136,7 @@ pub fn encode(picture: ExrPicture, provenance: &Provenance, packing: Packing) ->
     let own = [
         ("Scene", Note::Text(provenance.scene.clone())),
         ("Driver", Note::Text(provenance.driver.clone())),
+        ("State", Note::Text(provenance.state.clone())),
         ("colorInteropID", Note::Text("lin_rec709_scene".to_owned())),
     ];
     let own = own.map(|(name, note)| (name.to_owned(), note));
@@ -243,7 +244,12 @@ mod tests {
     }
 
     fn provenance() -> Provenance {
-        Provenance { scene: "Café.ron".to_owned(), frame: "1".to_owned(), driver: "a driver".to_owned() }
+        Provenance {
+            scene: "Café.ron".to_owned(),
+            state: String::new(),
+            frame: "1".to_owned(),
+            driver: "a driver".to_owned(),
+        }
     }
 
     #[test]

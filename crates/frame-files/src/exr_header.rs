@@ -114,7 +114,12 @@ mod tests {
             from_world,
             notes: Vec::new(),
         };
-        let provenance = Provenance { scene: String::new(), frame: String::new(), driver: String::new() };
+        let provenance = Provenance {
+            scene: String::new(),
+            state: String::new(),
+            frame: String::new(),
+            driver: String::new(),
+        };
         let bytes = encode(picture, &provenance, Packing::Small).unwrap();
         std::fs::write(&path, &bytes).unwrap();
         assert!(is_whole(&path));

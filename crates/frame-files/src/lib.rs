@@ -24,8 +24,17 @@ pub fn is_whole(path: &std::path::Path) -> bool {
 
 /// The scene that a frame of ours was painted from, as its file says; `None` where it does not.
 pub fn scene_of(path: &std::path::Path) -> Option<String> {
+    note(path, "Scene")
+}
+
+/// The state of its scene and settings that a frame of ours was painted from, as its file says; `None` where it does not.
+pub fn state_of(path: &std::path::Path) -> Option<String> {
+    note(path, "State").filter(|state| !state.is_empty())
+}
+
+fn note(path: &std::path::Path, name: &str) -> Option<String> {
     match path.extension() {
-        Some(extension) if extension.eq_ignore_ascii_case("exr") => exr_header::text(path, "Scene"),
-        _ => picture_file::text(path, "Scene"),
+        Some(extension) if extension.eq_ignore_ascii_case("exr") => exr_header::text(path, name),
+        _ => picture_file::text(path, name),
     }
 }

@@ -13,6 +13,8 @@ use crate::frame_rate::fraction;
 pub struct Provenance {
     /// The scene's file name.
     pub scene: String,
+    /// A sum of the scene, the files that it reads and the settings; empty where it is not known.
+    pub state: String,
     /// The frame's number, or what the picture shows instead.
     pub frame: String,
     /// The OpenGL driver that drew it.
@@ -136,7 +138,11 @@ fn encoder<'a>(
         ("Scene", &provenance.scene),
         ("Frame", &provenance.frame),
         ("Driver", &provenance.driver),
+        ("State", &provenance.state),
     ] {
+        if text.is_empty() {
+            continue;
+        }
         encoder.add_itxt_chunk(keyword.to_owned(), text.to_owned())?;
     }
     Ok(encoder)
@@ -147,7 +153,12 @@ mod tests {
     use super::*;
 
     fn provenance() -> Provenance {
-        Provenance { scene: "a.ron".to_owned(), frame: "1".to_owned(), driver: "a driver".to_owned() }
+        Provenance {
+            scene: "a.ron".to_owned(),
+            state: String::new(),
+            frame: "1".to_owned(),
+            driver: "a driver".to_owned(),
+        }
     }
 
     #[test]

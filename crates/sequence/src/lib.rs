@@ -12,6 +12,7 @@ mod exr;
 mod in_order;
 mod painter;
 mod shot;
+mod state;
 
 use std::collections::HashSet;
 use std::path::PathBuf;
@@ -25,6 +26,7 @@ use painter::Painter;
 use shot::{Job, Painted};
 
 pub use shot::{Drawn, FrameError, PngDepth, Sequence, Wanted};
+pub use state::state;
 
 /// More painters than this would only wait for each other in the driver.
 const MAX_PAINTERS: u64 = 4;
@@ -117,12 +119,18 @@ impl Sequence {
     ) -> Result<Ending, E> {
         // A frame that the list names twice is drawn once: the second time, its file counts as existing.
         let mut seen = HashSet::new();
-        let must_draw = |frame_number: i64| {
+        let is_done = |frame_number: i64| {
             let path = (files.path)(frame_number);
             let mut all = self.wanted.endings().map(|ending| path.with_extension(ending));
-            !files.keep_existing || (seen.insert(frame_number) && !all.all(|path| is_whole(&path)))
+            files.keep_existing && all.all(|path| is_whole(&path))
         };
+        let must_draw =
+            |frame_number: i64| !files.keep_existing || (seen.insert(frame_number) && !is_done(frame_number));
         self.each(renderer, files.frames, must_draw, stop, |job, painted| {
+            // Another process may have painted it meanwhile.
+            if matches!(painted, Ok(Some(_))) && is_done(job.frame_number) {
+                return report(job.frame_number, FileOutcome::Kept).map_err(Early::Caller);
+            }
             let written = painted.and_then(|drawn| {
                 for (ending, bytes) in drawn.iter().flat_map(|drawn| &drawn.files) {
                     whole_file::write(&(files.path)(job.frame_number).with_extension(ending), bytes)?;

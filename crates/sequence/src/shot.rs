@@ -54,6 +54,8 @@ pub struct Sequence {
     pub options: FrameOptions,
     /// The scene's file name, which is noted in each file.
     pub scene_name: String,
+    /// What [`crate::state`] gives, noted in each file; empty where nobody asks.
+    pub state: String,
     /// The driver that further painters open.
     pub driver: Driver,
     /// Shaders that stand in for the program's own; empty to use those.
@@ -113,6 +115,7 @@ impl Sequence {
     /// The note for the file of a frame, or of another picture of this sequence.
     pub fn provenance(&self, frame: &str, renderer: &Renderer) -> Provenance {
         let driver = renderer.report().renderer.clone();
-        Provenance { scene: self.scene_name.clone(), frame: frame.to_owned(), driver }
+        let (scene, state) = (self.scene_name.clone(), self.state.clone());
+        Provenance { scene, state, frame: frame.to_owned(), driver }
     }
 }
