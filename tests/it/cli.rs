@@ -259,6 +259,29 @@ fn outputs_are_refused_before_anything_is_drawn() {
     assert_eq!(folder.names("."), ["cube.obj", "file", "folder.png", "scene.ron"]);
 }
 
+#[test]
+fn what_takes_more_memory_than_the_process_may_have_is_refused_and_does_not_end_it() {
+    let folder = Folder::new();
+    let limited = |arguments: &str| {
+        let line =
+            format!("ulimit -v 1500000; exec {} render scene.ron -o f.png {arguments}", impasto().display());
+        Command::new("sh").current_dir(folder.path(".")).args(["-c", &line]).output().unwrap()
+    };
+    let good = limited("--frames 0");
+    assert_eq!(code(&good), 0, "{}", words(&good.stderr));
+    for (arguments, says) in [
+        (
+            "--frames 0 --size 8192x8192",
+            "a picture of 8192x8192 takes about 5760 MiB while it is drawn, and ",
+        ),
+        ("--frames 0 --set objects[0].particles=16000000", "MiB may be taken"),
+    ] {
+        let output = limited(arguments);
+        let words = words(&output.stderr);
+        assert!(code(&output) == 3 && words.contains(says) && words.lines().count() == 1, "{words}");
+    }
+}
+
 /// As where a share goes away, or a disk is full.
 #[test]
 fn a_frame_that_cannot_be_written_ends_the_render_and_those_before_it_stay() {

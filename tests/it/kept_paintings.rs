@@ -101,7 +101,8 @@ fn what_is_kept_equals_what_is_prepared_and_every_edit_has_a_key_of_its_own() {
 #[test]
 fn edits_after_a_start_from_what_was_kept_give_the_same_bits() {
     let shelf = Shelf::default();
-    for pair in versions().windows(2) {
+    // Every third edit: each is tried from a warm start elsewhere (warm_prepare).
+    for pair in versions().windows(2).step_by(3) {
         let [start, next] = pair else { continue };
         shelf.prepare(&mut Preparer::default(), &start.loaded);
         let mut preparer = Preparer::default();

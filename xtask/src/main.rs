@@ -6,6 +6,7 @@ mod bench;
 mod blender;
 mod ci;
 mod demo;
+mod fuzz;
 mod gallery;
 mod layers;
 mod measure;
@@ -37,6 +38,8 @@ cargo xtask <command>
   bench [-- …]                the benchmarks of bench/
   blender                     build the Blender extension, install it into real Blenders (fetched where they are not), test it
   package [--no-install]      a .deb, a .tar.zst and a wheel of the program, in target/package/ (docs/install.md)
+  fuzz [--minutes N] [TARGET …]
+                              throw strange files at all readers, led by coverage; 30 minutes a target
   meshes                      write the meshes of scenes/meshes/ anew";
 
 fn main() -> ExitCode {
@@ -64,6 +67,7 @@ fn run(arguments: &[String]) -> anyhow::Result<()> {
             ("test" | "demo" | "package", "--no-install") => install = Install::PrintOnly,
             ("same", "--keep") => keep = true,
             ("measure", "--shots") => {}
+            ("fuzz", _) => {}
             ("gallery" | "measure", name) if !name.starts_with('-') => {}
             _ => bail!("`{command}` does not know `{flag}`\n{USAGE}"),
         }
@@ -83,6 +87,7 @@ fn run(arguments: &[String]) -> anyhow::Result<()> {
         "bench" => bench::run(&root, passed_on),
         "blender" => blender::run(&root, blender::Fetch::Yes),
         "package" => package::run(&root, install),
+        "fuzz" => fuzz::run(&root, own),
         "meshes" => steps::run(&root, &steps::cargo(), &["run", "--locked", "--package", "impasto-meshes"]),
         "help" | "--help" | "-h" => {
             println!("{USAGE}");

@@ -102,6 +102,7 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
     let size_px = arguments.size.unwrap_or([loaded.scene.size.0, loaded.scene.size.1]);
     let scene_name = name_of(&loaded);
     let mut renderer = session::open_renderer(arguments.driver, verbose)?;
+    fits_in_memory(size_px, &renderer)?;
     let mut shaders = ShaderTexts::default();
     if let Some(folder) = &arguments.shaders {
         (_, shaders) = ShaderFolder::open(folder).map_err(Failure::Refused)?;
@@ -142,6 +143,22 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
         counted: verbose || arguments.json,
     };
     Ok(Plan { sequence, renderer, frames, destination, storing })
+}
+
+/// Refuses a picture that a software driver has no memory for: it would end the process in the middle.
+fn fits_in_memory([width, height]: [u32; 2], renderer: &Renderer) -> Result<(), Failure> {
+    /// What drawing takes of a pixel, measured with llvmpipe at 8192 x 8192.
+    const BYTES_PER_PIXEL: u64 = 90;
+    let takes = u64::from(width) * u64::from(height) * BYTES_PER_PIXEL;
+    let is_software = ["llvmpipe", "softpipe"].iter().any(|name| renderer.report().renderer.contains(name));
+    match memory::available_bytes() {
+        Some(left) if is_software && takes > left => Err(Failure::Refused(format!(
+            "a picture of {width}x{height} takes about {} MiB while it is drawn, and {} MiB are left: make it smaller with --size",
+            takes >> 20,
+            left >> 20,
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// Refuses to take a frame of another scene, or of another state of it, for one that is done.

@@ -5,7 +5,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// The largest peak that [`peak_since_last_bytes`] has read. It resets the system's own record of the peak each time.
 static MOST: AtomicU64 = AtomicU64::new(0);
 
-/// Bytes that can still be allocated: what the system has free or can free, within the limit of the control group.
+/// Bytes that can still be allocated: what the system has free or can free, within the limits of the control group and of the process
+/// (`ulimit -v`, `ulimit -d`).
 pub fn available_bytes() -> Option<u64> {
     let of_system = field_bytes("/proc/meminfo", "MemAvailable:");
     let number = |path: &str| std::fs::read_to_string(path).ok()?.trim().parse::<u64>().ok();
@@ -13,10 +14,17 @@ pub fn available_bytes() -> Option<u64> {
     let of_group = left("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current").or_else(|| {
         left("/sys/fs/cgroup/memory/memory.limit_in_bytes", "/sys/fs/cgroup/memory/memory.usage_in_bytes")
     });
-    match (of_system, of_group) {
-        (Some(a), Some(b)) => Some(a.min(b)),
-        (a, b) => a.or(b),
-    }
+    let of_process = [("Max address space", "VmSize:"), ("Max data size", "VmData:")]
+        .map(|(most, now)| Some(limit_bytes(most)?.saturating_sub(field_bytes("/proc/self/status", now)?)));
+    [of_system, of_group].into_iter().chain(of_process).flatten().min()
+}
+
+/// A limit of this process, as `/proc/self/limits` names it; `None` where it has none.
+fn limit_bytes(name: &str) -> Option<u64> {
+    let text = std::fs::read_to_string("/proc/self/limits").ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix(name))?;
+    // The limit that holds now comes first; "unlimited" is no number.
+    line.split_whitespace().next()?.parse().ok()
 }
 
 /// The most memory that this process has had at once, bytes.
