@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use impasto_core::color::linear_from_srgb;
 use impasto_gl_render::context::Driver;
 use impasto_painting::{FrameOptions, prepare};
 use impasto_scene::load::{LoadOptions, load};
@@ -77,6 +78,44 @@ fn a_shot_is_as_bright_as_where_it_was_made_within_limits() {
     assert!((burning - 1.7).abs() < 1e-3 && (lit(1.0)[0] - 1.7).abs() < 1e-3, "{burning}");
     assert!(moon > 0.05 * 0.455 * 2.0 && moon < 0.2 * usual, "{moon}");
     assert!(day > 0.7 && night < 0.3, "{day} {night}");
+}
+
+#[test]
+fn the_world_lights_and_shows_as_its_sidecar_tells() {
+    let home = Home::new();
+    glb::edit(&home.shot(), |root, _| {
+        root["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] = json!(3.0 * 683.0);
+    });
+    let world = [0.1, 0.2, 0.4];
+    let with_world = |world: [f64; 3]| {
+        let text = json!({"version": 1, "world": world}).to_string();
+        std::fs::write(home.shot().with_extension("impasto.json"), text).unwrap();
+        loaded(&home.shot())
+    };
+    let lit = with_world(world);
+    let ambient = lit.scene.lights.iter().find(|light| light.name == "ambient").unwrap();
+    let sun = 3.0 * 0.455;
+    for (channel, tint) in [0xcfu8, 0xdc, 0xf2].into_iter().enumerate() {
+        let linear = |encoded: f32| f64::from(linear_from_srgb(encoded));
+        // What surfaces give each other, and a half of the sphere of the world's light.
+        let wanted =
+            0.11 * sun * linear(f32::from(tint) / 255.0) + world[channel] * std::f64::consts::PI * 0.455;
+        let found = ambient.intensity * linear(ambient.color.0[channel]);
+        assert!((found / wanted - 1.0).abs() < 1e-4, "{channel}: {found} {wanted}");
+        let shown = linear(lit.scene.background.0[channel]);
+        assert!((shown - world[channel]).abs() < 0.005, "{channel}: {shown}");
+    }
+    assert!((light(&lit)[0] - sun).abs() < 1e-3, "the sun is what it was");
+    // A black world leaves what surfaces give each other; a burning one dims all.
+    let [_, dark, sky] = light(&with_world([0.0; 3]));
+    assert!((dark / sun - 0.11 * linear_peak()).abs() < 1e-3 && sky == 0.0, "{dark} {sky}");
+    let [dimmed, ..] = light(&with_world([100.0; 3]));
+    assert!(dimmed < 0.02 * sun, "{dimmed}");
+}
+
+/// The largest channel of the tint of the light that surfaces give each other, linear.
+fn linear_peak() -> f64 {
+    f64::from(linear_from_srgb(242.0 / 255.0))
 }
 
 #[test]

@@ -69,6 +69,7 @@ fn a_bad_sidecar_is_one_error_with_its_place() {
         ("{\"version\": 1,\n \"fps\": \"many\"}", "shot.impasto.json: line 2", "invalid type"),
         ("{\"version\": 7}", "shot.impasto.json:", "version"),
         ("not at all", "shot.impasto.json: line 1", "expected"),
+        (r#"{"version": 1, "world": [0.5, -1, 0]}"#, "shot.impasto.json:", "`world`"),
         (r#"{"version": 1, "caches": {"Ball": "../../etc/passwd"}}"#, "", "folder"),
         (r#"{"version": 1, "caches": {"Ball": "gone.pc2"}}"#, "", "gone.pc2"),
         // A cache for a mesh that does not say which points it has.

@@ -12,7 +12,7 @@ from .action_sum import add_action, add_animation, animated_paths
 from .rna_sum import Sum
 
 # Raise it when what is exported changes, so that old exports count as stale.
-EXPORT_VERSION = 2
+EXPORT_VERSION = 3
 _RENDER = ("fps", "fps_base", "resolution_x", "resolution_y", "resolution_percentage", "pixel_aspect_x", "pixel_aspect_y",
            "frame_map_old", "frame_map_new", "use_motion_blur", "use_simplify", "simplify_subdivision_render", "simplify_child_particles_render")
 # Data-blocks that are summed up by their plain properties, and what is added to these.

@@ -12,12 +12,13 @@ from .cameras import picture_size
 from .things import Thing
 from .tracks import changes
 from .walking import Walk
+from .world import light_of
 
 
 def sidecar_of(walk: Walk, inputs_sum: str) -> dict[str, Any]:
     """The content of the sidecar."""
     scene = walk.scene
-    return {
+    content = {
         "version": 1,
         "made_by": f"Blender {bpy.app.version_string}",
         "sum": inputs_sum,
@@ -29,8 +30,12 @@ def sidecar_of(walk: Walk, inputs_sum: str) -> dict[str, Any]:
         "caches": {body.name: f"caches/{body.cache_name}.pc2" for body in walk.bodies.values() if body.cache is not None},
         "collections": _collections([body for body in walk.bodies.values() if body.shape is not None]),
         "exposure_stops": scene.view_settings.exposure,
-        "warnings": walk.table.warnings,
     }
+    world = light_of(scene.world, walk.table.warnings)
+    if world is not None:
+        content["world"] = world
+    content["warnings"] = walk.table.warnings
+    return content
 
 
 def _shifts(walk: Walk) -> dict[str, Any]:

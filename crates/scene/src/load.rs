@@ -74,7 +74,16 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
             Err(Report(vec![error_in(path, None, "this is neither a scene nor a mesh", mend)]))
         }
     };
-    loaded.map(|loaded| LoadedScene { files, ..loaded })
+    let mut loaded = loaded?;
+    loaded.files = files;
+    // Of an edited scene nothing is said: it may be about to get its first one.
+    if loaded.scene.objects.is_empty() {
+        let mend = "add one, as in objects: [(name: \"cup\", mesh: \"cup.obj\")]";
+        let problem =
+            error_in(path, None, "the scene has no objects: nothing is painted but its ground", mend);
+        loaded.warnings.push(Problem { severity: Severity::Warning, ..problem });
+    }
+    Ok(loaded)
 }
 
 /// Reads a picture as a brush, as a scene in the same folder would.

@@ -38,7 +38,7 @@ pub struct Shot {
     lights: Vec<(Light, Option<usize>)>,
     /// Our intensity of a light over that of the file.
     exposure: f64,
-    /// Intensity of the soft light all around.
+    /// Intensity of the soft light all around that surfaces give each other.
     around: f64,
     /// For each light of the file, a factor on the intensities of its keys.
     key_factors: Vec<f64>,

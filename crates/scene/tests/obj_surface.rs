@@ -93,18 +93,22 @@ fn large_files_with_much_of_one_thing_are_read() {
     let mut switching = SQUARE.to_owned();
     let mut libraries = SQUARE.to_owned() + "f 1 2 3\n";
     for line in 0..100_000 {
-        let _ = writeln!(switching, "usemtl m{}\ng part{}\nf 1 2 3", line % 2, line % 7);
+        let _ = writeln!(switching, "v {line} 0 0\nv {line} 1 0\nv {line} 0 1");
+        let _ = writeln!(switching, "usemtl m{}\ng part{}\nf -3 -2 -1", line % 2, line % 7);
         let _ = writeln!(libraries, "mtllib missing{line}.mtl");
     }
-    let stars = one_polygon(&star(10_000));
-    let face = stars.lines().last().unwrap().to_owned() + "\n";
-    let many_stars = stars + &face.repeat(30);
+    let mut stars = String::new();
+    for z in 0..31 {
+        for [x, y] in star(10_000) {
+            let _ = writeln!(stars, "v {x} {y} {z}");
+        }
+        let corners: Vec<String> = (1..=10_000).rev().map(|back| format!("-{back}")).collect();
+        let _ = writeln!(stars, "f {}", corners.join(" "));
+    }
     // Work that is quadratic in the lines would take hours.
-    for (name, text, triangles) in [
-        ("switching", switching, 100_000),
-        ("libraries", libraries, 1),
-        ("many stars", many_stars, 31 * 9998),
-    ] {
+    for (name, text, triangles) in
+        [("switching", switching, 100_000), ("libraries", libraries, 1), ("stars", stars, 31 * 9998)]
+    {
         assert_eq!(read(text).0.mesh.triangles.len(), triangles, "{name}");
     }
 }

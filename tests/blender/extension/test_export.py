@@ -269,6 +269,36 @@ def groups() -> None:
     assert mesh["extras"]["groupNames"] == ["Shirt"] and "_GROUP" in mesh["primitives"][0]["attributes"], mesh
 
 
+def world() -> None:
+    """The world's colour, or the mean of its picture, is carried as light."""
+    scenes.walk()
+    scene = bpy.context.scene
+    told = lambda name: json.loads((OUT / name / "shot.impasto.json").read_text()).get("world")  # noqa: E731
+    scene.world = None
+    shot("dark")
+    assert told("dark") == [0.0, 0.0, 0.0]
+    made = scene.world = bpy.data.worlds.new("Sky")
+    if bpy.app.version < (5, 0, 0):
+        made.use_nodes = True
+    tree = made.node_tree
+    back = next(node for node in tree.nodes if node.type == "BACKGROUND")
+    back.inputs["Color"].default_value = (0.1, 0.2, 0.4, 1.0)
+    back.inputs["Strength"].default_value = 2.0
+    shot("sky")
+    assert all(abs(a - b) < 1e-6 for a, b in zip(told("sky"), (0.2, 0.4, 0.8), strict=True)), told("sky")
+    # A picture that is white in its upper half: half of all directions.
+    picture = bpy.data.images.new("Half", 32, 16, float_buffer=True)
+    picture.pixels.foreach_set([0.0, 0.0, 0.0, 1.0] * 256 + [1.0, 0.5, 0.25, 1.0] * 256)
+    around = tree.nodes.new("ShaderNodeTexEnvironment")
+    around.image = picture
+    tree.links.new(around.outputs["Color"], back.inputs["Color"])
+    shot("picture")
+    assert all(abs(a - b) < 1e-5 for a, b in zip(told("picture"), (1.0, 0.5, 0.25), strict=True)), told("picture")
+    tree.links.new(tree.nodes.new("ShaderNodeTexNoise").outputs["Color"], back.inputs["Color"])
+    warnings = shot("nodes").warnings
+    assert told("nodes") is None and any('world "Sky"' in words for words in warnings), warnings
+
+
 def blur() -> None:
     """What a camera blurs is told of, and only then."""
     scenes.walk()
@@ -280,6 +310,6 @@ def blur() -> None:
     assert [words for words in told if "depth of field" in words or "Motion blur" in words] == told and len(told) == 2, told
 
 
-for check in (materials, groups, blur, errors, sums_change, sums_stay, in_an_engine):
+for check in (materials, groups, world, blur, errors, sums_change, sums_stay, in_an_engine):
     check()
     print(f"  {check.__doc__}")

@@ -8,10 +8,6 @@ use crate::limits;
 
 pub(super) fn check(scene: &Scene, findings: &mut Findings) {
     let objects = &scene.objects;
-    if objects.is_empty() {
-        let mend = "add one, as in objects: [(name: \"cup\", mesh: \"cup.obj\")]";
-        findings.warning("objects", "the scene has no objects: nothing is painted but its ground", mend);
-    }
     findings.unique("objects", objects.iter().map(|object| object.name.as_str()));
     for (index, object) in objects.iter().enumerate() {
         let object_path = format!("objects[{index}]");

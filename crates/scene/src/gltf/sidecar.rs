@@ -17,6 +17,9 @@ const MAX_BYTES: u64 = 64 << 20;
 /// A shift of a lens beyond this is refused: half widths and heights of the picture.
 const MOST_SHIFT: f64 = 1000.0;
 
+/// Light from all around beyond this is refused, W/m²/sr.
+const MOST_LIGHT: f64 = 1e6;
+
 /// What a sidecar says; each field may be left out.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 pub(crate) struct Sidecar {
@@ -43,6 +46,9 @@ pub(crate) struct Sidecar {
     /// The nodes of each collection.
     #[serde(default)]
     pub collections: BTreeMap<String, BTreeSet<String>>,
+    /// Light from all around, red, green and blue, W/m²/sr.
+    #[serde(default)]
+    pub world: Option<[f64; 3]>,
     /// How much brighter the finished picture is shown, stops.
     #[serde(default)]
     pub exposure_stops: f32,
@@ -151,6 +157,11 @@ impl Sidecar {
         });
         if let Some((camera, _)) = odd {
             return Some(format!("the shift of {camera:?} is empty or holds numbers beyond {MOST_SHIFT}"));
+        }
+        if let Some(world) =
+            self.world.filter(|world| world.iter().any(|part| !(0.0..=MOST_LIGHT).contains(part)))
+        {
+            return Some(format!("`world` is {world:?}: numbers from 0 to {MOST_LIGHT}"));
         }
         let exposure = self.exposure_stops;
         (!(-16.0..=16.0).contains(&exposure))

@@ -27,16 +27,26 @@ const DARKNESS: f64 = 0.6;
 /// The soft light all around, which no exporter writes, over the light of suns and over that of lamps.
 const AROUND: [f64; 2] = [0.11, 0.25];
 
+/// The tint of this light, as of a sky, sRGB.
+const OF_SKY: [u8; 3] = [0xcf, 0xdc, 0xf2];
+
 /// A lamp counts as at least this far from an object, over the size of the scene.
 const NEAREST: f64 = 0.05;
+
+/// How bright a linear colour is.
+fn luma(color: [f64; 3]) -> f64 {
+    color.into_iter().zip([0.2126, 0.7152, 0.0722]).map(|(channel, weight)| channel * weight).sum()
+}
 
 impl Shot {
     /// Our intensity over that of the file, and the soft light all around. A shot is as bright as where it was made, within limits: it
     /// is dimmed where whites would burn, and lifted where it is dark.
     pub(super) fn found_exposure(&self) -> (f64, f64) {
         let [suns, lamps] = self.light_at_middle().map(|lux| lux / LUX_PER_WATT * OF_WATT);
-        let found = suns + lamps;
-        if !(found > 0.0 && found.is_finite()) {
+        // Light from all around shines on a surface from a half of the sphere.
+        let world = self.file.sidecar.world.unwrap_or_default();
+        let found = suns + lamps + luma(world) * std::f64::consts::PI * OF_WATT;
+        if !(suns + lamps > 0.0 && found.is_finite()) {
             return (OF_WATT / LUX_PER_WATT, 0.0);
         }
         let wanted = match found {
@@ -77,8 +87,7 @@ impl Shot {
         let mut brought = [0.0; 2];
         for (node, light) in self.light_nodes() {
             let values = rest.lights[light];
-            let luma = values.color.map(f64::from).into_iter().zip([0.2126, 0.7152, 0.0722]);
-            let bright = values.intensity * luma.map(|(channel, weight)| channel * weight).sum::<f64>();
+            let bright = values.intensity * luma(values.color.map(f64::from));
             let world = rest.world_from_view(node);
             let way = at - world.w_axis.truncate();
             let off_axis_rad = way.angle_between(-world.z_axis.truncate());
@@ -91,10 +100,16 @@ impl Shot {
         brought
     }
 
-    /// What shows behind the shot, since the world does not come along: a plain sky, as bright as the shot. `None` without lights.
+    /// What shows behind the shot: the world, where the sidecar tells of one, else a plain sky, as bright as the shot. `None` without
+    /// lights.
     pub(super) fn sky(&self) -> Option<Color> {
         const OF_DAY: [f32; 3] = [0.66, 0.735, 0.80];
         const OF_LAMPS: f64 = 0.35;
+        if let Some(world) = self.file.sidecar.world.filter(|_| self.has_lights()) {
+            let scale = self.scale();
+            let shown = world.map(|part| srgb_from_linear((part * scale).min(1.0) as f32));
+            return Some(Color::from_hex(&Color(shown).to_hex()).unwrap_or_default());
+        }
         let [suns, lamps] = self.light_at_middle();
         // Suns light the sky, lamps hardly do; and it darkens sooner than what stands below.
         let share = ((suns + OF_LAMPS * lamps) * self.exposure / LEAST).min(1.0).powi(2) as f32;
@@ -118,14 +133,31 @@ impl Shot {
             })
             .collect();
         if !lights.is_empty() {
-            let ambient = Light {
-                color: Color::from_bytes([0xcf, 0xdc, 0xf2]),
-                intensity: self.around,
-                ..Light::new("ambient", LightKind::Ambient)
-            };
-            lights.push((ambient, None));
+            lights.push((self.light_around(), None));
         }
         lights
+    }
+
+    /// The light all around: what surfaces give each other, and what the world brings.
+    fn light_around(&self) -> Light {
+        let tint = Color::from_bytes(OF_SKY);
+        let (color, intensity) = match self.file.sidecar.world {
+            None => (tint, self.around),
+            Some(world) => {
+                let of_world = std::f64::consts::PI * OF_WATT * self.scale();
+                let parts = [0, 1, 2].map(|channel| {
+                    f64::from(linear_from_srgb(tint.0[channel])) * self.around + world[channel] * of_world
+                });
+                let most = parts.into_iter().fold(1e-9, f64::max);
+                (Color(parts.map(|part| srgb_from_linear((part / most) as f32))), most)
+            }
+        };
+        Light { color, intensity, ..Light::new("ambient", LightKind::Ambient) }
+    }
+
+    /// How much brighter than it was made the shot is lit.
+    fn scale(&self) -> f64 {
+        self.exposure * LUX_PER_WATT / OF_WATT
     }
 
     /// A light of the scene at a time: what the document changed stays, the rest is as the shot has it.
