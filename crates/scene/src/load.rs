@@ -75,6 +75,11 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
         }
     };
     let mut loaded = loaded?;
+    if mesh_format::is_mesh(path) {
+        // A scene that is saved beside it reads it still.
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        files.note([path, folder_of(path)], path, &name);
+    }
     loaded.files = files;
     // Of an edited scene nothing is said: it may be about to get its first one.
     if loaded.scene.objects.is_empty() {

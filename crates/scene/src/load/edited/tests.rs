@@ -60,6 +60,16 @@ fn loaded_files_are_shared_new_ones_read_and_unused_ones_dropped() {
 }
 
 #[test]
+fn a_mesh_that_became_a_scene_is_still_an_input() {
+    let (folder, _) = folder();
+    let mesh = folder.path().join("c.obj");
+    let mut loaded = edited(&load(&mesh, &LoadOptions::default()).unwrap(), |_| {}).unwrap();
+    assert_eq!(loaded.inputs(), [mesh.clone()]);
+    loaded.path = folder.path().join("c.ron");
+    assert_eq!(loaded.inputs(), [loaded.path.clone(), mesh]);
+}
+
+#[test]
 fn problems_name_their_field() {
     let (_folder, loaded) = folder();
     let refused = edited(&loaded, |scene| {
