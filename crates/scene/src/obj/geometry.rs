@@ -75,7 +75,7 @@ pub(super) fn read(
         let [x, y, z] = middle.to_array();
         let message = format!("the model lies far from its origin, around [{x}, {y}, {z}]");
         let mend =
-            "it is read around that place; to stand beside others of its kind, objects need a `position`";
+            "it is read around that place; to stand beside others of its kind, objects need a `translation`";
         findings.warning(checked.faces.first().map_or(0, |face| face.offset as usize), message, mend);
     }
     // Adding 0 makes -0 and 0 the same.
