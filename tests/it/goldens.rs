@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use glam::Vec3;
+use glam::DVec3;
 use impasto_gl_render::context::Driver;
 use impasto_gl_render::{BillboardIcon, BillboardSize, LightBillboard, Picture};
 use impasto_painting::FrameOptions;
@@ -103,7 +103,7 @@ impl Off {
 fn icons() -> Vec<LightBillboard> {
     let all = [BillboardIcon::Sun, BillboardIcon::Point, BillboardIcon::Ambient, BillboardIcon::Ring];
     let icon = |(index, icon): (usize, BillboardIcon)| LightBillboard {
-        position: Vec3::new(index as f32 * 0.6 - 0.9, 0.4, 0.8),
+        position: DVec3::new(index as f64 * 0.6 - 0.9, 0.4, 0.8),
         icon,
         size: BillboardSize::Pixels(11.0),
         ink: [1.0, 0.85, 0.5, 1.0],

@@ -33,7 +33,7 @@ fn frame_through(lens: Lens) -> Frame {
 
 fn lamp(position: Vec3) -> LightBillboard {
     LightBillboard {
-        position,
+        position: position.as_dvec3(),
         icon: BillboardIcon::Point,
         size: BillboardSize::Pixels(16.0),
         ink: [1.0, 0.2, 0.0, 1.0],

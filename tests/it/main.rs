@@ -17,6 +17,7 @@ mod editor_playing;
 mod editor_render;
 mod editor_script;
 mod editor_window;
+mod far_scenes;
 mod farm;
 mod goldens;
 mod guides;

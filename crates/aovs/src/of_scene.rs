@@ -119,7 +119,8 @@ fn places(frame: &Frame, depth: &[f32]) -> Vec<[f32; 3]> {
         let place = if depth == 0.0 {
             Vec3::ZERO
         } else {
-            world_from_view.transform_point3(at_depth(&view_from_clip, [x, y], depth))
+            let near = world_from_view.transform_point3(at_depth(&view_from_clip, [x, y], depth));
+            (near.as_dvec3() + view.origin_in_world).as_vec3()
         };
         places.push(place.to_array());
     }

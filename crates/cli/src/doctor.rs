@@ -134,6 +134,7 @@ fn draws_correctly(context: impasto_gl_render::context::Context) -> Result<(), S
 
 fn test_frame() -> Frame {
     let view = FrameView {
+        origin_in_world: glam::DVec3::ZERO,
         view_from_world: glam::Mat4::from_translation(glam::Vec3::new(0.0, 0.0, -4.0)),
         clip_from_view: glam::camera::rh::proj::opengl::perspective(0.6, 1.0, 0.1, 10.0),
         eye_in_world: glam::Vec3::new(0.0, 0.0, 4.0),

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use glam::DAffine3;
 use impasto_scene::built_in_mesh;
 use impasto_scene::motion::{self, CameraPose};
 
@@ -34,12 +35,13 @@ impl Painting {
         let of_shot = scene.stage.shot.as_ref().map_or(0.0, |shot| shot.exposure_stops());
         let noises = self.noises_at(frame);
         let hidden = motion::hidden_at(scene, frame);
+        let near = |pose: DAffine3| DAffine3 { translation: pose.translation - self.origin_in_world, ..pose };
         Frame {
             size_px: options.size_px,
             px_scale: self.px_scale(options),
-            view: view.frame_view(),
+            view: view.frame_view(self.origin_in_world),
             background: (!options.transparent).then(|| lights::linear(motion::background_at(scene, frame))),
-            lights: lights::resolve(scene, frame, self.shadow_bounds),
+            lights: lights::resolve(scene, frame, self.shadow_bounds, self.origin_in_world),
             bodies: self
                 .bodies
                 .iter()
@@ -48,7 +50,7 @@ impl Painting {
                 .map(|((body, ((&pose, noise), bent)), (object, hidden))| FrameBody {
                     is_backdrop: built_in_mesh::ALL.contains(&object.mesh.as_str()),
                     surface: Arc::clone(&body.surface),
-                    world_from_model: glam::Mat4::from(pose.as_affine3()),
+                    world_from_model: glam::Mat4::from(near(pose).as_affine3()),
                     bent: bent.clone(),
                     noise,
                     hidden,

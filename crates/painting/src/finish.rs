@@ -76,7 +76,7 @@ impl FinishRule {
 /// Direction to the first sun of the reference, in its camera's own axes, raised to [`LEAST_HEIGHT`] if it is lower.
 fn relief_light(scene: &Scene, reference: &PictureView) -> [f32; 3] {
     let (_, frame) = motion::referred_to(scene, &scene.reference);
-    let lights = lights::resolve(scene, frame, (glam::Vec3::ZERO, 1.0));
+    let lights = lights::resolve(scene, frame, (glam::Vec3::ZERO, 1.0), DVec3::ZERO);
     let view = reference.pose.view_from_world();
     let seen = lights.suns.first().map(|sun| view.transform_vector3(sun.to_light.as_dvec3()));
     let flat = seen.map(|light| light.truncate()).filter(|flat| flat.length() > 1e-3);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{Affine2, Mat4, Vec3, Vec4};
+use glam::{Affine2, DVec3, Mat4, Vec3, Vec4};
 use impasto_core::brush::Mark;
 use impasto_scene::limits::MAX_PIXELS;
 
@@ -98,6 +98,9 @@ pub enum Quality {
 /// The camera of a frame.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameView {
+    /// The place in world space that is the origin of all that the frame calls world space: single precision is finest there. It is 0
+    /// but for scenes that lie far from the world's own origin, and the same in all frames of a painting.
+    pub origin_in_world: DVec3,
     /// Right-handed, looks down −Z.
     pub view_from_world: Mat4,
     /// OpenGL clip space, depth −1..1.

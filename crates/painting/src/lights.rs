@@ -17,8 +17,14 @@ fn radiance(color: Color, intensity: f64) -> Vec3 {
 }
 
 /// The lights of a scene at a frame, as bright as its exposure makes them.
-pub(crate) fn resolve(scene: &Scene, frame: f64, shadow_bounds: (Vec3, f32)) -> FrameLights {
-    let mut lights = unexposed(scene, frame, shadow_bounds);
+pub(crate) fn resolve(
+    scene: &Scene,
+    frame: f64,
+    shadow_bounds: (Vec3, f32),
+    origin_in_world: DVec3,
+) -> FrameLights {
+    let mut lights = unexposed(scene, frame, origin_in_world);
+    lights.shadow_bounds = shadow_bounds;
     lights.shadow_lamp = brightest_lamp(scene).filter(|_| lights.suns.is_empty());
     let exposure = scene.exposure.exp2() as f32;
     lights.suns.iter_mut().for_each(|sun| sun.radiance *= exposure);
@@ -30,8 +36,8 @@ pub(crate) fn resolve(scene: &Scene, frame: f64, shadow_bounds: (Vec3, f32)) -> 
 
 /// The lights of a scene at a frame. If it names none, they are a warm sun from the upper left front, cool light from above, and
 /// warm light from below.
-fn unexposed(scene: &Scene, frame: f64, shadow_bounds: (Vec3, f32)) -> FrameLights {
-    let mut lights = FrameLights { shadow_bounds, ..Default::default() };
+fn unexposed(scene: &Scene, frame: f64, origin_in_world: DVec3) -> FrameLights {
+    let mut lights = FrameLights::default();
     if scene.lights.is_empty() {
         lights.suns.push(SunLight {
             to_light: Vec3::new(-0.55, 0.75, 0.6).normalize(),
@@ -51,7 +57,7 @@ fn unexposed(scene: &Scene, frame: f64, shadow_bounds: (Vec3, f32)) -> FrameLigh
                 radiance,
             }),
             LightKind::Point | LightKind::Spot => lights.points.push(PointLight {
-                position: DVec3::from(light.position.unwrap_or_default()).as_vec3(),
+                position: (DVec3::from(light.position.unwrap_or_default()) - origin_in_world).as_vec3(),
                 radiance,
                 cone: (light.kind == LightKind::Spot).then(|| cone(&light)),
             }),

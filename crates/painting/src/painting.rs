@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use impasto_core::bending::CarriedPlace;
 use impasto_core::direction::singularities::Singularity;
 use impasto_core::sampling::{PackedParticle, Particle};
@@ -51,7 +51,9 @@ pub struct Painting {
     pub(crate) noises: Vec<Option<Arc<BodyNoise>>>,
     pub(crate) solver: Solver,
     pub(crate) style: Style,
-    /// A sphere (centre, radius) round everything over the whole timeline.
+    /// The origin of the frames' world space.
+    pub(crate) origin_in_world: DVec3,
+    /// A sphere (centre, radius) round everything over the whole timeline, in the frames' world space.
     pub(crate) shadow_bounds: (Vec3, f32),
     pub(crate) steps: Vec<Step>,
     pub(crate) kept: Kept,

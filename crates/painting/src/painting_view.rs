@@ -109,7 +109,7 @@ impl Painting {
             coats: Vec::new(),
             half_px: options.size_px.map(|side| side as f32 * 0.5),
             px_scale,
-            near_far: view.frame_view().near_far,
+            near_far: view.frame_view(self.origin_in_world).near_far,
             rotation: options.rotation,
             colors: options.colors,
             quality: options.quality,

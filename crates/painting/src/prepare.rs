@@ -391,6 +391,7 @@ fn plain(
         .zip(&bounds)
         .map(|((cache, object), bounds)| bounds.filter(|_| !object.hidden && cache.surface().is_lit()))
         .collect();
+    let origin_in_world = shadow_bounds::far_origin(&bounds, views);
     let painting = Painting {
         loaded: Arc::clone(loaded),
         bodies,
@@ -406,7 +407,8 @@ fn plain(
         references: Arc::new(references),
         solver: if presets::is_paper(scene) { Solver::HornExact } else { style.solver },
         style: scene.style.clone(),
-        shadow_bounds: shadow_bounds::find(&bounds, &lit, views),
+        origin_in_world,
+        shadow_bounds: shadow_bounds::find(&bounds, &lit, views, origin_in_world),
         steps: Vec::new(),
         kept: Kept::NotAsked,
     };

@@ -26,18 +26,37 @@ const MARGIN: f64 = 1.2;
 const COVERED: f64 = 0.92;
 
 /// The sphere of what is seen is used where it is smaller than this share of the sphere round all.
-const MUCH_SMALLER: f32 = 0.5;
+const MUCH_SMALLER: f64 = 0.5;
 
-/// Centre and radius of the sphere, world space. `all` are the boxes round the bodies, `lit` those of bodies that show and that light
+/// Scenes this many times their own radius from the world's origin are drawn about a place nearer to them. At that distance single
+/// precision tells places apart that are 1/16,000 of the radius from each other.
+const FAR: f64 = 1024.0;
+
+/// Where the frames' world space begins: 0, and for scenes that lie far from there, their middle.
+pub(crate) fn far_origin(all: &[Option<Corners>], views: &[View]) -> DVec3 {
+    let (center, radius) = round_all(all, views.iter().map(|(_, poses)| poses.as_slice()));
+    if center.length() > FAR * radius { center } else { DVec3::ZERO }
+}
+
+/// Centre and radius of the sphere; its centre is counted from `origin_in_world`. `all` are the boxes round the bodies, `lit` those of bodies that show and that light
 /// falls on.
-pub(crate) fn find(all: &[Option<Corners>], lit: &[Option<Corners>], views: &[View]) -> (Vec3, f32) {
+pub(crate) fn find(
+    all: &[Option<Corners>],
+    lit: &[Option<Corners>],
+    views: &[View],
+    origin_in_world: DVec3,
+) -> (Vec3, f32) {
     let whole = round_all(all, views.iter().map(|(_, poses)| poses.as_slice()));
     let seen = round_seen(lit, views);
-    seen.filter(|(_, radius)| *radius < MUCH_SMALLER * whole.1).unwrap_or(whole)
+    let (center, radius) = seen.filter(|(_, radius)| *radius < MUCH_SMALLER * whole.1).unwrap_or(whole);
+    ((center - origin_in_world).as_vec3(), radius as f32)
 }
 
 /// A sphere round all bodies in all of these poses.
-fn round_all<'a>(boxes: &[Option<(Vec3, Vec3)>], poses: impl Iterator<Item = &'a [DAffine3]>) -> (Vec3, f32) {
+fn round_all<'a>(
+    boxes: &[Option<(Vec3, Vec3)>],
+    poses: impl Iterator<Item = &'a [DAffine3]>,
+) -> (DVec3, f64) {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for poses in poses {
         for (bounds, pose) in boxes.iter().zip(poses) {
@@ -51,13 +70,13 @@ fn round_all<'a>(boxes: &[Option<(Vec3, Vec3)>], poses: impl Iterator<Item = &'a
         }
     }
     if low.cmpgt(high).any() {
-        return (Vec3::ZERO, 1.0);
+        return (DVec3::ZERO, 1.0);
     }
-    (((low + high) * 0.5).as_vec3(), (((high - low).length() * 0.5) as f32).max(1e-6))
+    ((low + high) * 0.5, ((high - low).length() * 0.5).max(1e-6))
 }
 
 /// A sphere round nearly all that the views see of the boxes; `None` where they see nothing.
-fn round_seen(boxes: &[Option<Corners>], views: &[View]) -> Option<(Vec3, f32)> {
+fn round_seen(boxes: &[Option<Corners>], views: &[View]) -> Option<(DVec3, f64)> {
     let mut seen: Vec<DVec3> = Vec::new();
     for (view, poses) in views.iter().step_by(views.len().div_ceil(VIEWS).max(1)) {
         let world_from_view = view.pose.view_from_world().inverse();
@@ -83,7 +102,7 @@ fn round_seen(boxes: &[Option<Corners>], views: &[View]) -> Option<(Vec3, f32)> 
     let mut away: Vec<f64> = seen.iter().map(|at| at.distance(center)).collect();
     away.sort_by(f64::total_cmp);
     let last = away.get((COVERED * away.len() as f64) as usize)?;
-    Some((center.as_vec3(), (*last as f32).max(1e-6)))
+    Some((center, last.max(1e-6)))
 }
 
 /// From the eye through a place of the picture; depths along the gaze.
@@ -166,7 +185,7 @@ mod tests {
         let views = [(PictureView { pose, size_px: [1280, 720] }, vec![DAffine3::IDENTITY])];
         let sphere = |half: f32| {
             let floor = [Some((Vec3::new(-half, 0.0, -half), Vec3::new(half, 0.0, half)))];
-            find(&floor, &floor, &views)
+            find(&floor, &floor, &views, DVec3::ZERO)
         };
         // Round all of a small floor; round a part of a large one, with what is before the camera inside.
         assert_eq!(sphere(3.0), (Vec3::ZERO, 3.0 * 2f32.sqrt()));

@@ -1,6 +1,6 @@
 //! A camera with a picture's size, and the matrices and maps that projection and drawing take from it.
 
-use glam::{DMat4, DVec2};
+use glam::{DMat4, DVec2, DVec3};
 use impasto_core::horn_exact::ClipView;
 use impasto_core::screen_map::{PixelLens, ScreenMap};
 use impasto_scene::document::Lens;
@@ -48,12 +48,15 @@ impl PictureView {
         ClipView { clip_from_model, size_px }
     }
 
-    pub(crate) fn frame_view(&self) -> FrameView {
+    /// The view as a frame has it, whose world space begins at `origin_in_world`.
+    pub(crate) fn frame_view(&self, origin_in_world: DVec3) -> FrameView {
         let (near, far) = self.near_far();
+        let there = DMat4::from_translation(origin_in_world);
         FrameView {
-            view_from_world: self.pose.view_from_world().as_mat4(),
+            origin_in_world,
+            view_from_world: (self.pose.view_from_world() * there).as_mat4(),
             clip_from_view: self.clip_from_view().as_mat4(),
-            eye_in_world: self.pose.eye.as_vec3(),
+            eye_in_world: (self.pose.eye - origin_in_world).as_vec3(),
             orthographic: matches!(self.pose.lens, Lens::Orthographic { .. }),
             near_far: [near as f32, far as f32],
         }

@@ -80,6 +80,8 @@ pub(crate) struct Known {
     pub(crate) objects: HashSet<usize>,
     /// Guides that lie on their surface: indices of region and guide.
     pub(crate) guides: HashSet<(usize, usize)>,
+    /// Regions whose dabs all touch their object, by index.
+    pub(crate) dabs: HashSet<usize>,
 }
 
 /// Collects findings up to the limit, and counts the rest.

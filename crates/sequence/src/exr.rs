@@ -1,5 +1,6 @@
 //! The EXR file of a frame: its channels, and what the file notes of the frame.
 
+use glam::Mat4;
 use impasto_aovs::Drawn;
 use impasto_frame_files::exr_file::{self, ExrPicture, Note, Packing};
 use impasto_frame_files::picture_file::Provenance;
@@ -31,12 +32,13 @@ pub(crate) fn encode(
         ]
         .map(|(name, note)| (name.to_owned(), note)),
     );
+    let view_from_world = view.view_from_world * Mat4::from_translation(-view.origin_in_world.as_vec3());
     let picture = ExrPicture {
         size_px: drawn.frame.size_px,
         channels: found.channels,
         fps: scene.timeline.fps,
         // The rows of a matrix for row vectors are the columns of ours.
-        from_world: [view.view_from_world, view.clip_from_view * view.view_from_world]
+        from_world: [view_from_world, view.clip_from_view * view_from_world]
             .map(|matrix| matrix.to_cols_array()),
         notes,
     };

@@ -24,7 +24,7 @@ pub(super) fn billboards(editor: &Editor, framing: &Framing) -> Vec<LightBillboa
     let mut all = Vec::new();
     for place in editor.light_places() {
         let light = &place.light;
-        let position = place.position.as_vec3();
+        let position = place.position;
         let icon = match light.kind {
             LightKind::Sun => BillboardIcon::Sun,
             LightKind::Point | LightKind::Spot => BillboardIcon::Point,

@@ -317,7 +317,7 @@ fn other_lights_over_the_same_picture_draw_no_stroke_again() {
     let worker = worker();
     let bare = view(&loaded, 3.0);
     let lamp = LightBillboard {
-        position: glam::Vec3::new(0.0, 0.5, 0.0),
+        position: glam::DVec3::new(0.0, 0.5, 0.0),
         icon: BillboardIcon::Point,
         size: BillboardSize::Pixels(12.0),
         ink: [1.0; 4],

@@ -6,7 +6,7 @@
 
 mod icons;
 
-use glam::{Mat4, Vec3, Vec4};
+use glam::{DVec3, Mat4, Vec3, Vec4};
 use impasto_painting::frame::FrameView;
 
 use crate::gl::{
@@ -19,7 +19,7 @@ use crate::shader_files::{LIGHT_BILLBOARDS, SHARED};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightBillboard {
     /// Its centre, world space.
-    pub position: Vec3,
+    pub position: DVec3,
     /// What it shows.
     pub icon: BillboardIcon,
     /// How large it is.
@@ -54,7 +54,7 @@ impl LightBillboard {
     /// Its corners in world space at (u, v) = (0, 0), (1, 0), (0, 1) and (1, 1), in a picture of this height. `None` if
     /// it is nearer than the near plane or has no size, so that nothing shows.
     pub fn corners(&self, view: &FrameView, height_px: u32) -> Option<[Vec3; 4]> {
-        let depth = -view.view_from_world.transform_point3(self.position).z;
+        let depth = -view.view_from_world.transform_point3(self.seen_from(view)).z;
         let half = match self.size {
             BillboardSize::World(half) => half,
             BillboardSize::Pixels(half_px) => half_px * self.units_per_px(view, height_px),
@@ -63,8 +63,13 @@ impl LightBillboard {
             return None;
         }
         let [right, up] = camera_axes(view).map(|axis| axis * half);
-        let center = self.position;
+        let center = self.seen_from(view);
         Some([center - right - up, center + right - up, center - right + up, center + right + up])
+    }
+
+    /// Its place in the space of the frame.
+    fn seen_from(&self, view: &FrameView) -> Vec3 {
+        (self.position - view.origin_in_world).as_vec3()
     }
 
     /// Half its side in pixels.
@@ -76,7 +81,7 @@ impl LightBillboard {
     }
 
     fn units_per_px(&self, view: &FrameView, height_px: u32) -> f32 {
-        let depth = -view.view_from_world.transform_point3(self.position).z;
+        let depth = -view.view_from_world.transform_point3(self.seen_from(view)).z;
         let px_per_unit = view.clip_from_view.y_axis.y * 0.5 * height_px as f32;
         if view.orthographic { 1.0 / px_per_unit } else { depth / px_per_unit }
     }
@@ -152,7 +157,7 @@ impl LightBillboards {
         let mut seen: Vec<(f32, &LightBillboard, [Vec3; 4])> = billboards
             .iter()
             .filter_map(|billboard| {
-                let depth = -view.view_from_world.transform_point3(billboard.position).z;
+                let depth = -view.view_from_world.transform_point3(billboard.seen_from(view)).z;
                 Some((depth, billboard, billboard.corners(view, output.size_px()[1])?))
             })
             .collect();

@@ -1,19 +1,19 @@
-//! Checks the document against its meshes: that guides lie on surfaces, groups have triangles, and a morph has the
+//! Checks the document against its meshes: that guides and dabs lie on surfaces, groups have triangles, and a morph has the
 //! topology of its mesh.
 
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use impasto_core::nearest::nearest_point;
 
 use super::{Findings, Known, shown};
-use crate::document::{Guide, Object, PatchRef, Scene};
+use crate::document::{Dab, Guide, Object, PatchRef, Scene};
 use crate::mesh_file::MeshFile;
 use crate::morph;
 use crate::point_cache::PointCache;
 
-/// At most this many distances from guides to triangles are measured. The guides after that are not checked.
+/// At most this many distances from guides and dabs to triangles are measured. Those after that are not checked.
 const MOST_DISTANCES: usize = 200_000_000;
 
 pub(super) fn check(
@@ -46,9 +46,15 @@ pub(super) fn check(
             let object = objects.get(name)?;
             Some((*object, meshes.get(&object.mesh)?))
         };
-        if let Some((_, file)) = region.on.object().and_then(mesh_of) {
+        if let Some((object, file)) = region.on.object().and_then(mesh_of) {
+            let field_path = format!("regions[{index}].on");
             for patch in region.on.patches() {
-                check_covers(&format!("regions[{index}].on"), patch, file, findings);
+                check_covers(&field_path, patch, file, findings);
+                if let PatchRef::Dabs(dabs) = patch
+                    && !known.dabs.contains(&index)
+                {
+                    check_dabs(&field_path, dabs, (object, file), &mut left, findings);
+                }
             }
         }
         let is_new = |guide: usize| !known.guides.contains(&(index, guide));
@@ -121,6 +127,62 @@ fn check_covers(field_path: &str, patch: PatchRef<'_>, file: &MeshFile, findings
     }
 }
 
+/// The part of a mesh that an object shows, in the object's own space; asked for places that lie close together.
+struct Reached<'a> {
+    file: &'a MeshFile,
+    model_from_file: DMat3,
+    /// The group that the object shows; `None` for all.
+    group: Option<u32>,
+    /// The triangle found last: each search begins there.
+    last: usize,
+}
+
+impl<'a> Reached<'a> {
+    /// `None` where nothing can be reached, or the radius is none.
+    fn of(object: &Object, file: &'a MeshFile, radius: f64) -> Option<Self> {
+        if radius <= 0.0 || file.mesh.triangles.is_empty() || object.scale.0.contains(&0.0) {
+            return None;
+        }
+        let group =
+            object.group.as_ref().and_then(|group| file.groups.iter().position(|known| known == group));
+        let group = group.map(|group| group as u32);
+        Some(Self { file, model_from_file: object.model_from_file(), group, last: 0 })
+    }
+
+    fn shows(&self, triangle: usize) -> bool {
+        let own = self.file.mesh.group_of_triangle.get(triangle).copied().unwrap_or(0);
+        self.group.is_none_or(|group| own == group)
+    }
+
+    fn distance(&self, at: DVec3, triangle: usize) -> f64 {
+        let corners = self.file.mesh.corners(triangle).map(|corner| self.model_from_file * corner.as_dvec3());
+        (at - nearest_point(at, corners)).length()
+    }
+
+    /// Whether anything lies within the radius of a place. One corner of each triangle is tried before any distance is measured,
+    /// because that is cheap.
+    fn is_near(&mut self, at: DVec3, radius: f64) -> bool {
+        let mesh = &self.file.mesh;
+        let by_corner = |triangle: usize| {
+            let corner = mesh.positions[mesh.triangles[triangle][0] as usize].as_dvec3();
+            (at - self.model_from_file * corner).length_squared() < radius * radius
+        };
+        let from_last =
+            || (self.last..mesh.triangles.len()).chain(0..self.last).filter(|&triangle| self.shows(triangle));
+        let found = from_last()
+            .find(|&triangle| by_corner(triangle))
+            .or_else(|| from_last().find(|&triangle| self.distance(at, triangle) < radius));
+        self.last = found.unwrap_or(self.last);
+        found.is_some()
+    }
+
+    /// How far away the nearest triangle is.
+    fn least_distance(&self, at: DVec3) -> f64 {
+        let shown = (0..self.file.mesh.triangles.len()).filter(|&triangle| self.shows(triangle));
+        shown.map(|triangle| self.distance(at, triangle)).fold(f64::INFINITY, f64::min)
+    }
+}
+
 fn check_guide(
     guide_path: &str,
     guide: &Guide,
@@ -129,47 +191,16 @@ fn check_guide(
     left: &mut usize,
     findings: &mut Findings,
 ) {
-    let mesh = &file.mesh;
-    let model_from_file = object.model_from_file();
-    if guide.radius <= 0.0 || mesh.triangles.is_empty() || object.scale.0.contains(&0.0) {
-        return;
-    }
-    let group = object.group.as_ref().and_then(|group| file.groups.iter().position(|known| known == group));
-    let of_object = |triangle: usize| {
-        group.is_none_or(|group| mesh.group_of_triangle.get(triangle).map_or(0, |&own| own as usize) == group)
-    };
-    let distance_to = |at: DVec3, triangle: usize| {
-        let corners = mesh.corners(triangle).map(|corner| model_from_file * corner.as_dvec3());
-        (at - nearest_point(at, corners)).length()
-    };
-    // Points of a guide lie close together, so each search begins at the triangle found last. It tries one corner
-    // of each triangle before it measures any distance, because that is cheap.
-    let mut last = 0;
-    let mut is_near = |at: DVec3| {
-        let corner = |triangle: usize| mesh.positions[mesh.triangles[triangle][0] as usize].as_dvec3();
-        let by_corner = |triangle: usize| {
-            (at - model_from_file * corner(triangle)).length_squared() < guide.radius * guide.radius
-        };
-        let from_last =
-            || (last..mesh.triangles.len()).chain(0..last).filter(|&triangle| of_object(triangle));
-        let found = from_last()
-            .find(|&triangle| by_corner(triangle))
-            .or_else(|| from_last().find(|&triangle| distance_to(at, triangle) < guide.radius));
-        last = found.unwrap_or(last);
-        found.is_some()
-    };
+    let Some(mut reached) = Reached::of(object, file, guide.radius) else { return };
     let mut farthest = (0.0, 0);
     for (index, point) in guide.points.iter().enumerate() {
-        let Some(rest) = left.checked_sub(mesh.triangles.len()) else { return };
+        let Some(rest) = left.checked_sub(file.mesh.triangles.len()) else { return };
         *left = rest;
         let at = DVec3::from(point.at);
-        if is_near(at) {
+        if reached.is_near(at, guide.radius) {
             continue;
         }
-        let nearest = (0..mesh.triangles.len())
-            .filter(|&triangle| of_object(triangle))
-            .map(|triangle| distance_to(at, triangle))
-            .fold(f64::INFINITY, f64::min);
+        let nearest = reached.least_distance(at);
         if nearest > farthest.0 {
             farthest = (nearest, index);
         }
@@ -184,5 +215,27 @@ fn check_guide(
         );
         let mend = "move its points onto the surface, in the object's own space; it holds where it reaches";
         findings.warning(format!("{guide_path}.points[{index}].at"), message, mend);
+    }
+}
+
+/// Warns of dabs that touch nothing.
+fn check_dabs(
+    field_path: &str,
+    dabs: &[Dab],
+    (object, file): (&Object, &MeshFile),
+    left: &mut usize,
+    findings: &mut Findings,
+) {
+    let Some(mut reached) = Reached::of(object, file, 1.0) else { return };
+    let mut off = 0;
+    for dab in dabs {
+        let Some(rest) = left.checked_sub(file.mesh.triangles.len()) else { return };
+        *left = rest;
+        off += usize::from(!reached.is_near(DVec3::from(dab.at), dab.radius));
+    }
+    if off > 0 {
+        let (count, name) = (dabs.len(), shown(&object.name));
+        let message = format!("{off} of {count} dabs touch nothing of \"{name}\"");
+        findings.warning(field_path, message, "move them onto the surface, in the object's own space");
     }
 }

@@ -164,8 +164,8 @@ fn check_gaze(field_path: &str, eye: DVec3, target: DVec3, findings: &mut Findin
     if !scale.is_finite() || scale > limits::MAX_LENGTH {
         return; // Reported already for the field that is out of range.
     }
-    // Eye and target must differ by more than rounding, so that the gaze still has a direction in 32 bits.
-    if gaze.length() <= limits::MIN_LENGTH.max(1e-6 * scale) {
+    // Eye and target must differ by more than rounding, so that the gaze still has a direction.
+    if gaze.length() <= limits::MIN_LENGTH.max(1e-12 * scale) {
         let mend = "move the eye or the target, so that the camera looks somewhere";
         findings.error(field_path, "eye and target are the same point", mend);
     } else if gaze.normalize().cross(DVec3::Y).length() < LEAST_SINE {

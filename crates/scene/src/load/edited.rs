@@ -109,6 +109,11 @@ impl LoadedScene {
         for (index, region) in scene.regions.iter().enumerate().filter(|_| !is_cut) {
             let Some(&old_index) = old_regions.get(region.name.as_str()) else { continue };
             let old_region = &old.regions[old_index];
+            let is_doubted = format!("regions[{old_index}].on");
+            let is_kept = region.on.object().is_some_and(|object| kept.contains(object));
+            if is_kept && region.on == old_region.on && !doubted.contains(&&*is_doubted) {
+                known.dabs.insert(index);
+            }
             for (guide_index, guide) in region.guides.iter().enumerate() {
                 let object = guide.object.as_deref().or(region.on.object());
                 let old_object = guide.object.as_deref().or(old_region.on.object());

@@ -16,6 +16,9 @@ const LEAST_EXTENT: f64 = 1e-6;
 /// And so are models that are larger than this: a floor for them would leave the limits of a scene.
 const MOST_EXTENT: f64 = 1e7;
 
+/// Models whose middle is this many times their size from the origin are read around it: single precision has too few places there.
+const FAR: f64 = 1000.0;
+
 /// Reads the cleaned text of `checked`; a vertex is a triple of indices that a corner has. Call it only where the linter found no error.
 /// `with_points` where a cache moves the points: it goes with the size that the file has.
 ///
@@ -68,16 +71,40 @@ pub(super) fn read(
             findings.warning(place, message, "it is scaled to a size of 1; export it in other units");
         }
     }
+    if !with_points && let Some(middle) = bring_near(positions) {
+        let [x, y, z] = middle.to_array();
+        let message = format!("the model lies far from its origin, around [{x}, {y}, {z}]");
+        let mend =
+            "it is read around that place; to stand beside others of its kind, objects need a `translation`";
+        findings.warning(checked.faces.first().map_or(0, |face| face.offset as usize), message, mend);
+    }
     // Adding 0 makes -0 and 0 the same.
     let positions = positions.iter().map(|at| Vec3::from_array(at.map(|value| value as f32 + 0.0))).collect();
     Ok(Geometry { positions, uvs, normals, corners: mesh.indices, ends, ..Geometry::default() })
 }
 
+/// Least and greatest corner of the box round all positions.
+fn bounds(positions: &[[f64; 3]]) -> (DVec3, DVec3) {
+    let points = positions.iter().map(|&at| DVec3::from_array(at));
+    points.fold((DVec3::MAX, DVec3::MIN), |(low, high), at| (low.min(at), high.max(at)))
+}
+
+/// Moves a model that lies far from the origin there, and returns from where; `None` where it stays. It moves by whole steps, each a
+/// power of 2 not smaller than the model, so that a model that was changed a little moves as before.
+fn bring_near(positions: &mut [[f64; 3]]) -> Option<DVec3> {
+    let (low, high) = bounds(positions);
+    let (extent, middle) = ((high - low).max_element(), (low + high) * 0.5);
+    let is_far = extent > 0.0 && extent.is_finite() && middle.abs().max_element() > FAR * extent;
+    let step = is_far.then(|| extent.log2().ceil().exp2())?;
+    let from = (middle / step).round() * step;
+    positions.iter_mut().for_each(|at| *at = (DVec3::from_array(*at) - from).to_array());
+    Some(from)
+}
+
 /// Scales a model whose areas would vanish, or for which no floor is large enough, to a size of 1, and returns how large it was.
 /// `None` if it is neither.
 fn rescale_extreme(positions: &mut [[f64; 3]]) -> Option<f64> {
-    let points = positions.iter().map(|&at| DVec3::from_array(at));
-    let (low, high) = points.fold((DVec3::MAX, DVec3::MIN), |(low, high), at| (low.min(at), high.max(at)));
+    let (low, high) = bounds(positions);
     let extent = (high - low).max_element();
     let is_extreme = extent > 0.0 && !(LEAST_EXTENT..=MOST_EXTENT).contains(&extent) && extent.is_finite();
     is_extreme.then(|| positions.as_flattened_mut().iter_mut().for_each(|value| *value /= extent))?;
@@ -98,5 +125,28 @@ mod tests {
             assert_eq!(positions[1], expected);
         }
         assert_eq!(rescale_extreme(&mut []), None);
+    }
+
+    #[test]
+    fn models_far_from_the_origin_are_read_around_their_place() {
+        let quad = |at: f64| [[at - 0.5, 0.0, 3.0], [at + 0.25, 0.125, 3.0]];
+        for (at, is_far) in [(0.0, false), (700.0, false), (3e5, true), (-1e7, true), (9e8, true)] {
+            let mut positions = quad(at);
+            let from = bring_near(&mut positions);
+            assert_eq!(from.is_some(), is_far, "{at:e}");
+            // To the bit.
+            let from = from.unwrap_or_default();
+            assert_eq!(positions.map(|near| (DVec3::from_array(near) + from).to_array()), quad(at));
+            assert!(
+                !is_far || positions.as_flattened().iter().all(|value| value.abs() < 4.0),
+                "{positions:?}"
+            );
+            // A model that grew a little moves as before.
+            let mut grown = quad(at);
+            grown[1][0] += 0.01;
+            assert_eq!(bring_near(&mut grown).unwrap_or_default(), from);
+        }
+        assert_eq!(bring_near(&mut []), None);
+        assert_eq!(bring_near(&mut [[1e6; 3]; 3]), None);
     }
 }

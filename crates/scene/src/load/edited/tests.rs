@@ -113,3 +113,28 @@ fn loaded_problems_have_fields_and_warnings_follow_the_edits() {
     });
     assert!(mended.unwrap().warnings.iter().all(|warning| warning.field_path.is_empty()));
 }
+
+#[test]
+fn dabs_that_touch_nothing_are_told_until_they_are_mended() {
+    let (_folder, loaded) = folder();
+    let region = r#"(regions: [(name: "r", on: Dabs("apple", [
+        (at: (0.5, 0.5, 0.05), normal: (0, 0, 1), radius: 0.2),
+        (at: (0.5, 0.5, 0.5), normal: (0, 0, 1), radius: 0.2),
+    ]))], version"#;
+    let text = SCENE.replace("(\n    version", region);
+    let scene = crate::load::parse(std::path::Path::new("s.ron"), &text).unwrap();
+    let told = |loaded: &LoadedScene| -> Vec<String> {
+        let of_document = loaded.warnings.iter().filter(|w| !w.field_path.is_empty());
+        of_document.map(|warning| warning.message.clone()).collect()
+    };
+    let warned = edited(&loaded, |edited| *edited = scene).unwrap();
+    assert_eq!(told(&warned), ["regions.r.on: 1 of 2 dabs touch nothing of \"apple\""]);
+    // The warning stays while something else is edited, and goes when the dab does.
+    let moved = edited(&warned, |scene| scene.objects[1].name = "c".to_owned()).unwrap();
+    assert_eq!(told(&moved), told(&warned));
+    let mended = edited(&moved, |scene| {
+        let crate::document::Selector::Dabs(_, dabs) = &mut scene.regions[0].on else { panic!("no dabs") };
+        dabs.truncate(1);
+    });
+    assert_eq!(told(&mended.unwrap()), [String::new(); 0]);
+}
