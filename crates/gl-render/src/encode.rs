@@ -17,7 +17,7 @@ pub(crate) struct Painted {
 
 impl Painted {
     /// The same target where it has this size already, else a new one.
-    pub(crate) fn of_size(gpu: &Gpu, before: Option<Self>, size_px: [u32; 2]) -> Result<Self, GlError> {
+    fn of_size(gpu: &Gpu, before: Option<Self>, size_px: [u32; 2]) -> Result<Self, GlError> {
         match before {
             Some(painted) if painted.pass.size_px() == size_px => Ok(painted),
             _ => {
@@ -25,6 +25,21 @@ impl Painted {
                 Ok(Self { pass: Framebuffer::new(gpu, &[&color], None)?, color })
             }
         }
+    }
+}
+
+/// Where a style leaves its picture; made when the style is about to.
+pub(crate) struct Output<'a> {
+    pub(crate) gpu: &'a Gpu,
+    pub(crate) size_px: [u32; 2],
+    pub(crate) painted: &'a mut Option<Painted>,
+}
+
+impl Output<'_> {
+    /// The pass that writes it.
+    pub(crate) fn pass(&mut self) -> Result<&Framebuffer, GlError> {
+        let painted = Painted::of_size(self.gpu, self.painted.take(), self.size_px)?;
+        Ok(&self.painted.insert(painted).pass)
     }
 }
 
@@ -45,6 +60,11 @@ impl Encoder {
             screen: VertexArray::empty(gpu)?,
             target: None,
         })
+    }
+
+    /// Lets its target go.
+    pub(crate) fn let_go(&mut self) {
+        self.target = None;
     }
 
     /// Encodes a picture, brightened by this factor; returns where it stands as sRGB bytes with straight alpha.

@@ -12,6 +12,7 @@ mod drawn;
 mod encode;
 mod fragments;
 mod gl;
+mod huge;
 #[cfg(test)]
 mod inverse_bilinear_twin;
 mod lens;

@@ -10,8 +10,10 @@ use impasto_painting::frame::{FrameView, Strokes, Style};
 
 use crate::context::{Context, ContextReport};
 use crate::drawn::{Cost, PassTime, Picture};
-use crate::encode::{Encoder, Painted, byte_target};
+use crate::encode::{Encoder, Output, Painted, byte_target};
+
 use crate::gl::{Framebuffer, GlError, Halt, ShaderTexts};
+use crate::huge::is_huge;
 use crate::lighting::LightSetup;
 use crate::motion::MotionPass;
 use crate::overlays::light_billboards::{LightBillboard, LightBillboards};
@@ -247,6 +249,11 @@ impl Renderer {
 
     fn draw_reference(&mut self, frame: &Frame, watch: &mut Watch<'_>) -> Result<LightSetup, Halt> {
         self.last = None;
+        if is_huge(frame.size_px) {
+            // What the last picture left.
+            self.encoder.let_go();
+            (self.painted, self.with_billboards) = (None, None);
+        }
         let targets = ReferenceTargets::of_size(self.context.gpu(), self.targets.take(), frame.size_px)?;
         let targets = self.targets.insert(targets);
         self.reference.draw(frame, targets, watch)
@@ -262,8 +269,6 @@ impl Renderer {
         let gpu = &self.context.gpu().clone();
         let bodies = self.reference.bodies(frame)?;
         let reference = self.targets.as_ref().expect("the reference picture was drawn before");
-        let painted = Painted::of_size(gpu, self.painted.take(), frame.size_px)?;
-        let painted = self.painted.insert(painted);
         let name = frame.style.info().name;
         self.last_style = Some(name);
         let style = match self.styles.entry(name) {
@@ -271,7 +276,8 @@ impl Renderer {
             Entry::Vacant(entry) => entry.insert(styles::open(gpu, &frame.style)?),
         };
         let input = StyleInput { frame, reference, lights, bodies: &bodies, gathers: self.gathers };
-        style.draw(&input, &painted.pass, watch)?;
+        let mut output = Output { gpu, size_px: frame.size_px, painted: &mut self.painted };
+        style.draw(&input, &mut output, watch)?;
         let seen = Seen { view: frame.view, exposure: frame.exposure };
         self.last = Some(seen);
         Ok(self.read_output(seen)?)

@@ -3,8 +3,9 @@
 use impasto_painting::Frame;
 
 use crate::drawn::PaintSurface;
+use crate::encode::Output;
 use crate::fragments::PaintedLayer;
-use crate::gl::{Framebuffer, GlError, Halt};
+use crate::gl::{GlError, Halt};
 use crate::lighting::LightSetup;
 use crate::meshes::DrawnBody;
 use crate::reference_targets::ReferenceTargets;
@@ -27,7 +28,7 @@ pub(crate) trait StyleRenderer {
     fn draw(
         &mut self,
         input: &StyleInput<'_>,
-        output: &Framebuffer,
+        output: &mut Output<'_>,
         watch: &mut Watch<'_>,
     ) -> Result<(), Halt>;
 
@@ -43,7 +44,7 @@ pub(crate) trait StyleRenderer {
     }
 
     /// The paint of the last frame, premultiplied and display-linear, without background, bottom row first. Empty for
-    /// styles that keep none.
+    /// styles that keep none, and for huge pictures, which keep none.
     fn read_paint(&self) -> Vec<[f32; 4]> {
         Vec::new()
     }

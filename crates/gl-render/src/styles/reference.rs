@@ -1,6 +1,7 @@
 //! The plain render: shows the reference picture as it is. Targets: none of its own. Passes: lay over.
 
-use crate::gl::{DrawState, Framebuffer, GlError, Gpu, Halt, Program, ProgramSource, VertexArray, Vertices};
+use crate::encode::Output;
+use crate::gl::{DrawState, GlError, Gpu, Halt, Program, ProgramSource, VertexArray, Vertices};
 use crate::shader_files::SHARED;
 use crate::style_renderer::{StyleInput, StyleRenderer};
 use crate::watch::Watch;
@@ -27,10 +28,10 @@ impl StyleRenderer for Reference {
     fn draw(
         &mut self,
         input: &StyleInput<'_>,
-        output: &Framebuffer,
+        output: &mut Output<'_>,
         watch: &mut Watch<'_>,
     ) -> Result<(), Halt> {
-        self.gpu.begin_pass(output, DrawState::default());
+        self.gpu.begin_pass(output.pass()?, DrawState::default());
         let bound = self
             .lay_over
             .bind()

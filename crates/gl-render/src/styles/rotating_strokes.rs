@@ -8,8 +8,7 @@ mod canvas;
 mod coverage;
 mod data;
 mod programs;
-
-use std::rc::Rc;
+mod targets;
 
 use glam::{Vec2, Vec4};
 use impasto_core::brush;
@@ -18,11 +17,12 @@ use impasto_painting::Quality;
 use impasto_painting::frame::{LayerRun, Stroke};
 
 use crate::drawn::PaintSurface;
+use crate::encode::Output;
 use crate::fragments::PaintedLayer;
 use crate::gl::{
-    Blend, Bound, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program, Texture, VertexArray,
-    Vertices,
+    Blend, Bound, DrawState, Format, Framebuffer, GlError, Gpu, Halt, Program, Texture, VertexArray, Vertices,
 };
+use crate::huge::is_huge;
 use crate::lens::{LENS_UNIFORMS, LensSetup};
 use crate::palettes::palette_texture;
 use crate::stroke_buffers::StrokeBuffers;
@@ -31,6 +31,7 @@ use crate::watch::Watch;
 use coverage::{Coverage, Covered};
 use data::PaintData;
 use programs::{DETAIL, FILES, SOFTEN, SPREAD, StrokePrograms};
+use targets::{DetailTargets, PaintTargets};
 
 /// How much of a body's own colour shows in the toned ground under it.
 const WASH: f32 = 0.85;
@@ -57,71 +58,10 @@ pub(crate) struct RotatingStrokes {
     canvas: Texture,
     strokes: StrokeBuffers,
     screen: VertexArray,
-    targets: Option<Targets>,
+    detail_targets: Option<DetailTargets>,
+    targets: Option<PaintTargets>,
     /// Created when layers and surface of the paint are first wanted.
     data: Option<PaintData>,
-}
-
-struct Targets {
-    /// Side of a block of `detail`.
-    block_px: u32,
-    detail: [Rc<Texture>; 2],
-    detail_passes: [Framebuffer; 2],
-    paint: Rc<Texture>,
-    /// Height of the paint, and how wet it is.
-    height: Rc<Texture>,
-    below: Rc<Texture>,
-    soft_height: Rc<Texture>,
-    paint_pass: Framebuffer,
-    /// Paint without height.
-    flat_pass: Framebuffer,
-    below_pass: Framebuffer,
-    soften_pass: Framebuffer,
-}
-
-impl Targets {
-    fn new(gpu: &Gpu, size_px: [u32; 2], block_px: u32) -> Result<Self, GlError> {
-        let target = |format: Format, size_px: [u32; 2], filter: Filter| {
-            Texture::target(gpu, format, size_px, filter).map(Rc::new)
-        };
-        let paint = target(Format::Rgba16F, size_px, Filter::Nearest)?;
-        let height = target(Format::Rg16F, size_px, Filter::LinearInLevel)?;
-        let below = target(Format::Rgba16F, size_px, Filter::Nearest)?;
-        let half = size_px.map(|side| side.div_ceil(2));
-        let soft_height = target(Format::R16F, half, Filter::LinearInLevel)?;
-        let blocks = size_px.map(|side| side.div_ceil(block_px));
-        // 32 bits, because one channel holds both a body's id and its share of the block.
-        let detail = [
-            target(Format::Rgba32F, blocks, Filter::Nearest)?,
-            target(Format::Rgba32F, blocks, Filter::Nearest)?,
-        ];
-        Ok(Self {
-            detail_passes: [
-                Framebuffer::new(gpu, &[&detail[0]], None)?,
-                Framebuffer::new(gpu, &[&detail[1]], None)?,
-            ],
-            detail,
-            block_px,
-            paint_pass: Framebuffer::new(gpu, &[&paint, &height], None)?,
-            flat_pass: Framebuffer::new(gpu, &[&paint], None)?,
-            below_pass: Framebuffer::new(gpu, &[&below], None)?,
-            soften_pass: Framebuffer::new(gpu, &[&soft_height], None)?,
-            paint,
-            height,
-            below,
-            soft_height,
-        })
-    }
-}
-
-impl Targets {
-    /// The pass that strokes are painted in.
-    fn strokes_pass(&self, quality: Quality) -> &Framebuffer {
-        match quality {
-            Quality::Exact => &self.paint_pass,
-            Quality::Draft => &self.flat_pass,
-        }
-    }
 }
 
 impl RotatingStrokes {
@@ -138,6 +78,7 @@ impl RotatingStrokes {
             canvas: Texture::with_driver_levels(gpu, Format::Rgba8, [side, side], &canvas::tile())?,
             strokes: StrokeBuffers::new(gpu)?,
             screen: VertexArray::empty(gpu)?,
+            detail_targets: None,
             targets: None,
             data: None,
         })
@@ -159,15 +100,15 @@ impl RotatingStrokes {
         }
     }
 
-    /// Finds where small strokes are wanted. The result is in the first of the two `detail` targets.
+    /// Finds where small strokes are wanted. The result is in the first of the two targets.
     fn find_detail(
         &self,
         input: &StyleInput<'_>,
         covered: &Covered,
         watch: &mut Watch<'_>,
     ) -> Result<(), Halt> {
-        let Some(targets) = &self.targets else { return Ok(()) };
-        self.gpu.begin_pass(&targets.detail_passes[0], DrawState::default());
+        let Some(targets) = &self.detail_targets else { return Ok(()) };
+        self.gpu.begin_pass(&targets.passes[0], DrawState::default());
         let bound = covered
             .set_samples(self.detail.bind())
             .texture("reference_color", &input.reference.color)
@@ -181,7 +122,7 @@ impl RotatingStrokes {
         // The blur's taps are half a standard deviation apart.
         let step = (0.5 * SPREAD_PX * input.frame.px_scale / targets.block_px as f32).max(1.0);
         for (from, to, axis) in [(0, 1, Vec2::X), (1, 0, Vec2::Y)] {
-            self.gpu.begin_pass(&targets.detail_passes[to], DrawState::default());
+            self.gpu.begin_pass(&targets.passes[to], DrawState::default());
             let bound = self.spread.bind().texture("detail", &targets.detail[from]).set("axis", axis * step);
             self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
         }
@@ -189,7 +130,7 @@ impl RotatingStrokes {
     }
 
     fn resolve(&mut self, input: &StyleInput<'_>) -> Result<(), GlError> {
-        let Some(targets) = &self.targets else { return Ok(()) };
+        let Some(targets) = &self.detail_targets else { return Ok(()) };
         let frame = input.frame;
         self.strokes.upload(frame)?;
         let palettes = palette_texture(&self.gpu, frame, oklab_from_linear)?;
@@ -382,16 +323,14 @@ impl StyleRenderer for RotatingStrokes {
     fn draw(
         &mut self,
         input: &StyleInput<'_>,
-        output: &Framebuffer,
+        output: &mut Output<'_>,
         watch: &mut Watch<'_>,
     ) -> Result<(), Halt> {
         let frame = input.frame;
         let coarser = if frame.quality == Quality::Draft { 2.0 } else { 1.0 };
         let block_px = (BLOCK_PX * coarser * frame.px_scale).round().clamp(1.0, 8.0) as u32;
-        let fits =
-            |targets: &Targets| targets.paint_pass.size_px() == frame.size_px && targets.block_px == block_px;
-        if !self.targets.as_ref().is_some_and(fits) {
-            self.targets = Some(Targets::new(&self.gpu, frame.size_px, block_px)?);
+        if !self.detail_targets.as_ref().is_some_and(|targets| targets.fit(frame.size_px, block_px)) {
+            self.detail_targets = Some(DetailTargets::new(&self.gpu, frame.size_px, block_px)?);
         }
         let gpu = self.gpu.clone();
         let programs = self.ready(frame.quality)?;
@@ -406,15 +345,22 @@ impl StyleRenderer for RotatingStrokes {
             self.data.insert(data).begin(frame)?;
         }
         self.strokes.upload_marks(frame)?;
-        let covered = self.coverage.draw(input, frame.samples(self.gpu.limits().max_side_px), watch)?;
+        let samples = frame.samples(self.gpu.limits().max_side_px);
+        let mut covered = self.coverage.draw(input, samples, watch)?;
         self.find_detail(input, &covered, watch)?;
+        if is_huge(frame.size_px) {
+            self.coverage.let_go(&mut covered);
+        }
         self.resolve(input)?;
         watch.passed("resolve")?;
-        if let Some(targets) = &self.targets {
-            let clear = DrawState { clear: Some([0.0; 4]), ..DrawState::default() };
-            self.gpu.begin_pass(&targets.below_pass, clear);
-            self.gpu.begin_pass(targets.strokes_pass(frame.quality), clear);
-        }
+        let targets = match self.targets.take() {
+            Some(targets) if targets.paint_pass.size_px() == frame.size_px => targets,
+            _ => PaintTargets::new(&self.gpu, frame.size_px)?,
+        };
+        let targets = self.targets.insert(targets);
+        let clear = DrawState { clear: Some([0.0; 4]), ..DrawState::default() };
+        self.gpu.begin_pass(&targets.below_pass, clear);
+        self.gpu.begin_pass(targets.strokes_pass(frame.quality), clear);
         for (index, &layer) in frame.layers.iter().filter(|layer| layer.count > 0).enumerate() {
             // There is nothing below the first layer.
             if index > 0 {
@@ -422,8 +368,12 @@ impl StyleRenderer for RotatingStrokes {
             }
             self.paint(input, &covered, layer, watch)?;
         }
-        self.finish(input, &covered, output, watch)?;
-        Ok(self.draw_surface(input, &covered)?)
+        self.finish(input, &covered, output.pass()?, watch)?;
+        self.draw_surface(input, &covered)?;
+        if is_huge(frame.size_px) && !input.gathers {
+            self.targets = None;
+        }
+        Ok(())
     }
 
     fn read_resolved(&self) -> Vec<[f32; 8]> {

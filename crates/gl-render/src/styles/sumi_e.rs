@@ -17,6 +17,7 @@ use impasto_painting::Frame;
 use impasto_painting::frame::{InkDrawing, InkLight, InkRule, Style, SumiE as Settings};
 
 use crate::body_program::BodyProgram;
+use crate::encode::Output;
 use crate::gl::{Bound, DrawState, Format, Framebuffer, GlError, Gpu, Halt, Texture, VertexArray, Vertices};
 use crate::lens::{LensSetup, RAY_UNIFORMS};
 use crate::meshes::DrawnBody;
@@ -71,7 +72,7 @@ impl SumiE {
         &mut self,
         input: &StyleInput<'_>,
         settings: &Settings,
-        output: &Framebuffer,
+        output: &mut Output<'_>,
         watch: &mut Watch<'_>,
     ) -> Result<(), Halt> {
         let frame = input.frame;
@@ -105,7 +106,7 @@ impl SumiE {
         let bound = programs.low_pass.bind().texture("picture", &targets.interior);
         gpu.draw(bound, &self.screen, Vertices::Screen)?;
         watch.passed(SOURCE_PASSES[3])?;
-        gpu.begin_pass(output, DrawState::default());
+        gpu.begin_pass(output.pass()?, DrawState::default());
         let bound = paper(programs.mix.bind(), frame, settings)
             .texture("fibres", &self.fibres)
             .texture("interior", &targets.blurred_interior)
@@ -120,7 +121,7 @@ impl SumiE {
         &mut self,
         input: &StyleInput<'_>,
         settings: &Settings,
-        output: &Framebuffer,
+        output: &mut Output<'_>,
         watch: &mut Watch<'_>,
     ) -> Result<(), Halt> {
         let frame = input.frame;
@@ -184,7 +185,7 @@ impl SumiE {
 
         self.strokes.draw(input, settings, programs, targets, &shares, watch)?;
 
-        gpu.begin_pass(output, DrawState::default());
+        gpu.begin_pass(output.pass()?, DrawState::default());
         let [of_wash, of_strokes] = match settings.drawing {
             InkDrawing::Both => [WASH_UNDER_STROKES, 1.0],
             InkDrawing::Wash => [1.0, 0.0],
@@ -221,7 +222,7 @@ impl StyleRenderer for SumiE {
     fn draw(
         &mut self,
         input: &StyleInput<'_>,
-        output: &Framebuffer,
+        output: &mut Output<'_>,
         watch: &mut Watch<'_>,
     ) -> Result<(), Halt> {
         let Style::SumiE(settings) = &input.frame.style else { return Ok(()) };

@@ -8,6 +8,7 @@ use crate::gl::{
     Bound, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program, ProgramSource, Texture,
     VertexArray, Vertices,
 };
+use crate::huge::is_huge;
 use crate::style_renderer::StyleInput;
 use crate::watch::Watch;
 
@@ -19,14 +20,16 @@ pub(super) struct Coverage {
     place: BodyProgram,
     borders: Program,
     screen: VertexArray,
-    targets: Option<Targets>,
+    /// The samples.
+    fine: Option<Target>,
+    /// The pixels.
+    surface: Option<Target>,
 }
 
-struct Targets {
-    fine: Rc<Texture>,
-    surface: Rc<Texture>,
-    fine_pass: Framebuffer,
-    surface_pass: Framebuffer,
+/// A texture, and the pass that draws into it.
+struct Target {
+    texture: Rc<Texture>,
+    pass: Framebuffer,
 }
 
 /// Depth and body id.
@@ -59,13 +62,21 @@ impl Coverage {
             place: BodyProgram::new(gpu, FILES, PLACE)?,
             borders: Program::new(gpu, FILES, &BORDERS)?,
             screen: VertexArray::empty(gpu)?,
-            targets: None,
+            fine: None,
+            surface: None,
         })
     }
 
     /// Creates at once every program that is otherwise created when it is first needed.
     pub(super) fn ready_all(&mut self) -> Result<(), GlError> {
         self.place.ready_all()
+    }
+
+    /// Lets the samples go, which only a huge picture does: from now on pixels stand for them.
+    pub(super) fn let_go(&mut self, covered: &mut Covered) {
+        self.fine = None;
+        covered.fine = Rc::clone(&covered.surface);
+        covered.samples = 1;
     }
 
     /// Draws `samples` x `samples` samples for each pixel. With one, the reference picture has them already.
@@ -81,14 +92,13 @@ impl Coverage {
         }
         let size_px = input.frame.size_px;
         let fine_px = size_px.map(|side| side * samples);
-        let targets = match self.targets.take() {
-            Some(targets) if targets.has_sizes(size_px, fine_px) => targets,
-            _ => Targets::new(&self.gpu, size_px, fine_px)?,
+        let fine = match self.fine.take() {
+            Some(target) if target.pass.size_px() == fine_px => target,
+            _ => Target::new(&self.gpu, fine_px, true)?,
         };
-        let targets = self.targets.insert(targets);
         self.place.prepare(input.frame)?;
         let state = DrawState { depth_test: true, clear: Some([0.0; 4]), ..DrawState::default() };
-        self.gpu.begin_pass(&targets.fine_pass, state);
+        self.gpu.begin_pass(&fine.pass, state);
         let view = &input.frame.view;
         let visible = input.bodies.iter().enumerate().filter(|(_, drawn)| !drawn.body.hidden);
         for (index, drawn) in visible {
@@ -102,9 +112,16 @@ impl Coverage {
                 self.gpu.draw(bound, &drawn.array, part.vertices())?;
             }
         }
-        self.gpu.begin_pass(&targets.surface_pass, DrawState::default());
-        let covered =
-            Covered { fine: Rc::clone(&targets.fine), surface: Rc::clone(&targets.surface), samples };
+        let samples_of = Rc::clone(&fine.texture);
+        // The depth of the samples has served.
+        self.fine = (!is_huge(size_px)).then_some(fine);
+        let surface = match self.surface.take() {
+            Some(target) if target.pass.size_px() == size_px => target,
+            _ => Target::new(&self.gpu, size_px, false)?,
+        };
+        let surface = self.surface.insert(surface);
+        self.gpu.begin_pass(&surface.pass, DrawState::default());
+        let covered = Covered { fine: samples_of, surface: Rc::clone(&surface.texture), samples };
         let bound = covered.set_samples(self.borders.bind().texture("depth_and_id", coarse));
         self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
         watch.passed("coverage")?;
@@ -112,24 +129,12 @@ impl Coverage {
     }
 }
 
-impl Targets {
-    fn new(gpu: &Gpu, size_px: [u32; 2], fine_px: [u32; 2]) -> Result<Self, GlError> {
-        let target = |format: Format, size_px: [u32; 2]| {
-            Texture::target(gpu, format, size_px, Filter::Nearest).map(Rc::new)
-        };
-        let fine = target(Format::Rg32F, fine_px)?;
-        let surface = target(Format::Rg32F, size_px)?;
-        let depth = target(Format::Depth32F, fine_px)?;
-        Ok(Self {
-            fine_pass: Framebuffer::new(gpu, &[&fine], Some(&depth))?,
-            surface_pass: Framebuffer::new(gpu, &[&surface], None)?,
-            fine,
-            surface,
-        })
-    }
-
-    fn has_sizes(&self, size_px: [u32; 2], fine_px: [u32; 2]) -> bool {
-        self.surface.size_px() == size_px && self.fine.size_px() == fine_px
+impl Target {
+    fn new(gpu: &Gpu, size_px: [u32; 2], with_depth: bool) -> Result<Self, GlError> {
+        let target = |format: Format| Texture::target(gpu, format, size_px, Filter::Nearest).map(Rc::new);
+        let texture = target(Format::Rg32F)?;
+        let depth = if with_depth { Some(target(Format::Depth32F)?) } else { None };
+        Ok(Self { pass: Framebuffer::new(gpu, &[&texture], depth.as_ref())?, texture })
     }
 }
 

@@ -133,8 +133,8 @@ fn dabs_that_touch_nothing_are_told_until_they_are_mended() {
     let moved = edited(&warned, |scene| scene.objects[1].name = "c".to_owned()).unwrap();
     assert_eq!(told(&moved), told(&warned));
     let mended = edited(&moved, |scene| {
-        let crate::document::Selector::Dabs(_, dabs) = &mut scene.regions[0].on else { panic!("no dabs") };
+        let Selector::Dabs(_, dabs) = &mut scene.regions[0].on else { panic!("no dabs") };
         dabs.truncate(1);
     });
-    assert_eq!(told(&mended.unwrap()), [String::new(); 0]);
+    assert_eq!(told(&mended.unwrap()), Vec::<String>::new());
 }
