@@ -228,7 +228,9 @@ fn check_dabs(
 ) {
     let Some(mut reached) = Reached::of(object, file, 1.0) else { return };
     let mut off = 0;
-    for dab in dabs {
+    // A dab without a radius or a place is refused elsewhere.
+    let sound = dabs.iter().filter(|dab| dab.radius > 0.0 && DVec3::from(dab.at).is_finite());
+    for dab in sound {
         let Some(rest) = left.checked_sub(file.mesh.triangles.len()) else { return };
         *left = rest;
         off += usize::from(!reached.is_near(DVec3::from(dab.at), dab.radius));
