@@ -26,7 +26,9 @@ fuzz_target!(|bytes: &[u8]| {
         let values = [(field.to_owned(), value.to_owned())];
         if let Ok(edited) = load::edited_text(path, &scene, &values) {
             load::parse(path, &edited).unwrap_or_else(|report| panic!("{line}\n{report}\n{edited}"));
-            assert!(edited.contains("// kept") || field.starts_with("objects") || field.starts_with("regions"));
+            assert!(
+                edited.contains("// kept") || field.starts_with("objects") || field.starts_with("regions")
+            );
             scene = edited;
         }
     }

@@ -1,9 +1,15 @@
 //! Draws frames for tests, and measures what was drawn.
 
+use std::path::Path;
+
 use impasto_gl_render::context::{Driver, OpenOptions, open};
+use impasto_gl_render::shader_folder::ShaderFolder;
 use impasto_gl_render::{Picture, Renderer, ShaderTexts};
 
 use crate::command::root;
+
+/// Names a folder with shader files that stand in for the program's own: `cargo xtask faults` plants faults so.
+const PLANTED: &str = "IMPASTO_PLANTED_SHADERS";
 
 /// A renderer that panics when the driver reports an error.
 ///
@@ -11,7 +17,12 @@ use crate::command::root;
 /// When the driver is missing. `cargo xtask test` installs EGL and, where the system still offers it, OSMesa.
 pub fn renderer(driver: Driver) -> Renderer {
     let context = open(driver, &OpenOptions { debug: true }).unwrap_or_else(|error| panic!("{error}"));
-    Renderer::new(context).unwrap_or_else(|error| panic!("{error}"))
+    let mut renderer = Renderer::new(context).unwrap_or_else(|error| panic!("{error}"));
+    if let Some(folder) = std::env::var_os(PLANTED) {
+        let (_, texts) = ShaderFolder::open(Path::new(&folder)).unwrap_or_else(|error| panic!("{error}"));
+        renderer.replace_shaders(&texts).unwrap_or_else(|error| panic!("{error}"));
+    }
+    renderer
 }
 
 /// A renderer with a fault planted in a shader file: `from` is replaced by `to`.

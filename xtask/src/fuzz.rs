@@ -17,6 +17,10 @@ const MOST_BYTES: u64 = 64 << 10;
 const SLOW_S: u64 = 20;
 const MOST_MIB: u64 = 2048;
 
+/// Bytes to begin with, for targets that read nothing but numbers.
+const NUMBERS: &str =
+    "0 aA1!bB2\"cC3#dD4$eE5%fF6&gG7'hH8(iI9)jJ:*kK;+lL<,mM=-nN>.oO?/pP@qQ[rR]sS^tT_uU`vV{wW|xX}yY~zZ";
+
 /// A target of `fuzz/targets/`, and the endings of files that it begins with.
 struct Target {
     name: &'static str,
@@ -25,7 +29,7 @@ struct Target {
     texts: &'static [&'static str],
 }
 
-const TARGETS: [Target; 7] = [
+const TARGETS: [Target; 9] = [
     Target { name: "scene", endings: &["ron"], texts: &[] },
     Target { name: "frame", endings: &["ron"], texts: &[] },
     Target {
@@ -33,6 +37,8 @@ const TARGETS: [Target; 7] = [
         endings: &["obj"],
         texts: &["mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n\0newmtl a\nKd 1 0 0\n"],
     },
+    Target { name: "edits", endings: &[], texts: &[NUMBERS] },
+    Target { name: "guides", endings: &[], texts: &[NUMBERS] },
     Target { name: "gltf", endings: &["gltf", "glb"], texts: &[] },
     Target { name: "picture", endings: &["png", "jpg", "tga", "bmp"], texts: &[] },
     Target { name: "point_cache", endings: &["pc2"], texts: &["POINTCACHE2\0\u{1}\0\0\0\u{4}\0\0\0"] },

@@ -6,6 +6,7 @@ mod bench;
 mod blender;
 mod ci;
 mod demo;
+mod faults;
 mod fuzz;
 mod gallery;
 mod layers;
@@ -40,6 +41,7 @@ cargo xtask <command>
   package [--no-install]      a .deb, a .tar.zst and a wheel of the program, in target/package/ (docs/install.md)
   fuzz [--minutes N] [TARGET …]
                               throw strange files at all readers, led by coverage; 30 minutes a target
+  faults [NAME …]             plant each fault of a list in a shader, and see that a test notices it
   meshes                      write the meshes of scenes/meshes/ anew";
 
 fn main() -> ExitCode {
@@ -68,7 +70,7 @@ fn run(arguments: &[String]) -> anyhow::Result<()> {
             ("same", "--keep") => keep = true,
             ("measure", "--shots") => {}
             ("fuzz", _) => {}
-            ("gallery" | "measure", name) if !name.starts_with('-') => {}
+            ("gallery" | "measure" | "faults", name) if !name.starts_with('-') => {}
             _ => bail!("`{command}` does not know `{flag}`\n{USAGE}"),
         }
     }
@@ -88,6 +90,7 @@ fn run(arguments: &[String]) -> anyhow::Result<()> {
         "blender" => blender::run(&root, blender::Fetch::Yes),
         "package" => package::run(&root, install),
         "fuzz" => fuzz::run(&root, own),
+        "faults" => faults::run(&root, own),
         "meshes" => steps::run(&root, &steps::cargo(), &["run", "--locked", "--package", "impasto-meshes"]),
         "help" | "--help" | "-h" => {
             println!("{USAGE}");
