@@ -159,6 +159,7 @@ impl ReferencePass {
     /// The bodies of a frame with their surfaces on the GPU.
     pub(crate) fn bodies<'a>(&mut self, frame: &'a Frame) -> Result<Vec<DrawnBody<'a>>, GlError> {
         let gpu = self.gpu.clone();
+        self.meshes.free_unused();
         frame.bodies.iter().map(|body| self.meshes.drawn(&gpu, body)).collect()
     }
 
