@@ -25,6 +25,7 @@ mod horn;
 mod hostile_directions;
 mod hostile_scenes;
 mod inverse_bilinear;
+mod keeps;
 mod kept_paintings;
 mod kills;
 mod lamp_shadows;

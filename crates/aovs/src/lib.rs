@@ -23,6 +23,7 @@ use impasto_scene::aovs::Aov;
 use covering::Covering;
 
 pub use drawn::{Drawn, Found};
+pub use of_scene::OF_SURFACES;
 
 /// Those that need the fragments of the paint: a renderer must gather paint (`Renderer::gather_paint`) while it draws the picture.
 pub const GATHERED: &[Aov] = &[

@@ -11,6 +11,9 @@ use impasto_scene::motion;
 use crate::drawn::{Drawn, Found};
 use crate::planes::{in_steps, short};
 
+/// Those that need the surfaces of the picture: a renderer must keep them (`Renderer::keep`) while it draws it.
+pub const OF_SURFACES: &[Aov] = &[Aov::Normal, Aov::Albedo, Aov::Light, Aov::Shadow, Aov::Occlusion];
+
 /// The depth where nothing is, as others write it.
 const NOTHING: f32 = 1e10;
 
@@ -44,8 +47,7 @@ pub(crate) fn add(
             channels.push(Channel::new("Z", Samples::Float(depth)));
         }
     }
-    let of_surface = [Aov::Normal, Aov::Albedo, Aov::Light, Aov::Shadow, Aov::Occlusion];
-    if wanted.has_any(&of_surface) {
+    if wanted.has_any(OF_SURFACES) {
         let surfaces = renderer.read_surfaces(frame)?;
         let mut add = |name: &str, pixels: &[[f16; 4]], at: usize| {
             let plane = pixels.iter().map(|pixel| pixel[at]).collect();

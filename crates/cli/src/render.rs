@@ -15,7 +15,7 @@ use impasto_scene::document::{Scene, Style};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::memory;
 use impasto_scene::whole_file::WholeFile;
-use impasto_sequence::{Drawn, Ending, FileOutcome, FrameError, FrameFiles, Sequence, Wanted};
+use impasto_sequence::{Drawn, Ending, FileOutcome, FrameError, FrameFiles, Sequence, Wanted, picture_bytes};
 
 use crate::args::{ColorsChoice, RenderArguments, RotationChoice};
 use crate::cache::Storing;
@@ -102,7 +102,7 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
     let size_px = arguments.size.unwrap_or([loaded.scene.size.0, loaded.scene.size.1]);
     let scene_name = name_of(&loaded);
     let mut renderer = session::open_renderer(arguments.driver, verbose)?;
-    fits_in_memory(size_px, &renderer)?;
+    fits_in_memory(&loaded.scene, wanted, size_px, &renderer)?;
     let mut shaders = ShaderTexts::default();
     if let Some(folder) = &arguments.shaders {
         (_, shaders) = ShaderFolder::open(folder).map_err(Failure::Refused)?;
@@ -146,10 +146,14 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
 }
 
 /// Refuses a picture that a software driver has no memory for: it would end the process in the middle.
-fn fits_in_memory([width, height]: [u32; 2], renderer: &Renderer) -> Result<(), Failure> {
-    /// What drawing takes of a pixel, measured with llvmpipe at 8192 x 8192.
-    const BYTES_PER_PIXEL: u64 = 90;
-    let takes = u64::from(width) * u64::from(height) * BYTES_PER_PIXEL;
+fn fits_in_memory(
+    scene: &Scene,
+    wanted: Wanted,
+    size_px: [u32; 2],
+    renderer: &Renderer,
+) -> Result<(), Failure> {
+    let takes = picture_bytes(scene, wanted, size_px, renderer);
+    let [width, height] = size_px;
     let is_software = ["llvmpipe", "softpipe"].iter().any(|name| renderer.report().renderer.contains(name));
     match memory::available_bytes() {
         Some(left) if is_software && takes > left => Err(Failure::Refused(format!(

@@ -62,7 +62,7 @@ pub(crate) fn prepare_scene(
     arguments: &SceneArguments,
     verbose: bool,
 ) -> Result<Prepared, Failure> {
-    let memory_bytes = arguments.memory.or_else(memory::available_bytes);
+    let memory_bytes = memory::granted_bytes(arguments.memory);
     let cache = Cache::of(&arguments.cache, memory_bytes, verbose);
     let options = PrepareOptions {
         memory_bytes,
@@ -90,7 +90,7 @@ pub(crate) fn prepare_by(
     loaded: Arc<LoadedScene>,
     arguments: &SceneArguments,
 ) -> Result<Prepared, Failure> {
-    let memory_bytes = arguments.memory.or_else(memory::available_bytes);
+    let memory_bytes = memory::granted_bytes(arguments.memory);
     // What is edited later is remembered by the preparer.
     let cache = Cache::of(&arguments.cache, memory_bytes, false).filter(|_| preparer.is_new());
     let options = PrepareOptions { memory_bytes, ..PrepareOptions::default() };

@@ -12,9 +12,9 @@ mod drawn;
 mod encode;
 mod fragments;
 mod gl;
-mod huge;
 #[cfg(test)]
 mod inverse_bilinear_twin;
+mod keeps;
 mod lens;
 mod lighting;
 mod marks;
@@ -38,6 +38,7 @@ mod watch;
 pub use drawn::{Cost, PaintSurface, PassTime, Picture, ReferencePixels, ResolvedStroke, SurfacePixels};
 pub use fragments::{PaintedLayer, PixelShares, Share};
 pub use gl::{GlError, ShaderTexts};
+pub use keeps::Keeps;
 pub use motion::MotionPixels;
 pub use overlays::light_billboards::{BillboardIcon, BillboardSize, LightBillboard};
 pub use renderer::{RenderError, Renderer};

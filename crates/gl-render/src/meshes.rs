@@ -2,6 +2,7 @@
 //! uploaded for each frame; every pass draws from them.
 
 use std::cell::RefCell;
+use std::collections::HashMap;
 use std::rc::{Rc, Weak as RcWeak};
 use std::sync::{Arc, Weak};
 
@@ -66,7 +67,8 @@ impl Part {
 
 /// All surfaces on the GPU.
 pub(crate) struct MeshCache {
-    entries: Vec<(Weak<BodySurface>, Rc<MeshOnGpu>)>,
+    /// By the address of the surface, which nothing else gets while there is an entry.
+    entries: HashMap<*const BodySurface, (Weak<BodySurface>, Rc<MeshOnGpu>)>,
     bent: Vec<BentOnGpu>,
     white: Rc<Texture>,
 }
@@ -186,7 +188,7 @@ fn interleaved(positions: &[Vec3], normals: &[Vec3]) -> Vec<Vertex> {
 impl MeshCache {
     pub(crate) fn new(gpu: &Gpu) -> Result<Self, GlError> {
         let white = Texture::with_driver_levels(gpu, Format::SrgbAlpha8, [1, 1], &[255; 4])?;
-        Ok(Self { entries: Vec::new(), bent: Vec::new(), white: Rc::new(white) })
+        Ok(Self { entries: HashMap::new(), bent: Vec::new(), white: Rc::new(white) })
     }
 
     /// A body with its surface on the GPU.
@@ -248,15 +250,18 @@ impl MeshCache {
         Ok(entry)
     }
 
-    /// The surface on the GPU. Uploads it the first time, and frees surfaces that no frame uses any more.
+    /// Frees surfaces that no frame uses any more.
+    pub(crate) fn free_unused(&mut self) {
+        self.entries.retain(|_, (surface, _)| surface.strong_count() > 0);
+    }
+
+    /// The surface on the GPU. Uploads it the first time.
     fn get(&mut self, gpu: &Gpu, surface: &Arc<BodySurface>) -> Result<Rc<MeshOnGpu>, GlError> {
-        let here = |weak: &Weak<BodySurface>| std::ptr::eq(weak.as_ptr(), Arc::as_ptr(surface));
-        if let Some((_, mesh)) = self.entries.iter().find(|(weak, _)| here(weak)) {
+        if let Some((_, mesh)) = self.entries.get(&Arc::as_ptr(surface)) {
             return Ok(Rc::clone(mesh));
         }
-        self.entries.retain(|(weak, _)| weak.strong_count() > 0);
         let mesh = Rc::new(self.upload(gpu, surface)?);
-        self.entries.push((Arc::downgrade(surface), Rc::clone(&mesh)));
+        self.entries.insert(Arc::as_ptr(surface), (Arc::downgrade(surface), Rc::clone(&mesh)));
         Ok(mesh)
     }
 

@@ -76,7 +76,7 @@ impl ReferencePass {
         self.draw_surfaces(frame, &bodies, targets)?;
         watch.passed("surface")?;
 
-        self.gpu.begin_pass(&targets.openness_pass, DrawState::default());
+        self.gpu.begin_pass(&targets.unlit()?.openness_pass, DrawState::default());
         let bound = lens
             .set(self.openness.bind(), &VIEW_LENS_UNIFORMS)
             .texture("normal", &targets.normal)
@@ -93,11 +93,16 @@ impl ReferencePass {
             (Quality::Draft, Some(light)) => light,
             _ => &self.light,
         };
-        let bound = targets.set(lights.set(lens.set(light.bind(), &LENS_UNIFORMS)));
+        let bound = targets.set(lights.set(lens.set(light.bind(), &LENS_UNIFORMS)))?;
         self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
         watch.passed("light")?;
         self.noise.draw(frame, &bodies, &self.tiles, targets, watch)?;
         Ok(lights)
+    }
+
+    /// Lets go what it holds of its targets.
+    pub(crate) fn let_go(&mut self) {
+        self.noise.let_go();
     }
 
     /// Draws the light on the surfaces of the last picture, apart from their colours: what arrives and how much of the sun; how open
@@ -115,7 +120,7 @@ impl ReferencePass {
         let pass = Framebuffer::new(&self.gpu, &[&target()?, &target()?], None)?;
         self.gpu.begin_pass(&pass, DrawState::default());
         let lens = LensSetup::new(&frame.view, frame.size_px);
-        let bound = targets.set(lights.set(lens.set(program.bind(), &LENS_UNIFORMS)));
+        let bound = targets.set(lights.set(lens.set(program.bind(), &LENS_UNIFORMS)))?;
         self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
         Ok([pass.read_halves(0), pass.read_halves(1)])
     }
@@ -154,6 +159,7 @@ impl ReferencePass {
     /// The bodies of a frame with their surfaces on the GPU.
     pub(crate) fn bodies<'a>(&mut self, frame: &'a Frame) -> Result<Vec<DrawnBody<'a>>, GlError> {
         let gpu = self.gpu.clone();
+        self.meshes.free_unused();
         frame.bodies.iter().map(|body| self.meshes.drawn(&gpu, body)).collect()
     }
 
@@ -170,7 +176,7 @@ impl ReferencePass {
         targets: &ReferenceTargets,
     ) -> Result<(), GlError> {
         let state = DrawState { depth_test: true, clear: Some([0.0; 4]), ..DrawState::default() };
-        self.gpu.begin_pass(&targets.surface_pass, state);
+        self.gpu.begin_pass(&targets.unlit()?.surface_pass, state);
         let view = &frame.view;
         let eye = eye_in_world(view);
         let is_drawn_here = |body: &FrameBody| !body.hidden && !noise_displace::is_coloured(body);

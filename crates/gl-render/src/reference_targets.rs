@@ -19,14 +19,22 @@ pub(crate) struct ReferenceTargets {
     pub(crate) depth_and_id: Rc<Texture>,
     /// How strong the highlight is.
     pub(crate) glint: Rc<Texture>,
+    /// `None` once they were let go.
+    unlit: Option<UnlitTargets>,
+    pub(crate) light_pass: Framebuffer,
+    /// `depth_and_id` alone, to be read.
+    place_pass: Framebuffer,
+}
+
+/// What only light is found from.
+pub(crate) struct UnlitTargets {
     pub(crate) depth: Rc<Texture>,
     /// Unlit colour, and whether light falls on it.
     pub(crate) albedo: Rc<Texture>,
     /// How open each place is to ambient light; half the size.
-    pub(crate) openness: Rc<Texture>,
+    openness: Rc<Texture>,
     pub(crate) surface_pass: Framebuffer,
     pub(crate) openness_pass: Framebuffer,
-    pub(crate) light_pass: Framebuffer,
 }
 
 impl ReferenceTargets {
@@ -42,45 +50,64 @@ impl ReferenceTargets {
         let depth_and_id = target(Format::Rg32F, size_px, Filter::Nearest)?;
         let openness = target(Format::Rgba8, half, Filter::LinearInLevel)?;
         let depth = target(Format::Depth32F, size_px, Filter::Nearest)?;
-        Ok(Self {
-            size_px,
+        let unlit = UnlitTargets {
             surface_pass: Framebuffer::new(gpu, &[&albedo, &normal, &depth_and_id], Some(&depth))?,
             openness_pass: Framebuffer::new(gpu, &[&openness], None)?,
-            light_pass: Framebuffer::new(gpu, &[&color, &glint], None)?,
-            color,
-            glint,
             depth,
-            normal,
-            depth_and_id,
             albedo,
             openness,
+        };
+        Ok(Self {
+            size_px,
+            light_pass: Framebuffer::new(gpu, &[&color, &glint], None)?,
+            place_pass: Framebuffer::new(gpu, &[&depth_and_id], None)?,
+            color,
+            glint,
+            normal,
+            depth_and_id,
+            unlit: Some(unlit),
         })
     }
 
-    /// The same targets where they have this size already, else new ones.
+    /// The same targets where they have this size already, and all are there; else new ones.
     pub(crate) fn of_size(gpu: &Gpu, before: Option<Self>, size_px: [u32; 2]) -> Result<Self, GlError> {
         match before {
-            Some(targets) if targets.size_px == size_px => Ok(targets),
+            Some(targets) if targets.size_px == size_px && targets.unlit.is_some() => Ok(targets),
             _ => Self::new(gpu, size_px),
         }
     }
 
+    /// What only light is found from; fails once it was let go.
+    pub(crate) fn unlit(&self) -> Result<&UnlitTargets, GlError> {
+        self.unlit.as_ref().ok_or_else(|| GlError::Resource {
+            what: "the surfaces of the last picture".to_owned(),
+            reason: "they were let go, because nobody said that they would be asked for".to_owned(),
+        })
+    }
+
+    /// Lets go what only light is found from: the lit picture is done.
+    pub(crate) fn let_unlit_go(&mut self) {
+        self.unlit = None;
+    }
+
     /// Sets the textures that light is found from.
-    pub(crate) fn set<'a>(&self, bound: Bound<'a>) -> Bound<'a> {
-        bound
-            .texture("albedo_and_lit", &self.albedo)
+    pub(crate) fn set<'a>(&self, bound: Bound<'a>) -> Result<Bound<'a>, GlError> {
+        let unlit = self.unlit()?;
+        Ok(bound
+            .texture("albedo_and_lit", &unlit.albedo)
             .texture("normal", &self.normal)
             .texture("depth_and_id", &self.depth_and_id)
-            .texture("openness", &self.openness)
+            .texture("openness", &unlit.openness))
     }
 
     /// Unlit colour, and normal, of every pixel, bottom row first.
-    pub(crate) fn read_albedo_and_normal(&self) -> [Vec<[f16; 4]>; 2] {
-        [self.surface_pass.read_halves(0), self.surface_pass.read_halves(1)]
+    pub(crate) fn read_albedo_and_normal(&self) -> Result<[Vec<[f16; 4]>; 2], GlError> {
+        let pass = &self.unlit()?.surface_pass;
+        Ok([pass.read_halves(0), pass.read_halves(1)])
     }
 
     /// Depth along the gaze and body id of every pixel, bottom row first.
     pub(crate) fn read_depth_and_id(&self) -> Vec<f32> {
-        self.surface_pass.read_floats(2)
+        self.place_pass.read_floats(0)
     }
 }

@@ -11,9 +11,8 @@ use impasto_painting::frame::{FrameView, Strokes, Style};
 use crate::context::{Context, ContextReport};
 use crate::drawn::{Cost, PassTime, Picture};
 use crate::encode::{Encoder, Output, Painted, byte_target};
-
 use crate::gl::{Framebuffer, GlError, Halt, ShaderTexts};
-use crate::huge::is_huge;
+use crate::keeps::Keeps;
 use crate::lighting::LightSetup;
 use crate::motion::MotionPass;
 use crate::overlays::light_billboards::{LightBillboard, LightBillboards};
@@ -69,6 +68,7 @@ pub struct Renderer {
     with_billboards: Option<Framebuffer>,
     /// Whether paint is gathered too: see [`Renderer::gather_paint`].
     gathers: bool,
+    keeps: Keeps,
     /// Name of the style of the last frame.
     last_style: Option<&'static str>,
     context: Context,
@@ -94,6 +94,7 @@ impl Renderer {
             billboards_pass: None,
             with_billboards: None,
             gathers: false,
+            keeps: Keeps::default(),
             last_style: None,
             context,
         })
@@ -241,7 +242,7 @@ impl Renderer {
             gpu.lap("billboards");
             shown = over;
         }
-        let rgba8 = top_row_first(&shown.read_bytes(0), size_px[0] as usize * 4);
+        let rgba8 = top_row_first(shown.read_bytes(0), size_px[0] as usize * 4);
         gpu.lap("read back");
         gpu.complaints()?;
         Ok(Picture { size_px, rgba8 })
@@ -249,14 +250,19 @@ impl Renderer {
 
     fn draw_reference(&mut self, frame: &Frame, watch: &mut Watch<'_>) -> Result<LightSetup, Halt> {
         self.last = None;
-        if is_huge(frame.size_px) {
+        if self.keeps.lets_go() {
             // What the last picture left.
             self.encoder.let_go();
-            (self.painted, self.with_billboards) = (None, None);
+            (self.painted, self.with_billboards, self.targets) = (None, None, None);
         }
         let targets = ReferenceTargets::of_size(self.context.gpu(), self.targets.take(), frame.size_px)?;
         let targets = self.targets.insert(targets);
-        self.reference.draw(frame, targets, watch)
+        let lights = self.reference.draw(frame, targets, watch)?;
+        if self.keeps.lets_go() {
+            self.context.gpu().finish();
+            self.reference.let_go();
+        }
+        Ok(lights)
     }
 
     /// Draws the style over the reference picture, and reads the result.
@@ -268,14 +274,18 @@ impl Renderer {
     ) -> Result<Picture, Halt> {
         let gpu = &self.context.gpu().clone();
         let bodies = self.reference.bodies(frame)?;
-        let reference = self.targets.as_ref().expect("the reference picture was drawn before");
+        let reference = self.targets.as_mut().expect("the reference picture was drawn before");
         let name = frame.style.info().name;
         self.last_style = Some(name);
         let style = match self.styles.entry(name) {
             Entry::Occupied(entry) => entry.into_mut(),
             Entry::Vacant(entry) => entry.insert(styles::open(gpu, &frame.style)?),
         };
-        let input = StyleInput { frame, reference, lights, bodies: &bodies, gathers: self.gathers };
+        if self.keeps == Keeps::Picture && !style.reads_unlit() {
+            reference.let_unlit_go();
+        }
+        let (gathers, keeps) = (self.gathers, self.keeps);
+        let input = StyleInput { frame, reference, lights, bodies: &bodies, gathers, keeps };
         let mut output = Output { gpu, size_px: frame.size_px, painted: &mut self.painted };
         style.draw(&input, &mut output, watch)?;
         let seen = Seen { view: frame.view, exposure: frame.exposure };
@@ -322,6 +332,10 @@ fn finished(drawn: Result<Picture, Halt>) -> Result<Picture, RenderError> {
     })
 }
 
-fn top_row_first<T: Copy>(values: &[T], row: usize) -> Vec<T> {
-    values.chunks_exact(row).rev().flatten().copied().collect()
+/// Turns rows of so many values round, in their place.
+fn top_row_first<T>(mut values: Vec<T>, row: usize) -> Vec<T> {
+    let rows = values.len() / row;
+    let (above, below) = values.split_at_mut(rows / 2 * row);
+    above.chunks_exact_mut(row).zip(below.rchunks_exact_mut(row)).for_each(|(a, b)| a.swap_with_slice(b));
+    values
 }

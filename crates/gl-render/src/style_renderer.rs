@@ -6,6 +6,7 @@ use crate::drawn::PaintSurface;
 use crate::encode::Output;
 use crate::fragments::PaintedLayer;
 use crate::gl::{GlError, Halt};
+use crate::keeps::Keeps;
 use crate::lighting::LightSetup;
 use crate::meshes::DrawnBody;
 use crate::reference_targets::ReferenceTargets;
@@ -20,11 +21,13 @@ pub(crate) struct StyleInput<'a> {
     pub(crate) bodies: &'a [DrawnBody<'a>],
     /// Whether the paint's layers and its surface are wanted too, where the style has them.
     pub(crate) gathers: bool,
+    pub(crate) keeps: Keeps,
 }
 
 /// Draws frames in one style.
 pub(crate) trait StyleRenderer {
-    /// Runs the style's passes. The last one writes the picture into `output`: display-linear, straight alpha.
+    /// Runs the style's passes. The last one writes the picture into `output`: display-linear, straight alpha. Where `input` says
+    /// that not everything is kept, targets are let go as soon as they have served.
     fn draw(
         &mut self,
         input: &StyleInput<'_>,
@@ -43,8 +46,13 @@ pub(crate) trait StyleRenderer {
         Vec::new()
     }
 
+    /// Whether it draws from what only light is found from.
+    fn reads_unlit(&self) -> bool {
+        false
+    }
+
     /// The paint of the last frame, premultiplied and display-linear, without background, bottom row first. Empty for
-    /// styles that keep none, and for huge pictures, which keep none.
+    /// styles that keep none, and unless everything is kept.
     fn read_paint(&self) -> Vec<[f32; 4]> {
         Vec::new()
     }

@@ -27,6 +27,8 @@ pub(crate) struct CountInputs {
     /// For each rule how far strokes fit the form.
     fits: Vec<f32>,
     left_out: [bool; LAYERS],
+    /// The least number that is found.
+    least: u32,
     /// The body layer's count, where the object states it.
     stated: Option<u64>,
     paper: bool,
@@ -35,7 +37,8 @@ pub(crate) struct CountInputs {
 impl PartialEq for CountInputs {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.surface, &other.surface)
-            && (self.left_out, self.stated, self.paper) == (other.left_out, other.stated, other.paper)
+            && (self.left_out, self.least) == (other.left_out, other.least)
+            && (self.stated, self.paper) == (other.stated, other.paper)
             && self.layers == other.layers
             && self.fits == other.fits
             && self.caps == other.caps
@@ -75,6 +78,7 @@ impl CountInputs {
             layers,
             fits: context.rules.iter().map(|rule| rule.strokes.fit).collect(),
             left_out,
+            least: particle_count::least(context.scene.objects.len()),
             stated: context.scene.objects[object.index].particles,
             paper: context.paper,
         }
@@ -84,8 +88,12 @@ impl CountInputs {
     pub(crate) fn counts(&self, surface: &Surface<'_>, parts: &BodyParts) -> [usize; LAYERS] {
         let body = &self.surface;
         let positions_at = |shape: &BodyShape| (!body.is_at_rest(shape)).then(|| body.positions_at(shape));
-        let found: [usize; LAYERS] =
-            particle_count::find(surface, &self.sightings, positions_at, |triangle, center, normal| {
+        let found: [usize; LAYERS] = particle_count::find(
+            surface,
+            &self.sightings,
+            self.least,
+            positions_at,
+            |triangle, center, normal| {
                 let cap = self.caps[parts.of_triangle[triangle] as usize];
                 let form = parts.form.at(center.as_vec3(), normal.as_vec3());
                 let mut densest = [0.0f32; LAYERS];
@@ -104,7 +112,8 @@ impl CountInputs {
                     }
                 }
                 std::array::from_fn(|kind| densest[kind] * most_wanted(LayerKind::ALL[kind]))
-            });
+            },
+        );
         std::array::from_fn(|kind| match self.stated {
             Some(stated) if kind == LayerKind::Body as usize => stated as usize,
             _ if self.left_out[kind] => 0,

@@ -72,10 +72,10 @@ impl Frame {
     /// How many samples a pixel has, a side, where a texture may have sides of `most_side_px`: one in drafts, and where the
     /// samples of a very large picture would take too much memory.
     pub fn samples(&self, most_side_px: u32) -> u32 {
-        let samples = self.finish.samples;
-        let [width, height] = self.size_px.map(|side| u64::from(side) * u64::from(samples));
-        let fits = width.max(height) <= u64::from(most_side_px) && width * height <= MAX_PIXELS;
-        if self.quality == Quality::Exact && fits { samples } else { 1 }
+        match self.quality {
+            Quality::Exact => samples_that_fit(self.finish.samples, self.size_px, most_side_px),
+            Quality::Draft => 1,
+        }
     }
 
     /// Replaces the strokes.
@@ -83,6 +83,14 @@ impl Frame {
         let Strokes { strokes, sources, layers } = strokes;
         (self.strokes, self.sources, self.layers) = (strokes, sources, layers);
     }
+}
+
+/// How many samples a pixel of an exact picture of this size has, a side, where `wanted` are stated and a texture may have sides of
+/// `most_side_px`: one where the samples of a very large picture would take too much memory.
+pub fn samples_that_fit(wanted: u32, size_px: [u32; 2], most_side_px: u32) -> u32 {
+    let [width, height] = size_px.map(|side| u64::from(side) * u64::from(wanted));
+    let fits = width.max(height) <= u64::from(most_side_px) && width * height <= MAX_PIXELS;
+    if fits { wanted } else { 1 }
 }
 
 /// Exact, or a quick draft.

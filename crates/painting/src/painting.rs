@@ -242,6 +242,8 @@ impl Painting {
     }
 
     pub(crate) fn coat(&self, object: usize, kind: LayerKind) -> Option<&Coat> {
-        self.coats.iter().map(Arc::as_ref).find(|coat| coat.object == object && coat.kind == kind)
+        let place = |coat: &Coat| (coat.object, coat.kind as usize);
+        let index = self.coats.partition_point(|coat| place(coat) < (object, kind as usize));
+        self.coats.get(index).map(Arc::as_ref).filter(|coat| place(coat) == (object, kind as usize))
     }
 }

@@ -8,9 +8,22 @@ use rayon::prelude::*;
 
 use crate::body_shape::BodyShape;
 
-/// The least and the greatest number that is found.
-const LEAST: f64 = 64.0;
+/// The greatest number that is found.
 const MOST: f64 = 400_000.0;
+
+/// The least number that is found, for a camera that comes nearer than the scene's own; and the least of that where there are many
+/// objects, so that a city of small things has what can be seen of it.
+const LEAST: u32 = 64;
+const LEAST_OF_MANY: u32 = 8;
+
+/// An object counts among many when there are more than this many; with twice as many, the least number is halved.
+const MANY: usize = 2048;
+
+/// The least number of particles of a layer, in a scene of so many objects. It has few steps, so that an edit hardly ever changes it.
+pub(crate) fn least(objects: usize) -> u32 {
+    let halvings = (0..u32::BITS).take_while(|halvings| objects > MANY << halvings).count();
+    (LEAST >> halvings.min(31)).max(LEAST_OF_MANY)
+}
 
 /// How far beyond the picture faces count, in its size.
 const MARGIN: f64 = 1.1;
@@ -50,11 +63,12 @@ struct CountedFace<const LAYERS: usize> {
 }
 
 /// For each layer, how many particles give nine tenths of the object's area in the picture all the strokes wanted
-/// there, in the view that needs most. `wanted_per_px` gives the strokes per pixel wanted on a triangle, `positions_at` where the
+/// there, in the view that needs most; no fewer than `least`. `wanted_per_px` gives the strokes per pixel wanted on a triangle, `positions_at` where the
 /// vertices are in a shape; `None` at rest.
 pub(crate) fn find<const LAYERS: usize>(
     surface: &Surface<'_>,
     sightings: &[Sighting],
+    least: u32,
     positions_at: impl Fn(&BodyShape) -> Option<Vec<Vec3>> + Sync,
     wanted_per_px: impl Fn(usize, DVec3, DVec3) -> [f32; LAYERS],
 ) -> [usize; LAYERS] {
@@ -92,7 +106,8 @@ pub(crate) fn find<const LAYERS: usize>(
     };
     let needed_per_area = sightings.par_iter().map(needed_in).reduce(|| [0.0; LAYERS], most);
     // A quarter more, since the highest ranks are only half present at just the number wanted.
-    needed_per_area.map(|needed| (needed * surface.area() * 1.25).clamp(LEAST, MOST).ceil() as usize)
+    needed_per_area
+        .map(|needed| (needed * surface.area() * 1.25).clamp(f64::from(least), MOST).ceil() as usize)
 }
 
 impl<const LAYERS: usize> CountedFace<LAYERS> {
@@ -233,11 +248,21 @@ mod tests {
         let sighting = Sighting { map, half_size_px: DVec2::new(640.0, 360.0), near: 0.1, shape };
         let counted = |cells: u32| {
             let mesh = floor(10.0, cells);
-            find(&Surface::new(&mesh, |_| true), std::slice::from_ref(&sighting), |_| None, |_, _, _| [0.001])
-                [0] as f64
+            let surface = Surface::new(&mesh, |_| true);
+            find(&surface, std::slice::from_ref(&sighting), 64, |_| None, |_, _, _| [0.001])[0] as f64
         };
         let (rough, fine) = (counted(1), counted(100));
         assert!((rough / fine - 1.0).abs() < 0.2, "{rough} {fine}");
+    }
+
+    #[test]
+    fn objects_have_a_reserve_and_a_smaller_one_where_there_are_many() {
+        assert_eq!([0, 1, MANY, MANY + 1, 2 * MANY + 1].map(least), [64, 64, 64, 32, 16]);
+        assert_eq!([20_000, 1 << 20, usize::MAX].map(least), [LEAST_OF_MANY; 3]);
+        // All reserves of a layer together stay small.
+        for objects in [1000, 5000, 20_000] {
+            assert!(objects * least(objects) as usize <= (MANY * LEAST as usize).max(objects * 8));
+        }
     }
 
     #[test]

@@ -14,9 +14,21 @@ pub fn available_bytes() -> Option<u64> {
     let of_group = left("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current").or_else(|| {
         left("/sys/fs/cgroup/memory/memory.limit_in_bytes", "/sys/fs/cgroup/memory/memory.usage_in_bytes")
     });
-    let of_process = [("Max address space", "VmSize:"), ("Max data size", "VmData:")]
-        .map(|(most, now)| Some(limit_bytes(most)?.saturating_sub(field_bytes("/proc/self/status", now)?)));
-    [of_system, of_group].into_iter().chain(of_process).flatten().min()
+    [of_system, of_group, left_of_process_bytes()].into_iter().flatten().min()
+}
+
+/// Bytes that this process may still allocate, whatever the system has free; `None` where nobody limits it (`ulimit -v`, `ulimit -d`).
+pub fn left_of_process_bytes() -> Option<u64> {
+    let left = |(most, now)| Some(limit_bytes(most)?.saturating_sub(field_bytes("/proc/self/status", now)?));
+    [("Max address space", "VmSize:"), ("Max data size", "VmData:")].into_iter().filter_map(left).min()
+}
+
+/// What may be allocated where `wanted` bytes are stated, or nothing is: no statement lifts the limits of the process.
+pub fn granted_bytes(wanted: Option<u64>) -> Option<u64> {
+    match wanted {
+        Some(wanted) => Some(left_of_process_bytes().map_or(wanted, |left| left.min(wanted))),
+        None => available_bytes(),
+    }
 }
 
 /// A limit of this process, as `/proc/self/limits` names it; `None` where it has none.

@@ -10,6 +10,7 @@
 
 mod exr;
 mod in_order;
+mod memory;
 mod painter;
 mod shot;
 mod state;
@@ -25,6 +26,7 @@ use in_order::{Workers, in_order};
 use painter::Painter;
 use shot::{Job, Painted};
 
+pub use memory::picture_bytes;
 pub use shot::{Drawn, FrameError, PngDepth, Sequence, Wanted};
 pub use state::state;
 
@@ -34,14 +36,8 @@ const MAX_PAINTERS: u64 = 4;
 /// Opening a driver and compiling the shaders once more takes about as long as this many frames.
 const FRAMES_PER_PAINTER: u64 = 4;
 
-/// What the render targets of one painter take per pixel.
-const TARGET_BYTES_PER_PIXEL: u64 = 144;
-
-/// What else a painter takes per pixel while it makes a file with everything that a picture knows.
-const DATA_BYTES_PER_PIXEL: u64 = 700;
-
-/// What the render targets of all painters may take together.
-const MAX_TARGET_BYTES: u64 = 1 << 30;
+/// What the pictures of all painters may take together.
+const MAX_PICTURE_BYTES: u64 = 1 << 30;
 
 /// What became of a frame's file.
 pub enum FileOutcome {
@@ -165,7 +161,7 @@ impl Sequence {
             let next = numbers.peek().copied();
             (!stopped).then(|| Job { frame_number, must_draw: must_draw(frame_number), next })
         });
-        let further = self.further_painters(frames.count());
+        let further = self.further_painters(renderer, frames.count());
         let mut painter = Painter::new(self, renderer, further == 0);
         let workers = Workers {
             own: Box::new(move |job| painter.paint(job, stop)),
@@ -181,16 +177,15 @@ impl Sequence {
     }
 
     /// How many painters beside the one on this thread are worth a renderer of their own.
-    fn further_painters(&self, frames: u64) -> usize {
+    fn further_painters(&self, renderer: &Renderer, frames: u64) -> usize {
         if self.timed {
             return 0;
         }
-        let [width, height] = self.options.size_px.map(u64::from);
-        let of_data = self.wanted.exr.map_or(0, |_| DATA_BYTES_PER_PIXEL);
+        let bytes = picture_bytes(self.painting.scene(), self.wanted, self.options.size_px, renderer);
         let painters = (rayon::current_num_threads() as u64)
             .min(MAX_PAINTERS)
             .min(frames / FRAMES_PER_PAINTER)
-            .min(MAX_TARGET_BYTES / (width * height * (TARGET_BYTES_PER_PIXEL + of_data)).max(1));
+            .min(MAX_PICTURE_BYTES / bytes.max(1));
         painters.saturating_sub(1) as usize
     }
 }

@@ -5,7 +5,7 @@ use std::time::Instant;
 use impasto_core::color::srgb_from_linear;
 use impasto_frame_files::picture_file::{self, DeepPixels, Pixels};
 use impasto_gl_render::context::{OpenOptions, open};
-use impasto_gl_render::{PassTime, Picture, Renderer};
+use impasto_gl_render::{Keeps, PassTime, Picture, Renderer};
 use impasto_painting::Frame;
 use rayon::prelude::*;
 
@@ -56,6 +56,8 @@ impl<'a> Painter<'a> {
         let has = sequence.painting.scene().style.settings().aovs();
         let wanted = sequence.wanted.exr.unwrap_or_default().shared(has);
         self.renderer.gather_paint(wanted.has_any(impasto_aovs::GATHERED));
+        let surfaces = wanted.has_any(impasto_aovs::OF_SURFACES);
+        self.renderer.keep(Keeps::of_size(sequence.options.size_px, surfaces));
         let frame = sequence.painting.at(job.frame_number as f64, &sequence.options);
         // Bodies bend for the next frame while this one is drawn, unless another painter bends them already.
         if let Some(next) = job.next.filter(|_| self.is_alone) {
@@ -132,9 +134,11 @@ impl<'a> Painter<'a> {
 /// Encodes a picture for a display, with 16 bits a channel.
 fn deep(linear: &[[f32; 4]], exposure: f32) -> Vec<u16> {
     let word = |value: f32| (value.clamp(0.0, 1.0) * 65535.0).round() as u16;
-    let encoded = |&[r, g, b, a]: &[f32; 4]| {
+    let encode = |(words, &[r, g, b, a]): (&mut [u16], &[f32; 4])| {
         let [r, g, b] = [r, g, b].map(|value| word(srgb_from_linear((value * exposure).clamp(0.0, 1.0))));
-        [r, g, b, word(a)]
+        words.copy_from_slice(&[r, g, b, word(a)]);
     };
-    linear.par_iter().flat_map_iter(encoded).collect()
+    let mut words = vec![0; linear.len() * 4];
+    words.par_chunks_exact_mut(4).zip(linear).for_each(encode);
+    words
 }

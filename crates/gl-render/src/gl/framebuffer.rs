@@ -99,6 +99,13 @@ impl Framebuffer {
         values
     }
 
+    /// Reads one colour texture as floats, bottom row first, four channels a pixel.
+    pub(crate) fn read_colors(&self, color: usize) -> Vec<[f32; 4]> {
+        let mut values = vec![[0.0_f32; 4]; self.pixels()];
+        self.read(color, glow::RGBA, glow::FLOAT, bytemuck::cast_slice_mut(&mut values));
+        values
+    }
+
     /// Reads one colour texture as floats of 16 bits, bottom row first, four channels a pixel.
     pub(crate) fn read_halves(&self, color: usize) -> Vec<[half::f16; 4]> {
         let mut values = vec![[half::f16::ZERO; 4]; self.pixels()];

@@ -87,6 +87,11 @@ impl NoiseDisplace {
         Ok(())
     }
 
+    /// Lets its targets go.
+    pub(crate) fn let_go(&mut self) {
+        (self.targets, self.bloom) = (None, None);
+    }
+
     /// Draws the bodies that noise colours into the reference picture: blends their colour, and replaces depth and id.
     pub(crate) fn draw(
         &mut self,
@@ -277,7 +282,7 @@ impl Targets {
     fn new(gpu: &Gpu, reference: &ReferenceTargets) -> Result<Self, GlError> {
         let color = Rc::clone(&reference.color);
         let glow = Rc::new(Texture::target(gpu, Format::Rgba16F, color.size_px(), Filter::Nearest)?);
-        let (depth, depth_and_id) = (&reference.depth, &reference.depth_and_id);
+        let (depth, depth_and_id) = (&reference.unlit()?.depth, &reference.depth_and_id);
         Ok(Self {
             place_pass: Framebuffer::new(gpu, &[depth_and_id], Some(depth))?,
             look_pass: Framebuffer::new(gpu, &[&color, &reference.glint, &glow], Some(depth))?,

@@ -5,6 +5,7 @@ use impasto_painting::Frame;
 use super::{RenderError, Renderer, top_row_first};
 use crate::drawn::{PaintSurface, ReferencePixels, ResolvedStroke, SurfacePixels};
 use crate::fragments::PaintedLayer;
+use crate::keeps::Keeps;
 use crate::lighting::LightSetup;
 use crate::motion::{MotionPass, MotionPixels};
 
@@ -13,6 +14,11 @@ impl Renderer {
     /// [`Renderer::read_paint_surface`] have something to tell. It changes no picture, and takes time and memory.
     pub fn gather_paint(&mut self, gathers: bool) {
         self.gathers = gathers;
+    }
+
+    /// What is kept of the pictures drawn from now on. A new renderer keeps everything.
+    pub fn keep(&mut self, keeps: Keeps) {
+        self.keeps = keeps;
     }
 
     /// For every pixel of `now` where a body shows, where the same surface point is in `then`. Both frames have the
@@ -37,21 +43,21 @@ impl Renderer {
     /// The surfaces of the last picture, which was of this frame.
     ///
     /// # Errors
-    /// As [`Renderer::render`].
+    /// As [`Renderer::render`], and where they were not kept ([`Renderer::keep`]).
     pub fn read_surfaces(&mut self, frame: &Frame) -> Result<SurfacePixels, RenderError> {
         let gpu = self.context.gpu().clone();
         gpu.make_current()?;
         let width = frame.size_px[0] as usize;
         let targets = self.targets.as_ref().expect("the reference picture was drawn before");
-        let [albedo, normal] = targets.read_albedo_and_normal().map(|rows| top_row_first(&rows, width));
+        let [albedo, normal] = targets.read_albedo_and_normal()?.map(|rows| top_row_first(rows, width));
         let lights = LightSetup::new(&gpu, &frame.lights, self.reference.shadow())?;
         let [light, openness] = self.reference.draw_light_parts(frame, &lights, targets)?;
         gpu.complaints()?;
         Ok(SurfacePixels {
             albedo,
             normal,
-            light: top_row_first(&light, width),
-            openness: top_row_first(&openness, width).iter().map(|open| open[0]).collect(),
+            light: top_row_first(light, width),
+            openness: top_row_first(openness, width).iter().map(|open| open[0]).collect(),
         })
     }
 
@@ -66,11 +72,11 @@ impl Renderer {
         let width = self.painted.as_ref()?.pass.size_px()[0] as usize;
         let found = self.last_renderer()?.read_paint_surface()?;
         Some(PaintSurface {
-            flat: top_row_first(&found.flat, width),
-            normal_and_height: top_row_first(&found.normal_and_height, width),
-            wetness: top_row_first(&found.wetness, width),
-            is_border: top_row_first(&found.is_border, width),
-            ground: top_row_first(&found.ground, width),
+            flat: top_row_first(found.flat, width),
+            normal_and_height: top_row_first(found.normal_and_height, width),
+            wetness: top_row_first(found.wetness, width),
+            is_border: top_row_first(found.is_border, width),
+            ground: top_row_first(found.ground, width),
         })
     }
 
@@ -95,15 +101,16 @@ impl Renderer {
         };
         let values = targets.read_depth_and_id();
         let width = targets.depth_and_id.size_px()[0] as usize;
-        let rows = top_row_first(&values, width * 2);
+        let rows = top_row_first(values, width * 2);
         let (depth, body_id) = rows.chunks_exact(2).map(|pixel| (pixel[0], pixel[1] as u32)).unzip();
         ReferencePixels { depth, body_id }
     }
 
-    /// The paint of the last frame without background: premultiplied, display-linear, top row first.
+    /// The paint of the last frame without background: premultiplied, display-linear, top row first. Empty unless everything is kept
+    /// ([`Renderer::keep`]).
     pub fn read_paint(&self) -> Vec<[f32; 4]> {
         let (Some(style), Some(painted)) = (self.last_renderer(), &self.painted) else { return Vec::new() };
-        top_row_first(&style.read_paint(), painted.pass.size_px()[0] as usize)
+        top_row_first(style.read_paint(), painted.pass.size_px()[0] as usize)
     }
 
     /// The last picture before it was encoded: display-linear with straight alpha, top row first, whatever the exposure.
@@ -112,7 +119,6 @@ impl Renderer {
         else {
             return Vec::new();
         };
-        let pixels: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&painted.pass.read_floats(0));
-        top_row_first(&pixels, painted.pass.size_px()[0] as usize)
+        top_row_first(painted.pass.read_colors(0), painted.pass.size_px()[0] as usize)
     }
 }

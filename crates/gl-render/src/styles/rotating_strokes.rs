@@ -22,7 +22,6 @@ use crate::fragments::PaintedLayer;
 use crate::gl::{
     Blend, Bound, DrawState, Format, Framebuffer, GlError, Gpu, Halt, Program, Texture, VertexArray, Vertices,
 };
-use crate::huge::is_huge;
 use crate::lens::{LENS_UNIFORMS, LensSetup};
 use crate::palettes::palette_texture;
 use crate::stroke_buffers::StrokeBuffers;
@@ -348,8 +347,9 @@ impl StyleRenderer for RotatingStrokes {
         let samples = frame.samples(self.gpu.limits().max_side_px);
         let mut covered = self.coverage.draw(input, samples, watch)?;
         self.find_detail(input, &covered, watch)?;
-        if is_huge(frame.size_px) {
-            self.coverage.let_go(&mut covered);
+        if input.keeps.lets_go() {
+            self.gpu.finish();
+            covered.let_samples_go();
         }
         self.resolve(input)?;
         watch.passed("resolve")?;
@@ -370,8 +370,10 @@ impl StyleRenderer for RotatingStrokes {
         }
         self.finish(input, &covered, output.pass()?, watch)?;
         self.draw_surface(input, &covered)?;
-        if is_huge(frame.size_px) && !input.gathers {
-            self.targets = None;
+        if input.keeps.lets_go() {
+            self.gpu.finish();
+            (self.detail_targets, self.targets) = (None, None);
+            self.coverage.let_go();
         }
         Ok(())
     }
@@ -389,9 +391,7 @@ impl StyleRenderer for RotatingStrokes {
     }
 
     fn read_paint(&self) -> Vec<[f32; 4]> {
-        let targets = self.targets.as_ref();
-        targets
-            .map_or_else(Vec::new, |targets| bytemuck::pod_collect_to_vec(&targets.paint_pass.read_floats(0)))
+        self.targets.as_ref().map_or_else(Vec::new, |targets| targets.paint_pass.read_colors(0))
     }
 }
 

@@ -148,7 +148,7 @@ impl SumiE {
             .texture("shares", &shares)
             .texture("normal", &input.reference.normal)
             .texture("depth_and_id", &input.reference.depth_and_id)
-            .texture("albedo_and_lit", &input.reference.albedo)
+            .texture("albedo_and_lit", &input.reference.unlit()?.albedo)
             .set("to_light", to_light(frame, settings))
             .set("silhouette", silhouette_range(settings))
             .set("own_tone", settings.own_tone as f32)
@@ -226,10 +226,18 @@ impl StyleRenderer for SumiE {
         watch: &mut Watch<'_>,
     ) -> Result<(), Halt> {
         let Style::SumiE(settings) = &input.frame.style else { return Ok(()) };
-        match settings.rule {
+        let drawn = match settings.rule {
             InkRule::Source => self.draw_source(input, settings, output, watch),
             InkRule::Painter => self.draw_painter(input, settings, output, watch),
+        };
+        if input.keeps.lets_go() {
+            (self.source_targets, self.painter_targets) = (None, None);
         }
+        drawn
+    }
+
+    fn reads_unlit(&self) -> bool {
+        true
     }
 
     fn read_resolved(&self) -> Vec<[f32; 8]> {

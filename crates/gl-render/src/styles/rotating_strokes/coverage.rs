@@ -8,7 +8,6 @@ use crate::gl::{
     Bound, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program, ProgramSource, Texture,
     VertexArray, Vertices,
 };
-use crate::huge::is_huge;
 use crate::style_renderer::StyleInput;
 use crate::watch::Watch;
 
@@ -49,6 +48,12 @@ impl Covered {
         bound.texture("fine", &self.fine).set("samples", self.samples as i32)
     }
 
+    /// Lets the samples go: from now on pixels stand for them.
+    pub(super) fn let_samples_go(&mut self) {
+        self.fine = Rc::clone(&self.surface);
+        self.samples = 1;
+    }
+
     /// Sets the uniform `surface`.
     pub(super) fn set_surface<'a>(&self, bound: Bound<'a>) -> Bound<'a> {
         bound.texture("surface", &self.surface)
@@ -72,11 +77,9 @@ impl Coverage {
         self.place.ready_all()
     }
 
-    /// Lets the samples go, which only a huge picture does: from now on pixels stand for them.
-    pub(super) fn let_go(&mut self, covered: &mut Covered) {
-        self.fine = None;
-        covered.fine = Rc::clone(&covered.surface);
-        covered.samples = 1;
+    /// Lets its targets go.
+    pub(super) fn let_go(&mut self) {
+        (self.fine, self.surface) = (None, None);
     }
 
     /// Draws `samples` x `samples` samples for each pixel. With one, the reference picture has them already.
@@ -113,8 +116,13 @@ impl Coverage {
             }
         }
         let samples_of = Rc::clone(&fine.texture);
-        // The depth of the samples has served.
-        self.fine = (!is_huge(size_px)).then_some(fine);
+        self.fine = if input.keeps.lets_go() {
+            // Their depth has served.
+            self.gpu.finish();
+            None
+        } else {
+            Some(fine)
+        };
         let surface = match self.surface.take() {
             Some(target) if target.pass.size_px() == size_px => target,
             _ => Target::new(&self.gpu, size_px, false)?,

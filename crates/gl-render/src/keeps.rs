@@ -1,0 +1,60 @@
+//! What a renderer keeps of a picture while it draws it, and afterwards.
+
+use impasto_painting::frame::Style;
+
+/// Pictures of more pixels are huge: making their targets anew costs little beside drawing them, and keeping all of them to the end of the
+/// picture takes twice the memory.
+const HUGE_PX: u64 = 16 << 20;
+
+/// What can be read of a picture beside its colour, its depth and its bodies, once it is drawn. The less is kept, the less memory a
+/// picture takes: each target is let go as soon as it has served. The picture is the same.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Keeps {
+    /// All there is, and the targets stay for the next picture.
+    #[default]
+    Everything,
+    /// Its surfaces: unlit colour, normals, light.
+    Surfaces,
+    /// Nothing more.
+    Picture,
+}
+
+impl Keeps {
+    /// What to keep of a picture of this size whose surfaces will be asked for, or not, and whose paint will not: everything, unless it
+    /// is huge.
+    pub fn of_size(size_px: [u32; 2], surfaces: bool) -> Self {
+        let is_huge = size_px.map(u64::from).iter().product::<u64>() > HUGE_PX;
+        match (is_huge, surfaces) {
+            (false, _) => Self::Everything,
+            (true, true) => Self::Surfaces,
+            (true, false) => Self::Picture,
+        }
+    }
+
+    /// What drawing a picture in a style takes of a pixel at most, bytes, where a pixel has so many samples a side.
+    pub fn bytes_per_px(self, style: &Style, samples: u32) -> u64 {
+        let fine = if samples > 1 { u64::from(samples * samples) * 12 } else { 0 };
+        // The surface of the samples.
+        let surface = if samples > 1 { 8 } else { 0 };
+        // The ink style draws from what only light is found from.
+        let (paint, reads_unlit) = match style {
+            Style::RotatingStrokes(_) => (21, false),
+            Style::SumiE(_) => (33, true),
+            Style::Reference => (0, false),
+        };
+        let [unlit, lit, picture] = [13, 26, 16];
+        // Strokes, what is read back, and what the driver needs beside.
+        let else_taken = 8;
+        let drawn = match self {
+            Self::Everything => unlit + lit + fine + surface + paint + picture,
+            Self::Picture if !reads_unlit => lit + fine.max(surface + paint + picture),
+            Self::Surfaces | Self::Picture => unlit + lit + fine.max(surface + paint + picture),
+        };
+        drawn + else_taken
+    }
+
+    /// Whether a target is let go once nobody draws from it any more.
+    pub(crate) fn lets_go(self) -> bool {
+        self != Self::Everything
+    }
+}

@@ -1,0 +1,47 @@
+//! How much memory pictures take while they are drawn and encoded.
+
+use impasto_gl_render::{Keeps, Renderer};
+use impasto_painting::frame::samples_that_fit;
+use impasto_scene::aovs::Aov;
+use impasto_scene::document::Scene;
+
+use crate::shot::Wanted;
+
+/// What the frames and files of one painter take at most, bytes of a picture of this size; what was prepared comes on top. Measured with
+/// llvmpipe at 7680 x 4320 and 8192 x 8192.
+pub fn picture_bytes(scene: &Scene, wanted: Wanted, size_px: [u32; 2], renderer: &Renderer) -> u64 {
+    let style = scene.style.settings();
+    let samples = samples_that_fit(style.preparation().samples, size_px, renderer.max_side_px());
+    let aovs = wanted.exr.map(|aovs| aovs.shared(style.aovs()));
+    let has_any = |of: &[Aov]| aovs.is_some_and(|aovs| aovs.has_any(of));
+    let keeps = Keeps::of_size(size_px, has_any(impasto_aovs::OF_SURFACES));
+    let while_drawn = keeps.bytes_per_px(&scene.style, samples);
+    let while_read = if has_any(impasto_aovs::GATHERED) {
+        OF_PAINT
+    } else if has_any(OF_SCENE) {
+        while_drawn.max(OF_SCENE_READ)
+    } else {
+        while_drawn
+    };
+    size_px.map(u64::from).iter().product::<u64>() * while_read
+}
+
+/// Those of the scene, but for the depth, which takes next to nothing.
+const OF_SCENE: &[Aov] = &[
+    Aov::Position,
+    Aov::ObjectId,
+    Aov::Normal,
+    Aov::Albedo,
+    Aov::Light,
+    Aov::Shadow,
+    Aov::Occlusion,
+    Aov::Motion,
+    Aov::Forward,
+    Aov::Backward,
+];
+
+/// Bytes per pixel while they are read and encoded.
+const OF_SCENE_READ: u64 = 230;
+
+/// The same for a file with everything that a picture knows.
+const OF_PAINT: u64 = 844;
