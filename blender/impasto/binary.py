@@ -18,7 +18,7 @@ SERVE_VERSION = 1
 
 HOW_TO_GET = (
     "Name it in Preferences > Add-ons > Impasto, or put it on the PATH; "
-    "the README of Impasto says how to build it"
+    "the page \"Inside Blender\" (docs/blender.md) says how it is installed, in step 1"
 )
 
 # Programs that were found to serve, with the time at which they were written.

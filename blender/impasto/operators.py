@@ -45,6 +45,9 @@ class IMPASTO_OT_take_back(bpy.types.Operator):
     )
 
     def execute(self, context: bpy.types.Context) -> set[str]:
+        if not self.field:
+            self.report({"ERROR"}, 'Which setting? Name it: field="scale"')
+            return {"CANCELLED"}
         owner = {
             "SCENE": context.scene,
             "OBJECT": context.object,

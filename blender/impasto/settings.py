@@ -89,13 +89,20 @@ def stands_over(owner: bpy.types.ID) -> str:
 last_failure = ""
 
 
+def _refused(failure: Failure) -> None:
+    """A property cannot report: panels show it, and scripts read it in the console."""
+    global last_failure
+    last_failure = str(failure)
+    print(f"Impasto: {failure}")
+
+
 def _try(owner: bpy.types.ID, field: str, value: str) -> None:
     global last_failure
     try:
         state(owner, field, value)
         last_failure = ""
     except Failure as failure:
-        last_failure = str(failure)
+        _refused(failure)
 
 
 def _number(field: str, name: str, words: str, least: float, most: float, usual: float) -> Any:
@@ -103,7 +110,8 @@ def _number(field: str, name: str, words: str, least: float, most: float, usual:
         return float(stated(self.id_data).get(field, usual))
 
     def put(self: StrokeSettings, value: float) -> None:
-        _try(self.id_data, field, scene_file.number(value))
+        # Scripts may set what no slider gives.
+        _try(self.id_data, field, scene_file.number(min(max(value, least), most)))
 
     return bpy.props.FloatProperty(
         name=name, description=words, min=least, max=most, soft_max=min(most, 5.0 * max(usual, 0.2)), get=get, set=put
@@ -155,7 +163,7 @@ def _put_style(self: SceneSettings, index: int) -> None:
         scene_file.write(where.scene_file, [f"style={STYLES[index]}()" if index else "style="])
         last_failure = ""
     except Failure as failure:
-        last_failure = str(failure)
+        _refused(failure)
 
 
 class SceneSettings(bpy.types.PropertyGroup):

@@ -28,6 +28,10 @@ pub(crate) fn least(objects: usize) -> u32 {
 /// How far beyond the picture faces count, in its size.
 const MARGIN: f64 = 1.1;
 
+/// An object whose faces, one behind the other, cover the picture more often than this has no more particles: nearly all of them are
+/// hidden, as in a heap of thousands of large triangles.
+const DEEPEST: f64 = 32.0;
+
 /// At most this many faces are examined.
 const FACES: usize = 20_000;
 
@@ -72,7 +76,8 @@ pub(crate) fn find<const LAYERS: usize>(
     positions_at: impl Fn(&BodyShape) -> Option<Vec<Vec3>> + Sync,
     wanted_per_px: impl Fn(usize, DVec3, DVec3) -> [f32; LAYERS],
 ) -> [usize; LAYERS] {
-    let stride = surface.faces().count().div_ceil(FACES).max(1);
+    // Odd, since the two sides of a sheet's triangles take turns.
+    let stride = surface.faces().count().div_ceil(FACES) | 1;
     let faces: Vec<CountedFace<LAYERS>> = surface
         .faces()
         .step_by(stride)
@@ -99,7 +104,7 @@ pub(crate) fn find<const LAYERS: usize>(
     let mesh = surface.mesh();
     let needed_in = |sighting: &Sighting| {
         let moved = positions_at(&sighting.shape);
-        needed_per_area(&faces, sighting, |face| match &moved {
+        needed_per_area((&faces, stride), sighting, |face| match &moved {
             Some(positions) => face.moved(mesh, positions),
             None => (face.center, face.normal),
         })
@@ -154,9 +159,9 @@ fn middles([a, b, c]: [DVec3; 3], cuts: usize) -> impl Iterator<Item = DVec3> {
     })
 }
 
-/// Particles needed per unit of surface in one view, by layer.
+/// Particles needed per unit of surface in one view, by layer. The faces are one in `stride` of all.
 fn needed_per_area<const LAYERS: usize>(
-    faces: &[CountedFace<LAYERS>],
+    (faces, stride): (&[CountedFace<LAYERS>], usize),
     sighting: &Sighting,
     placed: impl Fn(&CountedFace<LAYERS>) -> (DVec3, DVec3),
 ) -> [f64; LAYERS] {
@@ -183,7 +188,8 @@ fn needed_per_area<const LAYERS: usize>(
             }),
         );
         let total: f64 = needed.iter().map(|&(_, shown)| shown).sum();
-        reached(&mut needed, 0.9 * total).unwrap_or(0.0)
+        let deepest = DEEPEST * 4.0 * sighting.half_size_px.element_product() / stride as f64;
+        reached(&mut needed, 0.9 * total).unwrap_or(0.0) * (deepest / total).min(1.0)
     })
 }
 
@@ -253,6 +259,49 @@ mod tests {
         };
         let (rough, fine) = (counted(1), counted(100));
         assert!((rough / fine - 1.0).abs() < 0.2, "{rough} {fine}");
+    }
+
+    #[test]
+    fn a_fine_sheet_needs_as_many_from_either_side() {
+        let mesh = floor(1.0, 90);
+        let surface = Surface::new(&mesh, |_| true);
+        assert!((FACES + 1..=2 * FACES).contains(&surface.faces().count()));
+        let counted = |height: f64| {
+            let eye = DVec3::new(0.0, height, 0.0);
+            let view = glam::dcamera::rh::view::look_at_mat4(eye, DVec3::ZERO, DVec3::NEG_Z);
+            let map = ScreenMap::new(view, DAffine3::IDENTITY, PixelLens::Perspective { focal_px: 300.0 });
+            let (half_size_px, shape) = (DVec2::new(320.0, 180.0), BodyShape::default());
+            let sighting = Sighting { map, half_size_px, near: 0.1, shape };
+            find(&surface, &[sighting], 64, |_| None, |_, _, _| [0.01])[0] as f64
+        };
+        let [above, below] = [4.0, -4.0].map(counted);
+        assert!(above > 300.0 && (above / below - 1.0).abs() < 0.05, "{above} {below}");
+    }
+
+    #[test]
+    fn what_lies_behind_many_others_gets_no_more_particles() {
+        let view =
+            glam::dcamera::rh::view::look_at_mat4(DVec3::new(0.0, 4.0, 0.0), DVec3::ZERO, DVec3::NEG_Z);
+        let map = ScreenMap::new(view, DAffine3::IDENTITY, PixelLens::Perspective { focal_px: 1000.0 });
+        let sighting =
+            Sighting { map, half_size_px: DVec2::new(320.0, 180.0), near: 0.1, shape: BodyShape::default() };
+        // Floors of the size of the picture, one below the other.
+        let counted = |floors: u32| {
+            let mut mesh = floor(1.0, 6);
+            let (one, corners) = (mesh.clone(), mesh.positions.len() as u32);
+            for level in 1..floors {
+                let down = Vec3::NEG_Y * (0.01 * level as f32);
+                mesh.positions.extend(one.positions.iter().map(|&at| at + down));
+                mesh.normals.extend(&one.normals);
+                mesh.triangles
+                    .extend(one.triangles.iter().map(|of| of.map(|corner| corner + level * corners)));
+            }
+            let surface = Surface::new(&mesh, |_| true);
+            find(&surface, std::slice::from_ref(&sighting), 64, |_| None, |_, _, _| [0.001])[0] as f64
+        };
+        let [one, some, many, more] = [1, 8, 64, 128].map(counted);
+        assert!((some / one / 8.0 - 1.0).abs() < 0.1, "{some} of {one} each");
+        assert!(many < 48.0 * one && more < 1.2 * many, "{one} {many} {more}");
     }
 
     #[test]

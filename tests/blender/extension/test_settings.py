@@ -46,13 +46,24 @@ session.module("settings").state(group, "boil", "")
 assert "Toys" not in scene_file.read_text() and session.module("settings").stands_over(monkey) == ""
 # Out of range: refused with the program's words, and the file is as it was.
 before = scene_file.read_text()
-session.module("settings").state(scene, "preset", "") 
+session.module("settings").state(scene, "preset", "")
 assert "preset" not in scene_file.read_text()
 try:
     session.module("settings").state(scene, "scale", "1e9")
     raise AssertionError("1e9 was taken")
 except session.module("failure").Failure as failure:
     assert "scale" in str(failure), failure
+# A script may set more than a slider does: the nearest value that is allowed is taken.
+scene.impasto.strokes.coverage = 50.0
+assert scene.impasto.strokes.coverage == 20.0
+kept = scene_file.read_text()
+try:
+    bpy.ops.impasto.take_back(of="SCENE")
+    raise AssertionError("everything was taken back")
+except RuntimeError as refused:
+    assert "Which setting" in str(refused), refused
+assert scene_file.read_text() == kept
+assert bpy.ops.impasto.take_back(field="coverage", of="SCENE") == {"FINISHED"}
 session.impasto("check", str(scene_file))
 assert not session.render()
 session.report("fields of scene, object, collection and material are written one by one; comments stay")
