@@ -464,7 +464,7 @@ fn an_empty_scene_says_how_to_begin() {
 fn the_keys_are_listed_as_the_preset_has_them() {
     let mut harness = harness(Page { shows: Shows::Keys, ..Page::new() }, Theme::Dark, (1280.0, 800.0));
     assert!(harness.query_by_label("NumPad ., F").is_none() && harness.query_by_label("Ctrl Z, Z").is_none());
-    harness.state_mut().keys = Preset::Maya;
+    harness.state_mut().keymap.preset = Preset::Maya;
     harness.run();
     assert!(harness.query_by_label("Ctrl Z, Z").is_some());
     click(&mut harness, "Close keys");

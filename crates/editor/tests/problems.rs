@@ -11,7 +11,7 @@ use headless::Headless;
 use impasto_editor::panels::{Ask, Numbers, PanelInput, problems, status_line, top_bar};
 use impasto_editor::theme::{self, Theme, Tokens};
 use impasto_editor_model::editor::{Editor, Mend, Request};
-use impasto_editor_model::keymap::{self, Preset};
+use impasto_editor_model::keymap::{self, Keymap};
 use impasto_editor_model::picking::View;
 use impasto_editor_model::{Document, Session};
 use impasto_gl_render::context::Driver;
@@ -69,10 +69,11 @@ impl Page {
             session: &session,
             time: self.editor.time(),
             painting: None,
-            keys: Preset::Blender,
+            keymap: Keymap::default(),
             status: "",
             numbers: Numbers::default(),
             recent: &[],
+            troubles: &[],
             likely_meshes: &[],
         };
         if self.has_bars {

@@ -25,6 +25,7 @@ pub fn status_line(ui: &mut egui::Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask
                 for words in numbers(&shown.numbers) {
                     note(ui, &words);
                 }
+                super::problems::chip(ui, shown, asks);
                 for work in shown.numbers.works {
                     super::work::show(ui, work, asks);
                 }
