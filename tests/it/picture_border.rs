@@ -10,7 +10,8 @@ use impasto_tests::scenes;
 /// narrower one are there too, however long chance made them.
 #[test]
 fn long_strokes_that_reach_into_the_picture_are_there() {
-    let painting = scenes::painting_with("still_life", &["strokes.size_jitter=0.6", "strokes.boil=0.5"]);
+    let painting =
+        scenes::painting_with("still_life", &[("strokes.size_jitter", "0.6"), ("strokes.boil", "0.5")]);
     let camera = motion::camera_at(painting.scene(), 0.0);
     let strokes = |size| painting.strokes(&camera, 0.0, &FrameOptions::new(size), None);
     let (narrow, wide) = (strokes([240, 180]), strokes([320, 180]));
@@ -19,9 +20,8 @@ fn long_strokes_that_reach_into_the_picture_are_there() {
     for (stroke, source) in wide.strokes.iter().zip(&wide.sources) {
         let from_middle_px = [stroke.center_px[0] - 160.0, stroke.center_px[1] - 90.0];
         let (sin, cos) = stroke.angle_rad.sin_cos();
-        let reach = |along: f32, across: f32| {
-            0.5 * (along.abs() * stroke.length_px + across.abs() * stroke.width_px)
-        };
+        let reach =
+            |along: f32, across: f32| 0.5 * (along.abs() * stroke.length_px + across.abs() * stroke.width_px);
         let beside_px = from_middle_px[0].abs() - 120.0;
         let is_in = beside_px < reach(cos, sin) && from_middle_px[1].abs() - 90.0 < reach(sin, cos);
         if is_in && beside_px > 0.0 {

@@ -38,7 +38,9 @@ pub fn failure_in_words(error: &io::Error) -> String {
         Kind::NotFound => "its folder is not there",
         Kind::InvalidFilename => "the disk takes no such name",
         // What was said on purpose says more than the kind.
-        Kind::PermissionDenied if error.raw_os_error().is_none() && error.to_string().contains("read-only") => {
+        Kind::PermissionDenied
+            if error.raw_os_error().is_none() && error.to_string().contains("read-only") =>
+        {
             return error.to_string();
         }
         Kind::PermissionDenied => "you may not write there",

@@ -243,7 +243,8 @@ impl Document {
     /// them (materials, textures, buffers). An MTL file that is missing is assumed to be named like its OBJ file.
     pub fn files_on_disk(&self) -> Vec<PathBuf> {
         let mut files: Vec<PathBuf> = self.file.iter().cloned().collect();
-        let is_scene = |path: &Path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"));
+        let is_scene =
+            |path: &Path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"));
         files.extend(self.loaded.files.places().into_keys().filter(|path| !is_scene(path)));
         for name in self.files_named() {
             let path = self.folder().join(name.trim().replace('\\', "/"));

@@ -197,8 +197,13 @@ impl EditorApp {
                 self.sheets.problems = losses > 0;
                 self.toast(format!("{name}: {triangles} triangles, {regions} regions"), None, false);
                 if warnings > 0 && losses == 0 {
-                    let words = if warnings == 1 { "1 warning".to_owned() } else { format!("{warnings} warnings") };
-                    self.toast(format!("{words}: see the list of problems, at the bottom right"), None, false);
+                    let words =
+                        if warnings == 1 { "1 warning".to_owned() } else { format!("{warnings} warnings") };
+                    self.toast(
+                        format!("{words}: see the list of problems, at the bottom right"),
+                        None,
+                        false,
+                    );
                 }
                 self.go_to_last_seen(path);
                 self.preferences.note_recent(path);

@@ -183,7 +183,8 @@ impl PathSheet {
             response.request_focus();
         }
         if std::mem::take(&mut self.selects_name) {
-            let stem = Path::new(&self.typed).file_stem().map_or(0, |stem| stem.to_string_lossy().chars().count());
+            let stem =
+                Path::new(&self.typed).file_stem().map_or(0, |stem| stem.to_string_lossy().chars().count());
             let [from, to] = [0, stem].map(|at| egui::text::CCursor::new(egui::text::CharIndex(at)));
             let mut state = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
             state.cursor.set_char_range(Some(egui::text::CCursorRange::two(from, to)));
@@ -253,7 +254,9 @@ impl PathSheet {
             match std::fs::create_dir(&folder) {
                 _ if name.trim().is_empty() => self.error = Some("Type a name for the folder".to_owned()),
                 Ok(()) => self.enter(&folder.to_string_lossy()),
-                Err(error) => self.error = Some(format!("{} was not made: {}", name.trim(), failure_in_words(&error))),
+                Err(error) => {
+                    self.error = Some(format!("{} was not made: {}", name.trim(), failure_in_words(&error)))
+                }
             }
             self.wants_focus = true;
         }

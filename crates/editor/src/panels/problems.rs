@@ -37,7 +37,8 @@ pub(super) fn chip(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     }
     let tokens = Tokens::of(ui);
     let is_error = shown.document.loss_count() > 0 || !shown.troubles.is_empty();
-    let (icon, colour) = if is_error { (icons::ERROR, tokens.vermilion) } else { (icons::WARNING, tokens.ochre) };
+    let (icon, colour) =
+        if is_error { (icons::ERROR, tokens.vermilion) } else { (icons::WARNING, tokens.ochre) };
     let words = counted(count);
     let size = vec2(text_width(ui, &words, type_face::small()) + 30.0, measure::STATUS_LINE);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
@@ -72,7 +73,8 @@ pub fn problems(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) -> boo
         let whole = ui.max_rect();
         ui.painter().hline(whole.x_range(), whole.top(), (2.0, tokens.vermilion));
         let id = Id::unique("selected problem");
-        let selected = ui.data(|data| data.get_temp::<usize>(id)).unwrap_or(0).min(rows.len().saturating_sub(1));
+        let selected =
+            ui.data(|data| data.get_temp::<usize>(id)).unwrap_or(0).min(rows.len().saturating_sub(1));
         let mut text = source::Memory::load(ui.ctx());
         let has_text = shown.document.source().is_some();
         let split = whole.left() + (whole.width() * if has_text { LIST } else { 1.0 }).round();
@@ -120,7 +122,11 @@ fn counted(count: usize) -> String {
 fn head(ui: &mut Ui, shown: &PanelInput<'_>, count: usize, asks: &mut Vec<Ask>) -> bool {
     let tokens = Tokens::of(ui);
     let is_lossy = shown.document.loss_count() > 0;
-    let glyph = if is_lossy || !shown.troubles.is_empty() { (icons::ERROR, tokens.vermilion) } else { (icons::WARNING, tokens.ochre) };
+    let glyph = if is_lossy || !shown.troubles.is_empty() {
+        (icons::ERROR, tokens.vermilion)
+    } else {
+        (icons::WARNING, tokens.ochre)
+    };
     ui.spacing_mut().item_spacing.x = 10.0;
     ui.label(RichText::new(glyph.0.glyph()).font(type_face::icon(measure::ICON)).color(glyph.1));
     let of = shown.document.name();

@@ -127,7 +127,8 @@ impl<A: App, M: FnOnce(&Opened) -> A> Shell<A, M> {
     fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<(), WindowError> {
         let Some(make) = self.make.take() else { return Ok(()) };
         let no_gl = |reason| WindowError::NoOpenGl { reason };
-        let (window, gl) = WindowGl::open(event_loop, attributes(&self.options, screen_points(event_loop))).map_err(no_gl)?;
+        let (window, gl) = WindowGl::open(event_loop, attributes(&self.options, screen_points(event_loop)))
+            .map_err(no_gl)?;
         let painter = egui_glow::Painter::new(gl.gl().clone(), "", None, false)
             .map_err(|error| WindowError::NoOpenGl { reason: error.to_string() })?;
 

@@ -116,7 +116,11 @@ impl Column {
             | Ask::Welcome
             | Ask::Mend(_)
             | Ask::SaveCopy
+            | Ask::BringFile(_)
+            | Ask::ShowProblems
+            | Ask::Settle(..)
             | Ask::StopWork(_) => "of another panel".to_owned(),
+            Ask::ChooseNoise(object, part) => format!("choose noise for {object}: {part:?}"),
             Ask::Session(session) => {
                 self.session = *session;
                 "session".to_owned()

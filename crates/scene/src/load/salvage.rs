@@ -259,10 +259,7 @@ impl Reading<'_> {
             let index = self.lose(problem, "Left out until then; its default serves.".to_owned());
             self.set_fix(index, fix);
             self.blanked.push((field.key.start as usize..field.value.end as usize, index));
-            if matches!(&located.root().inside, Inside::Fields(fields) if fields.iter().any(|own| own.key.start == field.key.start))
-            {
-                self.of_scene.push(located.text_of(&field.key).to_owned());
-            }
+            self.note_of_scene(located, field.key.start as usize);
             blank_out(&mut self.left, field);
             return Ok(());
         }
@@ -290,7 +287,8 @@ impl Reading<'_> {
         let index = match cause {
             Some(&(_, listed)) => {
                 if let Some(index) = listed {
-                    self.losses[index].instead = format!("{} is left out until then.", described(&field_path));
+                    self.losses[index].instead =
+                        format!("{} is left out until then.", described(&field_path));
                 }
                 listed
             }
@@ -335,6 +333,13 @@ impl Reading<'_> {
         Ok(!fatal.is_empty())
     }
 
+    /// Notes the name of the scene's own field that begins here, if one does: it is about to be overwritten.
+    fn note_of_scene(&mut self, located: &Located, start: usize) {
+        let Inside::Fields(fields) = &located.root().inside else { return };
+        let field = fields.iter().find(|field| field.key.start as usize == start);
+        self.of_scene.extend(field.map(|field| located.text_of(&field.key).to_owned()));
+    }
+
     /// Overwrites a field with spaces. Returns false if it was overwritten before.
     fn blank(&mut self, located: &Located, field_path: &str) -> bool {
         let Some(range) = removable_range(located, field_path, &self.left) else { return false };
@@ -348,11 +353,9 @@ impl Reading<'_> {
         let mut path = field_path.to_owned();
         loop {
             if let Some(range) = removable_range(located, &path, &self.left) {
+                self.note_of_scene(located, range.start);
                 blank_range(&mut self.left, range.clone());
                 self.blanked.push((range, loss));
-                if !path.contains(['.', '[']) {
-                    self.of_scene.push(path);
-                }
                 return Ok(());
             }
             let Some(cut) = path.rfind(['.', '[']) else { return Err(self.given_up()) };

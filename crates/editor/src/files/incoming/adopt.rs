@@ -105,7 +105,9 @@ pub fn bring(file: &Path, to: &Path) -> Result<(), String> {
     };
     copy().map_err(|error| match error.kind() {
         io::ErrorKind::AlreadyExists => format!("{} is there by now: press Retry", to.display()),
-        _ => format!("{} could not be copied to {}: {}", name_of(file), to.display(), failure_in_words(&error)),
+        _ => {
+            format!("{} could not be copied to {}: {}", name_of(file), to.display(), failure_in_words(&error))
+        }
     })
 }
 

@@ -54,7 +54,9 @@ impl Listing {
             }
             Ok(found) if found.is_empty() => (found, Some("Nothing to choose in this folder.".to_owned())),
             Ok(found) => (found, None),
-            Err(error) => (Vec::new(), Some(format!("This folder cannot be read: {}", failure_in_words(&error)))),
+            Err(error) => {
+                (Vec::new(), Some(format!("This folder cannot be read: {}", failure_in_words(&error))))
+            }
         };
         rows.extend(found.into_iter().take(MAX_ROWS));
         Self { folder: folder.to_owned(), rows, note }

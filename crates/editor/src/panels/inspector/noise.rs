@@ -83,7 +83,13 @@ pub(super) fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]: [&O
     }
     if let (Some(now), Some(was)) = (&shown.vertex, &stored_noise.vertex) {
         let set = |vertex| set(NoiseDisplace { vertex: Some(vertex), ..stored_noise.clone() });
-        texture(ui, asker, ("Vertex noise file", object, NoisePart::Vertex), (now, was), (|noise| &mut noise.texture, &set));
+        texture(
+            ui,
+            asker,
+            ("Vertex noise file", object, NoisePart::Vertex),
+            (now, was),
+            (|noise| &mut noise.texture, &set),
+        );
         settings(ui, asker, &vertex_numbers(), [now, was], &set);
         choices(ui, asker, &VERTEX_CHOICES, [now, was], &set);
     }
@@ -93,7 +99,13 @@ pub(super) fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]: [&O
     }
     if let (Some(now), Some(was)) = (&shown.surface, &stored_noise.surface) {
         let set = |surface| set(NoiseDisplace { surface: Some(surface), ..stored_noise.clone() });
-        texture(ui, asker, ("Surface noise file", object, NoisePart::Surface), (now, was), (|noise| &mut noise.texture, &set));
+        texture(
+            ui,
+            asker,
+            ("Surface noise file", object, NoisePart::Surface),
+            (now, was),
+            (|noise| &mut noise.texture, &set),
+        );
         layers(ui, asker, [now, was], &set);
         settings(ui, asker, &surface_numbers(), [now, was], &set);
         tint(ui, asker, [now, was], &set);

@@ -147,7 +147,8 @@ pub(super) fn key_rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: KeyOf, ease: 
     asker.asks.retain(|ask| !matches!(ask, Ask::Preview(Command::Time(Time::MoveKeys(..)))));
     // Typed, or stepped by the wheel and the arrows.
     if let Some(
-        Ask::Do(Command::Time(Time::MoveKeys(_, by))) | Ask::DoMerged(Command::Time(Time::MoveKeys(_, by)), _),
+        Ask::Do(Command::Time(Time::MoveKeys(_, by)))
+        | Ask::DoMerged(Command::Time(Time::MoveKeys(_, by)), _),
     ) = asker.asks.get(before)
     {
         let session = impasto_editor_model::Session { frame: frame + by, ..asker.shown.session.clone() };

@@ -124,9 +124,7 @@ fn verb_of(repair: &Repair) -> Verb {
         ask,
     };
     match repair {
-        Repair::Locate { object } => {
-            verb("Locate\u{2026}", "Locate", false, Ask::ChooseMesh(object.clone()))
-        }
+        Repair::Locate { object } => verb("Locate\u{2026}", "Locate", false, Ask::ChooseMesh(object.clone())),
         Repair::Bring { to } => {
             let name = to.file_name().unwrap_or_default().to_string_lossy();
             verb("Locate\u{2026}", &format!("Locate {name}"), true, Ask::BringFile(to.clone()))
@@ -202,7 +200,8 @@ fn show(ui: &mut Ui, row: Row<'_>, is_selected: bool, asks: &mut Vec<Ask>) -> Re
         at.y = next;
     }
     let verbs_top = if is_below { rect.bottom() - 6.0 - measure::BUTTON } else { rect.top() };
-    let verbs_rect = Rect::from_min_max(pos2(rect.left() + WORDS, verbs_top), rect.right_bottom() - vec2(12.0, 0.0));
+    let verbs_rect =
+        Rect::from_min_max(pos2(rect.left() + WORDS, verbs_top), rect.right_bottom() - vec2(12.0, 0.0));
     within(ui, verbs_rect, row_from_right(), |ui| {
         ui.spacing_mut().item_spacing.x = measure::GAP;
         for verb in row.verbs.into_iter().rev() {

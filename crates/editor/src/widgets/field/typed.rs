@@ -33,7 +33,7 @@ impl NumberField<'_> {
             .frame(egui::Frame::NONE)
             .margin(egui::Margin { left: 8 + before, right: 8, top: 4, bottom: 4 })
             .desired_width(frame.width() - 16.0 - f32::from(before))
-            .horizontal_align(align)
+            .align(egui::Align2([align, egui::Align::Center]))
             .font(type_face::number())
             .show(&mut inside);
         let response = output.response.response;
