@@ -88,7 +88,7 @@ fn a_missing_texture_is_located_from_the_list_of_problems() {
     image_of_one_colour(&picture);
     let mut editor = EditorWindow::open(&screen, "texture", folder.path(), "apple.ron");
     editor.click("Show problems");
-    editor.control("Retry");
+    editor.control("Retry skin.png");
     editor.keep_picture("listed");
     editor.click("Locate skin.png");
     editor.control("File name");

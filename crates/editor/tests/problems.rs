@@ -305,7 +305,7 @@ fn a_missing_texture_can_be_located_and_looked_for_again() {
     (pixel[2], pixel[12], pixel[14], pixel[16]) = (2, 1, 1, 24);
     pixel.extend([0, 0, 200]);
     std::fs::write(&to, pixel).expect("written");
-    click(&mut harness, "Retry");
+    click(&mut harness, "Retry skin.tga");
     assert_eq!(harness.state().editor.document().problem_count(), 0);
     assert!(harness.query_by_label("Show problems").is_none(), "nothing is left to list");
 }

@@ -17,6 +17,7 @@ pub use source::{forget_text, unread_text};
 pub use trouble::{Settle, Trouble, TroubleOf};
 
 const HEIGHT: f32 = 232.0;
+const LEAST_HEIGHT: f32 = 200.0;
 /// The most of the window's height that the panel takes.
 const MOST_OF_WINDOW: f32 = 0.45;
 const HEAD: f32 = 41.0;
@@ -67,7 +68,7 @@ pub fn problems(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) -> boo
     let tokens = Tokens::of(ui);
     let mut stays = true;
     let frame = egui::Frame::new().fill(tokens.panel);
-    let high = HEIGHT.min(ui.ctx().content_rect().height() * MOST_OF_WINDOW);
+    let high = (ui.ctx().content_rect().height() * MOST_OF_WINDOW).clamp(LEAST_HEIGHT, HEIGHT);
     let panel = Panel::bottom("problems").exact_size(high).resizable(false).frame(frame);
     let shown_panel = panel.show(ui, |ui| {
         let whole = ui.max_rect();

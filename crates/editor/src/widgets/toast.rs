@@ -61,7 +61,7 @@ fn line(ui: &mut egui::Ui, toast: &Toast) -> bool {
                 let button = if toast.action.is_empty() { 0.0 } else { 80.0 };
                 let room = (ui.available_width() - button).max(80.0);
                 let wide = draw::width(ui, &toast.words, type_face::body()).min(room);
-                let label = ui.add_sized([wide, 0.0], egui::Label::new(words).wrap());
+                let label = ui.add_sized([wide, measure::CHIP - 4.0], egui::Label::new(words).wrap());
                 label.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Alert, true, &toast.words));
                 !toast.action.is_empty() && Button::new(&toast.action).plain().show(ui).clicked()
             })

@@ -99,7 +99,9 @@ fn a_click_makes_regions_of_floods_groups_and_materials() {
         assert_eq!(world.document.scene().regions.last().unwrap().on, wanted);
     }
     world.options.region_by = RegionBy::Flood;
-    world.click(Tool::Region, HERE, NONE);
+    // The flood reaches the lid: the user agrees.
+    let [asked, _] = world.click(Tool::Region, HERE, NONE);
+    world.run(asked.ask.expect("it is asked about").0);
     let made = world.document.scene().regions.last().unwrap();
     assert!(matches!(&made.on, Selector::Flood(object, _, sharp) if object == "ball" && *sharp == 30.0));
     world.options.region_does = RegionDoes::Add;

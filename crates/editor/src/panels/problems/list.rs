@@ -1,5 +1,6 @@
 //! The list of problems: each with its place, its words over as many lines as they need, and what mends it.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use egui::text::{LayoutJob, TextFormat};
@@ -111,25 +112,30 @@ fn of_problem(row: &ProblemRow, can_fix: bool) -> Row<'_> {
             sentence(&problem.message),
             sentence(&problem.mend)
         ),
-        verbs: repairs.iter().filter(|repair| can_fix || is_fix(repair)).map(verb_of).collect(),
+        verbs: repairs
+            .iter()
+            .filter(|repair| can_fix || is_fix(repair))
+            .map(|repair| verb_of(repair, &problem.missing_file().unwrap_or_default()))
+            .collect(),
         of: Some(row),
     }
 }
 
-fn verb_of(repair: &Repair) -> Verb {
+/// The button of a repair; `missing` is the file that is missing, if one is.
+fn verb_of(repair: &Repair, missing: &Path) -> Verb {
     let verb = |words: &str, name: &str, is_best: bool, ask: Ask| Verb {
         words: words.to_owned(),
         name: name.to_owned(),
         is_best,
         ask,
     };
+    let name = missing.file_name().unwrap_or_default().to_string_lossy();
     match repair {
         Repair::Locate { object } => verb("Locate\u{2026}", "Locate", false, Ask::ChooseMesh(object.clone())),
         Repair::Bring { to } => {
-            let name = to.file_name().unwrap_or_default().to_string_lossy();
             verb("Locate\u{2026}", &format!("Locate {name}"), true, Ask::BringFile(to.clone()))
         }
-        Repair::Retry => verb("Retry", "Retry", false, Ask::Mend(Mend::ReadFiles)),
+        Repair::Retry => verb("Retry", &format!("Retry {name}"), false, Ask::Mend(Mend::ReadFiles)),
         Repair::Fix { loss, verb: words, .. } => {
             verb(words, words, words.starts_with("Use "), Ask::Mend(Mend::Fix(*loss)))
         }
