@@ -8,10 +8,13 @@ use crate::theme::Tokens;
 /// From this window width on, in points, the column is wider.
 const WIDE: f32 = 1600.0;
 
+/// In less room than this, in points, the column is not shown.
+const LEAST: f32 = 780.0;
+
 /// Whether the column leaves enough of the window for the picture, or for both pictures of a comparison.
 pub fn column_fits(ui: &Ui, shown: &PanelInput<'_>) -> bool {
     let compares = shown.session.compare && !shown.document.scene().objects.is_empty();
-    ui.available_width() >= if compares { WIDE } else { 900.0 }
+    ui.available_width() >= if compares { WIDE } else { LEAST }
 }
 
 /// Shows the column at the right of `ui`, which loses that room. The line between tree and inspector can be dragged.
