@@ -36,8 +36,11 @@ fn work_outlives_a_kill_soon_after_an_edit() {
     move_the_apple(&mut editor);
     wait_for("a copy of the work", || {
         let copies = std::fs::read_dir(folder.path().join("config/recovery")).ok()?.flatten();
-        let texts = copies.filter_map(|copy| std::fs::read_to_string(copy.path()).ok());
-        texts.into_iter().any(|text| text.contains("0.5")).then_some(())
+        // A copy that is still being written has another ending.
+        let whole =
+            copies.map(|copy| copy.path()).filter(|path| path.extension().is_none_or(|end| end != "part"));
+        let mut texts = whole.filter_map(|path| std::fs::read_to_string(path).ok());
+        texts.any(|text| text.contains("translation: (0.5")).then_some(())
     });
     // Dropping the window kills it.
     drop(editor);
@@ -117,7 +120,8 @@ fn the_window_opens_as_large_as_it_was() {
     let folder = folder();
     let editor = EditorWindow::open(&screen, "sized", folder.path(), "apple.ron");
     let [width, height] = [1000, 640].map(|side: i32| side.to_string());
-    screen.xdotool(&["getactivewindow", "windowsize", "--sync", &width, &height]);
+    let window = ["search", "--onlyvisible", "--name", " - Impasto$"];
+    screen.xdotool(&[&window[..], &["windowsize", "--sync", &width, &height]].concat());
     assert_eq!(editor.quit(), Some(0));
     let kept = std::fs::read_to_string(folder.path().join("config/editor.ron")).unwrap();
     assert!(kept.contains("window_size: (1000.0, 640.0)"), "{kept}");

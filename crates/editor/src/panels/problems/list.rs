@@ -244,10 +244,12 @@ fn with_code(words: &str, font: FontId, colour: Color32) -> LayoutJob {
     job
 }
 
-/// The words with a capital and a full stop.
+/// The words with a capital, unless they begin with the name of a file, and a full stop.
 fn sentence(words: &str) -> String {
     let mut characters = words.trim().chars();
     let Some(first) = characters.next() else { return String::new() };
     let end = if words.trim().ends_with(['.', '?', '!']) { "" } else { "." };
-    first.to_uppercase().chain(characters).collect::<String>() + end
+    let begins_with_name = words.split_whitespace().next().is_some_and(|word| word.contains(['/', '.']));
+    let first: String = if begins_with_name { first.to_string() } else { first.to_uppercase().collect() };
+    first + characters.as_str() + end
 }
