@@ -89,7 +89,7 @@ fn covered(hit: &Hit, around: &Surroundings) -> Result<Vec<usize>, Refusal> {
 
 /// The middle of a triangle of the object that was hit.
 fn on_face(hit: &Hit, triangle: usize, around: &Surroundings) -> Hit {
-    let Some(surface) = around.picker.surface(hit.object) else { return hit.clone() };
+    let Some(surface) = around.picker.surface(hit.object) else { return *hit };
     let [a, b, c] = surface.mesh.corners(triangle).map(|corner| corner.as_dvec3());
     let normal = (b - a).cross(c - a).normalize_or_zero();
     Hit {
@@ -98,7 +98,7 @@ fn on_face(hit: &Hit, triangle: usize, around: &Surroundings) -> Hit {
         position_in_model: (a + b + c) / 3.0,
         normal_in_model: normal,
         face_normal_in_model: normal,
-        ..hit.clone()
+        ..*hit
     }
 }
 
