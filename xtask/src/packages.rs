@@ -118,8 +118,16 @@ pub fn ensure(root: &Path, needs: &[&[Need]], install: Install) -> anyhow::Resul
     for need in &missing {
         println!("missing: {} (package {})", need.what, need.package);
     }
+    let apt = program("apt-get").is_some();
+    if apt && install == Install::Yes {
+        apt_get(root, &prefix()?, &["update"])?;
+    }
+    let missing = wanted(missing, |need| apt && is_known(need));
+    if missing.is_empty() {
+        return Ok(());
+    }
     let names: Vec<&str> = missing.iter().map(|need| need.package).collect();
-    if program("apt-get").is_none() {
+    if !apt {
         bail!(
             "this system has no apt-get; install what brings {} and try again",
             missing
@@ -138,30 +146,36 @@ pub fn ensure(root: &Path, needs: &[&[Need]], install: Install) -> anyhow::Resul
             names.join(" ")
         );
     }
-    apt_get(root, &prefix, &["update"])?;
-    let known: Vec<&Need> = missing.into_iter().filter(|need| !need.retired || is_known(need)).collect();
     let mut arguments = vec!["install", "--yes", "--no-install-recommends"];
-    arguments.extend(known.iter().map(|need| need.package));
-    if !known.is_empty() {
-        apt_get(root, &prefix, &arguments)?;
-    }
+    arguments.extend(names);
+    apt_get(root, &prefix, &arguments)?;
     let folders = library_folders();
-    match known.iter().find(|need| !is_there(need, &folders)) {
+    match missing.iter().find(|need| !is_there(need, &folders)) {
         Some(need) => bail!("{} is still missing after installing {}", need.what, need.package),
         None => Ok(()),
     }
 }
 
-/// Whether apt knows the package; says so when it does not.
+/// What of the missing things is to be installed. A retired one is wanted only where the system still packages it: else
+/// everything goes on without it.
+fn wanted(missing: Vec<&Need>, packages: impl Fn(&Need) -> bool) -> Vec<&Need> {
+    let (retired, mut wanted): (Vec<&Need>, Vec<&Need>) = missing.into_iter().partition(|need| need.retired);
+    for need in retired {
+        if packages(need) {
+            wanted.push(need);
+        } else {
+            println!("this system does not package {}: going on without {}", need.package, need.what);
+        }
+    }
+    wanted
+}
+
+/// Whether apt knows the package.
 fn is_known(need: &Need) -> bool {
-    let known = Command::new("apt-cache")
+    Command::new("apt-cache")
         .args(["show", "--no-all-versions", need.package])
         .output()
-        .is_ok_and(|output| output.status.success() && !output.stdout.is_empty());
-    if !known {
-        println!("this system no longer packages {}: going on without {}", need.package, need.what);
-    }
-    known
+        .is_ok_and(|output| output.status.success() && !output.stdout.is_empty())
 }
 
 /// Runs apt-get so that it asks nothing; prints the command first.
@@ -251,6 +265,16 @@ mod tests {
         assert!(is_there(&EGL, &folders) && !is_there(&MESA, &folders));
         std::fs::write(folder.path().join("dri/swrast_dri.so"), "").expect("written");
         assert!(is_there(&MESA, &folders) && !is_there(&OSMESA, &folders));
+    }
+
+    #[test]
+    fn what_systems_have_given_up_is_done_without() {
+        let names = |packages: bool| -> Vec<&str> {
+            wanted(vec![&OSMESA, &EGL], |_| packages).iter().map(|need| need.package).collect()
+        };
+        assert_eq!(names(false), ["libegl1"], "also where there is no apt");
+        assert_eq!(names(true), ["libegl1", "libosmesa6"]);
+        assert!(wanted(vec![&OSMESA], |_| false).is_empty());
     }
 
     #[test]

@@ -26,12 +26,15 @@ pub fn unit(hash: u32) -> f32 {
 }
 
 /// A number of mean 0 and standard deviation 1 from a hash. It is made from the sum of four uniform numbers, so it lies
-/// within ±3.5.
+/// within ±[`MOST_NORMAL`].
 #[inline]
 pub fn normal(hash: u32) -> f32 {
     let sum: f32 = (0..4).map(|index| unit(combine(hash, index))).sum();
-    (sum - 2.0) * 1.732_050_8
+    (sum - 2.0) * (0.5 * MOST_NORMAL)
 }
+
+/// The most that [`normal`] gives: √12.
+pub const MOST_NORMAL: f32 = 3.464_101_6;
 
 #[cfg(test)]
 mod tests {
@@ -45,6 +48,7 @@ mod tests {
         let variance = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / f64::from(count);
         assert!(mean.abs() < 0.01, "mean {mean}");
         assert!((variance - 1.0).abs() < 0.02, "variance {variance}");
+        assert!(values.iter().all(|value| value.abs() <= f64::from(MOST_NORMAL)));
     }
 
     #[test]

@@ -42,7 +42,7 @@ pub use mending::{Mend, Mended, Took};
 pub use pointer::{PointerEvent, PointerKind};
 
 /// A request that only the window can fulfil.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Request {
     /// Opens a new, empty scene; asks about unsaved work first.
     New,
@@ -80,6 +80,8 @@ pub enum Request {
     ReadSource,
     /// Asks before this frame becomes the reference.
     Recapture(i64),
+    /// Asks before this command, which takes these triangles from other regions.
+    TakeFaces(Box<Command>, String),
 }
 
 /// A message to show for a while.
@@ -449,6 +451,9 @@ impl Editor {
     pub fn status(&self) -> String {
         if let Busy::Transforming(drag) = &self.busy {
             return drag.machine.status();
+        }
+        if matches!(self.busy, Busy::ShotView(..)) {
+            return "Moving the shot camera   [Click] keep  [Esc] back".to_owned();
         }
         if let Some(words) = self.time_status() {
             return words;

@@ -124,6 +124,8 @@ pub struct ToolOutput {
     pub preview: Option<Command>,
     /// The command to apply, as one entry of the history.
     pub commit: Option<Command>,
+    /// A command to apply once the user agrees, with what it would change unasked: *Take 340 faces of skin?*
+    pub ask: Option<(Command, String)>,
     /// Why nothing was done.
     pub refusal: Option<Refusal>,
     /// The status line.

@@ -79,6 +79,35 @@ mod tests {
         objects: [(name: \"leaf\", mesh: \"leaf.obj\")])";
     const QUAD: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
 
+    /// A TGA file of one pixel with this red.
+    fn pixel(red: u8) -> Vec<u8> {
+        let mut bytes = vec![0; 18];
+        (bytes[2], bytes[12], bytes[14], bytes[16]) = (2, 1, 1, 24);
+        bytes.extend([0, 0, red]);
+        bytes
+    }
+
+    #[test]
+    fn what_meshes_name_is_watched_too() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        fs::write(at("s.ron"), SCENE).expect("written");
+        fs::write(at("leaf.obj"), format!("mtllib of_leaves.mtl\nusemtl m\n{QUAD}")).expect("written");
+        fs::write(at("of_leaves.mtl"), "newmtl m\nmap_Kd veins.tga\n").expect("written");
+        fs::write(at("veins.tga"), pixel(1)).expect("written");
+        let document = Document::open(&at("s.ron"), &Default::default()).expect("opens");
+        assert!(document.loaded().warnings.is_empty(), "{:?}", document.loaded().warnings);
+        let mut watch = Watch::default();
+        assert_eq!(watch.look(&document), None);
+        for (name, bytes) in [
+            ("of_leaves.mtl", b"newmtl m\nKd 1 0 0\nmap_Kd veins.tga\n".to_vec()),
+            ("veins.tga", [pixel(200), vec![0]].concat()),
+        ] {
+            fs::write(at(name), bytes).expect("written");
+            assert_eq!([watch.look(&document), watch.look(&document)], [None, Some(News::Files)], "{name}");
+        }
+    }
+
     #[test]
     fn changes_by_other_programs_are_reported_once_the_file_is_complete() {
         let folder = tempfile::tempdir().expect("a folder");

@@ -50,6 +50,7 @@ pub fn run(options: &EditOptions) -> Result<(), EditError> {
     if options.driver.unwrap_or(loaded.preferences.driver) == DriverChoice::Software {
         window::force_software();
     }
-    let window_options = window::Options::default();
+    let (width, height) = loaded.preferences.window_size;
+    let window_options = window::Options { size: egui::vec2(width, height), ..window::Options::default() };
     Ok(window::run(window_options, |opened| app::EditorApp::new(options, loaded, shaders, opened))?)
 }

@@ -15,7 +15,7 @@ use impasto_editor::panels::ask_close::{Answer, Question};
 use impasto_editor::panels::{Ask, welcome};
 use impasto_editor::theme::{self, Theme};
 use impasto_editor_model::command::SceneEdit;
-use impasto_editor_model::keymap::{Action, Preset};
+use impasto_editor_model::keymap::{Action, Digits, Preset};
 use impasto_editor_model::session::{Mode, RegionBy, Tool};
 use impasto_editor_model::{Command, Item, Selection};
 use impasto_gl_render::context::Driver;
@@ -464,11 +464,20 @@ fn an_empty_scene_says_how_to_begin() {
 fn the_keys_are_listed_as_the_preset_has_them() {
     let mut harness = harness(Page { shows: Shows::Keys, ..Page::new() }, Theme::Dark, (1280.0, 800.0));
     assert!(harness.query_by_label("NumPad ., F").is_none() && harness.query_by_label("Ctrl Z, Z").is_none());
-    harness.state_mut().keys = Preset::Maya;
+    harness.state_mut().keymap.preset = Preset::Maya;
     harness.run();
     assert!(harness.query_by_label("Ctrl Z, Z").is_some());
     click(&mut harness, "Close keys");
     assert_eq!(harness.state().shows, Shows::Bars);
+}
+
+#[test]
+fn the_keys_are_listed_with_digits_as_the_user_has_them() {
+    let mut harness = harness(Page { shows: Shows::Keys, ..Page::new() }, Theme::Dark, (1280.0, 800.0));
+    assert!(harness.query_by_label("NumPad 7, 7").is_none());
+    harness.state_mut().keymap.digits = Digits::NumPad;
+    harness.run();
+    assert!(harness.query_by_label("NumPad 7, 7").is_some(), "digits are views");
 }
 
 #[test]

@@ -8,10 +8,11 @@ use egui::{CentralPanel, Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, SnapshotOptions};
 use headless::Headless;
+use impasto_editor::panels::problems::{Settle, Trouble, TroubleOf};
 use impasto_editor::panels::{Ask, Numbers, PanelInput, problems, status_line, top_bar};
 use impasto_editor::theme::{self, Theme, Tokens};
 use impasto_editor_model::editor::{Editor, Mend, Request};
-use impasto_editor_model::keymap::{self, Preset};
+use impasto_editor_model::keymap::{self, Keymap};
 use impasto_editor_model::picking::View;
 use impasto_editor_model::{Document, Session};
 use impasto_gl_render::context::Driver;
@@ -40,6 +41,9 @@ struct Page {
     copies: usize,
     is_open: bool,
     has_bars: bool,
+    troubles: Vec<Trouble>,
+    settled: Vec<(usize, Settle)>,
+    brought: Vec<PathBuf>,
     _folder: tempfile::TempDir,
 }
 
@@ -55,7 +59,18 @@ impl Page {
         std::fs::write(&path, TEXT).expect("written");
         let document = Document::open_with_problems(&path, &Default::default()).expect("opens");
         let editor = Editor::new(document);
-        Self { editor, path, chosen: Vec::new(), copies: 0, is_open: true, has_bars: true, _folder: folder }
+        Self {
+            editor,
+            path,
+            chosen: Vec::new(),
+            copies: 0,
+            is_open: true,
+            has_bars: true,
+            troubles: Vec::new(),
+            settled: Vec::new(),
+            brought: Vec::new(),
+            _folder: folder,
+        }
     }
 
     fn ui(&mut self, ui: &mut egui::Ui) {
@@ -69,10 +84,11 @@ impl Page {
             session: &session,
             time: self.editor.time(),
             painting: None,
-            keys: Preset::Blender,
+            keymap: Keymap::default(),
             status: "",
             numbers: Numbers::default(),
             recent: &[],
+            troubles: &self.troubles,
             likely_meshes: &[],
         };
         if self.has_bars {
@@ -98,6 +114,9 @@ impl Page {
                 Ask::Mend(mend) => drop(self.editor.mend(&mend)),
                 Ask::ChooseMesh(object) => self.chosen.push(object),
                 Ask::SaveCopy => self.copies += 1,
+                Ask::ShowProblems => self.is_open = !self.is_open,
+                Ask::Settle(index, settle) => self.settled.push((index, settle)),
+                Ask::BringFile(to) => self.brought.push(to),
                 _ => {}
             }
         }
@@ -134,7 +153,6 @@ fn the_panel_looks_as_it_did() {
     harness.state_mut().has_bars = false;
     harness.set_size(vec2(880.0, 240.0));
     harness.run();
-    // Long messages are shown whole in a tooltip only; the picture shows the list.
     harness.get_by_label_contains("line 6 column 30").click();
     harness.run();
     harness.hover_at(egui::pos2(600.0, 4.0));
@@ -209,4 +227,84 @@ fn what_is_wrong_is_mended_by_name_until_saving_is_on_again() {
     assert!(!harness.state().is_open, "nothing is left to list");
     let page = harness.state();
     assert_eq!(std::fs::read_to_string(&page.path).expect("there"), TEXT, "the file was touched");
+}
+
+#[test]
+fn edited_text_outlives_what_changes_the_source() {
+    let mut harness = harness();
+    let unread =
+        |harness: &Harness<'_, Page>| problems::unread_text(&harness.ctx, harness.state().editor.document());
+    let source = harness.state().editor.document().source().expect("a source").text.clone();
+    let edited = source.replace("long", "longer");
+    type_instead(&mut harness, &edited);
+    // Nothing that would change the text beside it is offered meanwhile.
+    assert!(harness.query_by_label("Fix all that are certain").is_none());
+    assert!(harness.query_by_label("Use leaf.obj").is_none());
+    // Another program writes the file, and it is read.
+    let path = harness.state().path.clone();
+    std::fs::write(&path, TEXT.replace("0.42", "0.43")).expect("written");
+    click(&mut harness, "Read again");
+    assert_eq!(unread(&harness), Some(edited));
+    click(&mut harness, "Drop the edited text");
+    assert_eq!(unread(&harness), None);
+    assert!(harness.query_by_label("Fix all that are certain").is_some());
+}
+
+#[test]
+fn a_failed_save_is_listed_with_what_settles_it() {
+    let mut page = Page::new();
+    page.is_open = false;
+    page.troubles = vec![Trouble {
+        of: TroubleOf::Save(None),
+        words: format!("{} was not saved: the disk is full", "a long name ".repeat(10)),
+        mend: "Your work is still here, and not in the file".to_owned(),
+        settles: &[Settle::SaveAs, Settle::Retry],
+    }];
+    let mut harness = Harness::builder()
+        .with_size(vec2(1000.0, 600.0))
+        .with_context_setup(|ctx| theme::apply(ctx, Theme::Dark, 1.0))
+        .build_ui_state(|ui, page: &mut Page| page.ui(ui), page);
+    harness.run();
+    click(&mut harness, "Show problems");
+    let row = harness.get_by_label_contains("the disk is full").rect();
+    assert!(row.height() > 50.0 && row.right() <= 1000.0, "all its words show: {row}");
+    click(&mut harness, "Save as");
+    click(&mut harness, "Retry");
+    assert_eq!(harness.state().settled, [(0, Settle::SaveAs), (0, Settle::Retry)]);
+    harness.state_mut().troubles.clear();
+    harness.run_steps(SETTLED);
+    assert!(harness.query_by_label_contains("the disk is full").is_none());
+}
+
+#[test]
+fn a_missing_texture_can_be_located_and_looked_for_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("written");
+    write("leaf.obj", "mtllib leaf.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write("leaf.mtl", "newmtl m\nmap_Kd maps/skin.tga\n");
+    write(
+        "s.ron",
+        "(version: 1, camera: (keys: [(frame: 0, eye: (0, 1, 4), target: (0, 0, 0))]), \
+         objects: [(name: \"leaf\", mesh: \"leaf.obj\")])",
+    );
+    let document = Document::open(&folder.path().join("s.ron"), &Default::default()).expect("opens");
+    let page = Page { editor: Editor::new(document), ..Page::new() };
+    let mut harness = Harness::builder()
+        .with_size(vec2(1000.0, 600.0))
+        .with_context_setup(|ctx| theme::apply(ctx, Theme::Dark, 1.0))
+        .build_ui_state(|ui, page: &mut Page| page.ui(ui), page);
+    harness.run();
+    click(&mut harness, "Locate skin.tga");
+    let to = std::fs::canonicalize(folder.path()).expect("a folder").join("maps/skin.tga");
+    let brought = harness.state().brought.clone();
+    assert_eq!(brought.len(), 1);
+    assert!(brought[0].ends_with("maps/skin.tga"), "{brought:?}");
+    std::fs::create_dir(to.parent().expect("a folder")).expect("made");
+    let mut pixel = vec![0_u8; 18];
+    (pixel[2], pixel[12], pixel[14], pixel[16]) = (2, 1, 1, 24);
+    pixel.extend([0, 0, 200]);
+    std::fs::write(&to, pixel).expect("written");
+    click(&mut harness, "Retry skin.tga");
+    assert_eq!(harness.state().editor.document().problem_count(), 0);
+    assert!(harness.query_by_label("Show problems").is_none(), "nothing is left to list");
 }

@@ -14,7 +14,7 @@ use impasto_editor::panels::work::{Work, WorkKind};
 use impasto_editor::panels::{Ask, Numbers, PanelInput, status_line};
 use impasto_editor::theme::{self, Theme};
 use impasto_editor_model::command::{Command, SceneEdit};
-use impasto_editor_model::keymap::{Action, Preset};
+use impasto_editor_model::keymap::{Action, Keymap};
 use impasto_editor_model::render_settings::{
     AovChoice, FileKind, Outcome, RenderDriver, RenderProgress, RenderSettings, Stage, Which,
 };
@@ -281,10 +281,11 @@ fn long_work_is_shown_in_the_status_line_and_can_be_stopped() {
             session: &Session::default(),
             time: &TimeHand::default(),
             painting: None,
-            keys: Preset::Blender,
+            keymap: Keymap::default(),
             status: "[Drag] comb",
             numbers: Numbers { strokes: 5774, works: &line.works, ..Numbers::default() },
             recent: &[],
+            troubles: &[],
             likely_meshes: &[],
         };
         status_line::status_line(ui, &shown, &mut line.asked);

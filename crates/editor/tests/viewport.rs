@@ -139,6 +139,8 @@ fn a_drag_comes_back_whole_and_in_order() {
     let mut expected = vec![(PointerKind::Move, 200.0), (PointerKind::Press(Button::Left), 200.0)];
     expected.extend(places[1..].iter().map(|at| (PointerKind::Move, f64::from(at.x))));
     expected.extend([(PointerKind::Move, -30.0), (PointerKind::Release(Button::Left), -30.0)]);
+    // The pointer is elsewhere now: what belongs to it is taken away.
+    expected.push((PointerKind::Leave, -30.0));
     assert_eq!(told, expected);
 }
 

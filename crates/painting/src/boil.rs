@@ -54,6 +54,16 @@ impl Boil {
     }
 }
 
+/// The most that length and width grow where strokes boil by this amount, as factors.
+pub(crate) fn most_size(amount: f32) -> [f32; 2] {
+    SIZE.map(|deviation| (amount * deviation * hash::MOST_NORMAL).exp())
+}
+
+/// The most that a centre is shifted where strokes boil by this amount, along and across, in lengths and widths.
+pub(crate) fn most_shift(amount: f32) -> [f32; 2] {
+    PLACE.map(|deviation| amount * deviation * hash::MOST_NORMAL)
+}
+
 impl Boiled {
     /// The shift of the centre of a stroke with this angle and this size.
     pub(crate) fn shift_px(&self, angle_rad: f32, size_px: [f32; 2]) -> [f32; 2] {

@@ -5,10 +5,12 @@ use std::borrow::Cow;
 use impasto_core::presence;
 use impasto_scene::presets::ResolvedStrokes;
 
+use crate::boil;
 use crate::coat::Coat;
 use crate::counts::most_wanted;
 use crate::painting::Painting;
 use crate::parts::Cap;
+use crate::stroke::{most_size, reach_px};
 
 /// Strokes fade near a body's outline, and more strokes make up for that; a fade below this counts as this.
 pub(crate) const LEAST_COUNTED_FADE: f32 = 0.3;
@@ -18,7 +20,7 @@ const LEEWAY: f64 = 1.001;
 
 /// The bound for one rule on one coat, in one view.
 pub(crate) struct PresenceBound {
-    /// How far from its centre a stroke reaches, pixels, before it grows with its surface.
+    /// How far from its particle the largest stroke that chance makes reaches, pixels, before it grows with its surface.
     pub(crate) reach_px: f32,
     /// By part: a stroke can be present only while its particle's index is below this times its projected area (px² per unit of
     /// surface). Infinite where presence does not depend on the index.
@@ -52,8 +54,14 @@ impl Painting {
                 (wanted_per_px * coat.sampled.area * most * LEEWAY / f64::from(px_scale * px_scale)) as f32
             };
             let by_index = !by_polygon && strokes.size_follow <= 0.0;
+            let [longer, wider] = most_size(strokes.size_jitter);
+            let [longer_boiled, wider_boiled] = boil::most_size(strokes.boil);
+            let [along, across] = boil::most_shift(strokes.boil);
+            let length_px = layer.length_px * longer * longer_boiled * px_scale;
+            let width_px = layer.width_px * wider * wider_boiled * px_scale;
+            let shift_px = along * length_px + across * width_px;
             Some(PresenceBound {
-                reach_px: (layer.length_px + layer.width_px * (1.0 + strokes.taper.abs())) * px_scale,
+                reach_px: reach_px([1.0; 2], [length_px, width_px * (1.0 + strokes.taper.abs())]) + shift_px,
                 most_per_area: body
                     .caps
                     .iter()

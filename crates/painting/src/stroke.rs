@@ -140,21 +140,14 @@ impl PaintingView<'_> {
         // A stroke that bends may reach as far in either axis as it is long.
         let (sin, cos) = if bend_rad == 0.0 { angle_rad.sin_cos() } else { (1.0, 1.0) };
         let most_width_px = width_px * (1.0 + taper.abs());
-        // The second term: the resolve shader may shift a stroke along itself.
-        let reach_px = |along: f32, across: f32| {
-            (0.5 * QUAD * (along.abs() * length_px + across.abs() * most_width_px))
-                + 0.5 * length_px * along.abs()
-        };
-        let outside = |at: f32, half: f32, reach: f32| at.abs() > half + reach;
-        if outside(solved.x_px, self.half_px[0], reach_px(cos, sin))
-            || outside(solved.y_px, self.half_px[1], reach_px(sin, cos))
-        {
+        let reach = [[cos, sin], [sin, cos]].map(|axis| reach_px(axis, [length_px, most_width_px]));
+        let center_px = [solved.x_px + shift_px[0], solved.y_px + shift_px[1]];
+        if (0..2).any(|axis| center_px[axis].abs() > self.half_px[axis] + reach[axis]) {
             return None;
         }
         let jitter_share = (strokes.angle_jitter_rad.to_degrees() / USUAL_JITTER_DEG as f32).min(1.0);
         let stroke = Stroke {
-            center_px: [0, 1]
-                .map(|axis| [solved.x_px, solved.y_px][axis] + self.half_px[axis] + shift_px[axis]),
+            center_px: [0, 1].map(|axis| center_px[axis] + self.half_px[axis]),
             depth: solved.depth,
             angle_rad,
             length_px,
@@ -213,6 +206,17 @@ impl PaintingView<'_> {
             Edges::Free => Stroke::FREE,
         }
     }
+}
+
+/// How far a stroke reaches from its centre along an axis of the picture, which has these parts along and across the stroke,
+/// pixels. The resolve shader may shift a stroke along itself: that is in it.
+pub(crate) fn reach_px([along, across]: [f32; 2], [length_px, width_px]: [f32; 2]) -> f32 {
+    0.5 * QUAD * (along.abs() * length_px + across.abs() * width_px) + 0.5 * length_px * along.abs()
+}
+
+/// The most that chance makes of a length and a width, as factors, where sizes vary by this much.
+pub(crate) fn most_size(jitter: f32) -> [f32; 2] {
+    [LENGTH_SHARE, WIDTH_SHARE].map(|share| (jitter * (1.0 + share) * hash::MOST_NORMAL).exp())
 }
 
 /// A stroke's outline in the picture.

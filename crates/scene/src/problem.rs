@@ -1,7 +1,7 @@
 //! Problems in files: where, what is wrong, and how to mend it. Every reader of this crate reports in this form.
 
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// One error or oddity in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -50,6 +50,17 @@ impl Severity {
 /// At least one fatal problem, and whatever else was found on the way, in the order of the file.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub struct Report(pub Vec<Problem>);
+
+impl Problem {
+    /// Where a file is missing that another file names: its path beside the file that names it. `None` where the problem is
+    /// another one. The name is that of [`crate::assets::AssetError::Missing`], which a problem has as words.
+    pub fn missing_file(&self) -> Option<PathBuf> {
+        let (named, _) = self.message.split_once("\" was not found (tried ")?;
+        let (_, name) = named.rsplit_once('"')?;
+        let is_whole = !name.is_empty() && !name.contains(['…', '\\']);
+        is_whole.then(|| self.path.parent().unwrap_or(Path::new("")).join(name))
+    }
+}
 
 impl fmt::Display for Problem {
     /// `file:line:column: error: what is wrong; the mend`.
@@ -104,6 +115,18 @@ impl fmt::Display for Report {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_missing_file_is_known_by_its_words() {
+        use crate::assets::AssetError;
+        let missing = |name: &str| AssetError::Missing { name: name.to_owned(), tried: vec!["/a/b".into()] };
+        let of = |error: AssetError| error.to_problem(Severity::Warning, Path::new("/m/apple.mtl"), None);
+        assert_eq!(of(missing("maps/skin 1.png")).missing_file(), Some("/m/maps/skin 1.png".into()));
+        assert_eq!(of(missing("long…")).missing_file(), None);
+        assert_eq!(of(AssetError::NotAFile("/m/skin.png".into())).missing_file(), None);
+        let prefixed = Problem { message: format!("objects: {}", missing("a.obj")), ..of(missing("a.obj")) };
+        assert_eq!(prefixed.missing_file(), Some("/m/a.obj".into()));
+    }
 
     #[test]
     fn what_is_shown_steers_no_terminal_and_has_an_end() {

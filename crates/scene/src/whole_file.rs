@@ -27,6 +27,33 @@ pub struct WholeFile {
     target: PathBuf,
 }
 
+/// Why a file was not written or read, in words for someone who knows no error numbers: *the disk is full*.
+pub fn failure_in_words(error: &io::Error) -> String {
+    use io::ErrorKind as Kind;
+    let words = match error.kind() {
+        Kind::StorageFull => "the disk is full",
+        Kind::QuotaExceeded => "your share of the disk is used up",
+        Kind::ReadOnlyFilesystem => "the disk is read-only",
+        Kind::FileTooLarge => "the disk takes no file of that size",
+        Kind::NotFound => "its folder is not there",
+        Kind::InvalidFilename => "the disk takes no such name",
+        // What was said on purpose says more than the kind.
+        Kind::PermissionDenied
+            if error.raw_os_error().is_none() && error.to_string().contains("read-only") =>
+        {
+            return error.to_string();
+        }
+        Kind::PermissionDenied => "you may not write there",
+        _ => {
+            let said = error.to_string();
+            let said = said.split(" (os error ").next().unwrap_or_default();
+            // The name of the unfinished file means nothing to anybody.
+            return said.split(" at path ").next().unwrap_or_default().to_owned();
+        }
+    };
+    words.to_owned()
+}
+
 impl WholeFile {
     /// Begins a file; a new one may be read by whoever the user's umask lets.
     ///
@@ -142,6 +169,17 @@ fn folder_of(path: &Path) -> &Path {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn failures_are_told_without_numbers() {
+        let words = |error: &io::Error| failure_in_words(error);
+        assert_eq!(words(&io::Error::from_raw_os_error(28)), "the disk is full");
+        assert_eq!(words(&io::Error::from_raw_os_error(13)), "you may not write there");
+        assert!(!words(&io::Error::from_raw_os_error(5)).contains("os error"));
+        let folder = tempfile::tempdir().unwrap();
+        let told = words(&write(&folder.path().join("no/such/s.ron"), b"").unwrap_err());
+        assert_eq!(told, "its folder is not there");
+    }
 
     fn names(folder: &Path) -> Vec<String> {
         let entries = fs::read_dir(folder).unwrap();

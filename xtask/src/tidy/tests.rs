@@ -34,12 +34,17 @@ fn a_planted_long_file_is_named() {
         "crates/gl-render/shaders/shared/long.glsl:501: 501 lines",
     );
     assert_eq!(verdict(&[("crates/core/src/long.rs", &"// line\n".repeat(500))]), Ok(()));
+    // What follows a module of tests, or its name, counts.
+    let named = format!("#[cfg(test)]\nmod tests;\n{long}");
+    found(&[("crates/core/src/named.rs", &named)], "crates/core/src/named.rs:501: 501 lines");
+    let around = format!("// line\n#[cfg(test)]\nmod tests {{\n{long}}}\n{}", "// line\n".repeat(500));
+    found(&[("crates/core/src/around.rs", &around)], "crates/core/src/around.rs:501: 501 lines");
 }
 
 #[test]
 fn tests_and_tables_may_be_long() {
     let long = "// line\n".repeat(501);
-    let tested = format!("//! Short.\n#[cfg(test)]\n{long}");
+    let tested = format!("//! Short.\n#[cfg(test)]\nmod tests {{\n{long}}}\n");
     let files = [
         ("tests/it/long.rs", long.as_str()),
         ("crates/core/src/poly_table.rs", long.as_str()),

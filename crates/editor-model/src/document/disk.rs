@@ -8,6 +8,7 @@ use impasto_scene::assets::{AssetFolders, AssetRequest};
 use impasto_scene::document::Scene;
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::problem::Report;
+use impasto_scene::whole_file::failure_in_words;
 use impasto_scene::{mesh_format, save};
 
 use super::{Document, Step};
@@ -33,7 +34,7 @@ pub enum SaveError {
         folder: PathBuf,
     },
     /// The file could not be written.
-    #[error("{} was not written: {source}", target.display())]
+    #[error("{} was not saved: {}", target.display(), failure_in_words(source))]
     Unwritable {
         /// The file.
         target: PathBuf,
@@ -238,9 +239,13 @@ impl Document {
         Ok(Step { text, note })
     }
 
-    /// The paths of all files of the scene, its own first; MTL files are assumed to be named like their OBJ files.
+    /// The paths of all files of the scene, its own first: those that it names, and those that were read because they name
+    /// them (materials, textures, buffers). An MTL file that is missing is assumed to be named like its OBJ file.
     pub fn files_on_disk(&self) -> Vec<PathBuf> {
         let mut files: Vec<PathBuf> = self.file.iter().cloned().collect();
+        let is_scene =
+            |path: &Path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"));
+        files.extend(self.loaded.files.places().into_keys().filter(|path| !is_scene(path)));
         for name in self.files_named() {
             let path = self.folder().join(name.trim().replace('\\', "/"));
             if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj")) {
@@ -248,6 +253,8 @@ impl Document {
             }
             files.push(path);
         }
+        let mut seen = BTreeSet::new();
+        files.retain(|path| seen.insert(path.clone()));
         files
     }
 

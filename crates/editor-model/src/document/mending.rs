@@ -1,6 +1,7 @@
 //! Lists the problems of a document, and repairs them; each repair is one entry of the history. A *loss* is a part of
 //! the file that could not be used.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -29,6 +30,13 @@ pub struct ProblemRow {
 /// A repair of a problem.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Repair {
+    /// A file that is missing, such as a texture: one that is chosen is copied to where it is looked for.
+    Bring {
+        /// Where it is looked for.
+        to: PathBuf,
+    },
+    /// Reading files again, for when the missing one has come.
+    Retry,
     /// Another mesh for an object.
     Locate {
         /// The object.
@@ -56,7 +64,7 @@ impl Document {
     /// All problems: first those that keep the scene from being saved over its file, then the rest.
     pub fn problems(&self) -> Vec<ProblemRow> {
         let losses = self.open_losses().map(|(index, loss)| {
-            let mut repairs = Vec::new();
+            let mut repairs = missing_file(&loss.problem, loss.mesh.is_some());
             let object_with = |mesh: &String| self.scene().objects.iter().find(|object| object.mesh == *mesh);
             if let Some(object) = loss.mesh.as_ref().and_then(object_with) {
                 repairs.push(Repair::Locate { object: object.name.clone() });
@@ -73,13 +81,16 @@ impl Document {
                 let region = self.scene().regions.get(region)?.name.clone();
                 Some(Repair::Snap { region, guide })
             });
-            ProblemRow {
-                problem: problem.clone(),
-                instead: String::new(),
-                repairs: snap.into_iter().collect(),
-            }
+            let mut repairs = missing_file(problem, false);
+            repairs.extend(snap);
+            ProblemRow { problem: problem.clone(), instead: String::new(), repairs }
         });
         losses.chain(warnings).collect()
+    }
+
+    /// How many problems [`Document::problems`] lists.
+    pub fn problem_count(&self) -> usize {
+        self.loss_count() + self.loaded.warnings.len()
     }
 
     /// How many losses are left. While any is left, the scene must not be saved over its file.
@@ -218,6 +229,13 @@ impl Document {
         let command = Command::Several(words, points.collect());
         self.apply(&command)
     }
+}
+
+/// What helps where a file is missing. A mesh that a scene names is located otherwise: the scene then names another one.
+fn missing_file(problem: &Problem, is_mesh: bool) -> Vec<Repair> {
+    let Some(to) = problem.missing_file() else { return Vec::new() };
+    let bring = (!is_mesh).then_some(Repair::Bring { to });
+    std::iter::once(Repair::Retry).chain(bring).collect()
 }
 
 /// The indices of region and guide in a path such as `regions[1].guides[2].points[0].at`.

@@ -106,7 +106,7 @@ fn choosing_another_mesh_replaces_a_missing_one_and_undo_brings_the_box_back() {
     let folder = Folder::with(&scene("lost.obj", ""));
     let mut document = folder.open();
     let rows = document.problems();
-    assert_eq!(rows[0].repairs, [Repair::Locate { object: "leaf".to_owned() }]);
+    assert_eq!(rows[0].repairs, [Repair::Retry, Repair::Locate { object: "leaf".to_owned() }]);
     let (object, mesh) = ("leaf".to_owned(), "meshes/leaf.obj".to_owned());
     document.apply(&Command::Arrange(Arrange::ReplaceMesh { object, mesh })).expect("replaced");
     assert_eq!(document.loss_count(), 0);

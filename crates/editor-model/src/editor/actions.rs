@@ -94,10 +94,13 @@ impl Editor {
                 if items.is_empty() {
                     return self.refuse(&Refusal::new("Select something first"));
                 }
-                self.run(&Command::Edit(match action {
+                let done = self.run(&Command::Edit(match action {
                     Action::Delete => Edit::Delete(items),
                     _ => Edit::Duplicate(items),
                 }));
+                if done && action == Action::Duplicate {
+                    self.grab_copy(view);
+                }
             }
             Action::Hide | Action::Lock => self.hide_or_lock(action),
             Action::ShowAll => {
@@ -150,6 +153,9 @@ impl Editor {
                 // With Blender's keys, a key that is pressed over the viewport starts the transform at once. In all
                 // other cases the key takes the tool up.
                 match self.pointer_px.filter(|_| self.keymap.preset == crate::keymap::Preset::Blender) {
+                    Some(_) if matches!(self.busy, Busy::Idle) && self.has_camera_selected() => {
+                        self.begin_shot_view(operation, view);
+                    }
                     Some(at_px) if matches!(self.busy, Busy::Idle) => {
                         self.begin_transform(operation, None, at_px, false, view);
                     }
@@ -234,6 +240,9 @@ impl Editor {
     fn undo_or_redo(&mut self, action: Action) {
         if self.is_moving() {
             return self.refuse(&Refusal::new("Finish or cancel the gesture first"));
+        }
+        if action == Action::Undo && self.undo_loose_pose() {
+            return;
         }
         let step = if action == Action::Undo { self.document.undo() } else { self.document.redo() };
         self.edited();

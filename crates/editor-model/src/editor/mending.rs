@@ -20,6 +20,8 @@ pub enum Mend {
     ReadText(String),
     /// Reads the file again, as far as it can be read.
     ReadAgain,
+    /// Reads the files that the scene names again; the scene stays as it is edited.
+    ReadFiles,
 }
 
 /// A repaired document, made on any thread; [`Editor::take`] puts it in place.
@@ -58,6 +60,7 @@ impl Editor {
                 Mend::FixCertain => document.fix_certain(),
                 Mend::Snap(region, guide) => document.snap_guide(&region, guide),
                 Mend::ReadText(text) => document.read_text(&text),
+                Mend::ReadFiles => take_in(&mut document, News::Files),
                 Mend::ReadAgain => document.read_again().map_err(|report: Report| Refusal::of(&report)),
             };
             Mended { document, result, version_of, unasked: None }

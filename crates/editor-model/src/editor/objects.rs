@@ -11,8 +11,10 @@ use super::{Busy, Editor, LightPlace, TransformDrag, lights};
 use crate::command::{Arrange, Command, Pose, Shift, Time};
 use crate::euler;
 use crate::gizmo::Gizmo;
+use crate::keymap::{Navigation, Preset};
 use crate::picking::View;
 use crate::refusal::Refusal;
+use crate::selection::Item;
 use crate::session::{Mode, Tool};
 use crate::transform::{
     Constraint, Operation, TransformDelta, TransformEvent, TransformStart, TransformStep, Transforming,
@@ -67,6 +69,34 @@ impl Editor {
         let machine = self.machine(operation, constraint, name, pose, at_px, view);
         self.busy = Busy::Transforming(Box::new(TransformDrag { machine, objects, light: None, held }));
         true
+    }
+
+    /// Whether the shot camera is what was selected last.
+    pub(super) fn has_camera_selected(&self) -> bool {
+        self.document.selection().active() == Some(&Item::Camera)
+    }
+
+    /// Lets the shot camera follow the pointer until a click: sideways, round what it looks at, or nearer to it.
+    pub(super) fn begin_shot_view(&mut self, operation: Operation, view: &View) {
+        let way = match operation {
+            Operation::Move => Navigation::Pan,
+            Operation::Turn => Navigation::Orbit,
+            Operation::Scale => Navigation::Zoom,
+        };
+        let shot = self.shot();
+        let about = view.at_depth_of(view.size_px * 0.5, shot.target);
+        self.busy = Busy::ShotView(way, about, shot);
+    }
+
+    /// With Blender's keys and the pointer over the picture, a copy follows the pointer at once.
+    pub(super) fn grab_copy(&mut self, view: &View) {
+        let is_grabbed = self.keymap.preset == Preset::Blender
+            && self.session.mode != Mode::Paint
+            && matches!(self.busy, Busy::Idle)
+            && matches!(self.document.selection().active(), Some(Item::Object(_) | Item::Light(_)));
+        if let Some(at_px) = self.pointer_px.filter(|_| is_grabbed) {
+            self.begin_transform(Operation::Move, None, at_px, false, view);
+        }
     }
 
     fn machine(

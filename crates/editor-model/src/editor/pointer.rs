@@ -1,10 +1,9 @@
 //! Pointer events over the viewport: navigation, selection, dragging, and the tools of Paint.
 
 use glam::DVec2;
-use impasto_scene::document::LightKind;
 
 use super::painted::PaintedView;
-use super::{Busy, Editor};
+use super::{Busy, Editor, Request};
 use crate::camera_rig::{FreeView, Looking};
 use crate::command::{Arrange, Command, Pose, Time};
 use crate::keymap::{Button, Modifiers, Navigation};
@@ -193,12 +192,23 @@ impl Editor {
         };
         let mut selection = self.document.selection().clone();
         if event.held.shift || event.held.ctrl {
-            selection.toggle(item);
+            selection.toggle(item.clone());
         } else if selection.active() != Some(&item) {
-            selection = Selection::only(item);
+            selection = Selection::only(item.clone());
         }
+        // A drag that slightly misses must not carry the floor and the wall away: only handles and keys move scenery.
+        let is_scenery = match &item {
+            Item::Object(name) => self.is_scenery(name),
+            _ => false,
+        };
         self.document.select(selection);
-        self.busy = Busy::Pressed(event.at_px);
+        self.busy = if is_scenery { Busy::Idle } else { Busy::Pressed(event.at_px) };
+    }
+
+    /// Whether an object has a built-in mesh, as the floor and the wall of a new scene.
+    fn is_scenery(&self, name: &str) -> bool {
+        let object = self.document.scene().objects.iter().find(|object| object.name == name);
+        object.is_some_and(|object| object.mesh.starts_with(impasto_scene::built_in_mesh::PREFIX))
     }
 
     fn released(&mut self, button: Button, _event: &PointerEvent, view: &View) {
@@ -214,8 +224,7 @@ impl Editor {
                 let pose = pose.clone();
                 self.busy = Busy::Idle;
                 if pose != self.shot() {
-                    let frame = self.session.frame;
-                    self.run(&Command::Time(Time::PoseAtFrame(Pose::Camera(pose), frame)));
+                    self.place_shot(pose);
                 }
             }
             Busy::Painting if button == Button::Left => {
@@ -293,7 +302,9 @@ impl Editor {
         if let Some(refusal) = self.output.refusal.clone() {
             self.refuse(&refusal);
         }
-        if let Some(command) = self.output.commit.take() {
+        if let Some((command, words)) = self.output.ask.take() {
+            self.requests.push(Request::TakeFaces(Box::new(command), words));
+        } else if let Some(command) = self.output.commit.take() {
             self.run(&command);
         } else if let Some(command) = self.output.preview.take() {
             self.preview(&command);
@@ -322,7 +333,7 @@ impl Editor {
         let toward = self.about(at_px, view);
         // Off the surface, towards the eye: a light inside the object would not show.
         let to_eye = (view.camera.eye - toward) * 0.25;
-        let kind = LightKind::Point;
+        let kind = self.session.options.light;
         self.run(&Command::Arrange(Arrange::AddLight { kind, at: toward + to_eye, toward }));
         self.session.set_tool(Tool::Select);
     }

@@ -269,3 +269,87 @@ fn a_mesh_in_an_edited_scene_without_a_file_gives_it_a_folder_and_a_camera() {
     act(&mut editor, Action::Undo);
     assert_eq!(editor.document().scene().camera, camera);
 }
+
+/// A place of the picture where the wall shows.
+fn on_the_wall(editor: &Editor) -> DVec2 {
+    let view = view(editor);
+    let scene = editor.document().scene();
+    let places =
+        (1..20).flat_map(|x| (1..12).map(move |y| DVec2::new(48.0 * f64::from(x), 45.0 * f64::from(y))));
+    let is_wall =
+        |at: &DVec2| editor.hit(*at, &view).is_some_and(|hit| scene.objects[hit.object].name == "wall");
+    places.into_iter().find(is_wall).expect("the wall shows")
+}
+
+#[test]
+fn a_drag_that_misses_selects_the_wall_and_does_not_move_it() {
+    let mut editor = with_apple();
+    let (object, mesh) = ("wall".to_owned(), "impasto:backdrop".to_owned());
+    assert!(editor.run(&Command::Arrange(Arrange::ReplaceMesh { object, mesh })));
+    prepared(&mut editor);
+    for mode in [Action::Arrange, Action::Animate] {
+        act(&mut editor, mode);
+        let (before, at) = (editor.document().scene().clone(), on_the_wall(&editor));
+        // Not when it was selected before, either.
+        for _ in 0..2 {
+            drag(&mut editor, Button::Left, [at, at + DVec2::new(60.0, 10.0)], HERE);
+            assert_eq!(editor.document().selection().active(), Some(&Item::Object("wall".to_owned())));
+            assert!(*editor.document().scene() == before, "it was moved");
+        }
+        // It is moved on purpose by its key.
+        for pressed in [Key::Letter('G'), Key::Letter('X'), Key::Digit(1), Key::Enter] {
+            key(&mut editor, pressed);
+        }
+        assert!(*editor.document().scene() != before);
+    }
+}
+
+#[test]
+fn a_copy_follows_the_pointer_at_once() {
+    let mut editor = with_apple();
+    act(&mut editor, Action::Arrange);
+    let at = middle_of_the_apple(&editor);
+    drag(&mut editor, Button::Left, [at, at], HERE);
+    let count = editor.document().scene().objects.len();
+    act(&mut editor, Action::Duplicate);
+    assert!(editor.is_moving(), "the copy is held");
+    event(&mut editor, PointerKind::Move, at + DVec2::new(90.0, 0.0), HERE);
+    event(&mut editor, PointerKind::Press(Button::Left), at + DVec2::new(90.0, 0.0), HERE);
+    let objects = &editor.document().scene().objects;
+    assert_eq!(objects.len(), count + 1);
+    let copy = editor.document().selection().active().expect("the copy is selected").name();
+    let places = ["apple", copy].map(|name| {
+        let object = objects.iter().find(|object| object.name == name).expect("it is there");
+        object.keys[0].translation
+    });
+    assert_ne!(places[0], places[1]);
+    // Maya's keys only copy.
+    let mut editor = with_apple();
+    editor.keymap.preset = crate::keymap::Preset::Maya;
+    drag(&mut editor, Button::Left, [at, at], HERE);
+    act(&mut editor, Action::Duplicate);
+    assert!(!editor.is_moving());
+}
+
+#[test]
+fn the_move_key_moves_the_selected_camera_until_a_click() {
+    let mut editor = with_apple();
+    act(&mut editor, Action::Arrange);
+    editor.select(Selection::only(Item::Camera));
+    let (before, at) = (editor.document().scene().camera.clone(), DVec2::new(400.0, 250.0));
+    event(&mut editor, PointerKind::Move, at, HERE);
+    key(&mut editor, Key::Letter('G'));
+    event(&mut editor, PointerKind::Move, at + DVec2::new(50.0, 20.0), HERE);
+    assert_eq!(editor.document().scene().camera, before, "not before the click");
+    assert_ne!(editor.shot().eye, motion::camera_at(editor.document().scene(), 0.0).eye, "it shows");
+    event(&mut editor, PointerKind::Press(Button::Left), at + DVec2::new(50.0, 20.0), HERE);
+    event(&mut editor, PointerKind::Release(Button::Left), at + DVec2::new(50.0, 20.0), HERE);
+    assert_ne!(editor.document().scene().camera, before);
+    act(&mut editor, Action::Undo);
+    assert_eq!(editor.document().scene().camera, before);
+    key(&mut editor, Key::Letter('G'));
+    event(&mut editor, PointerKind::Move, at, HERE);
+    key(&mut editor, Key::Escape);
+    assert!(!editor.is_moving());
+    assert_eq!((&editor.document().scene().camera, editor.document().undo_count()), (&before, 0));
+}

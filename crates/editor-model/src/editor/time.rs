@@ -233,6 +233,20 @@ impl Editor {
         self.time.put_back = Some(loose);
     }
 
+    /// Undo, as far as it concerns poses without a key: drops the ones that are shown, or brings those back that were dropped
+    /// when their frame was left. Returns whether there were any.
+    pub(super) fn undo_loose_pose(&mut self) -> bool {
+        if let Some(loose) = self.time.loose.take() {
+            self.document.end_preview();
+            self.version += 1;
+            self.say(format!("Undid: pose of {}", loose.names()));
+            return true;
+        }
+        let is_put_back = self.time.put_back.is_some();
+        self.pose_again();
+        is_put_back
+    }
+
     /// Restores the loose poses that were dropped last, at their frame.
     pub fn pose_again(&mut self) {
         let Some(loose) = self.time.put_back.take() else { return };

@@ -1,9 +1,6 @@
 //! Decides when the next copy of unsaved work is due.
 
-/// Edits after which a copy is due, however little time they took.
-pub const EDITS: u64 = 20;
-
-/// Decides when unsaved work is copied: some time after the first edit since the last copy, or after [`EDITS`] edits.
+/// Decides when unsaved work is copied: some time after the first edit since the last copy.
 #[derive(Clone, Debug, Default)]
 pub struct Cadence {
     /// The revision that the last copy has.
@@ -15,7 +12,7 @@ pub struct Cadence {
 impl Cadence {
     /// Whether a copy is due now; if so, it counts as made. `edited` is the document's revision, or `None` if it has no
     /// unsaved edits. The time is the caller's clock.
-    pub fn is_due(&mut self, edited: Option<u64>, now_secs: f64, every_secs: f64) -> bool {
+    pub fn is_due(&mut self, edited: Option<u64>, now_secs: f64, after_secs: f64) -> bool {
         let Some(revision) = edited else {
             *self = Self::default();
             return false;
@@ -25,8 +22,7 @@ impl Cadence {
             return false;
         }
         let since = *self.since_secs.get_or_insert(now_secs);
-        let from = *self.kept.get_or_insert(revision.saturating_sub(1));
-        let is_due = now_secs - since >= every_secs || revision.abs_diff(from) >= EDITS;
+        let is_due = now_secs - since >= after_secs;
         if is_due {
             self.kept_now(revision);
         }
@@ -44,20 +40,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_copy_is_due_after_some_time_or_many_edits_and_never_twice() {
+    fn a_copy_is_due_some_time_after_the_first_edit_and_never_twice() {
         let mut cadence = Cadence::default();
-        assert!(!cadence.is_due(None, 0.0, 120.0));
-        assert!(!cadence.is_due(Some(5), 10.0, 120.0));
-        assert!(!cadence.is_due(Some(6), 129.0, 120.0));
-        assert!(cadence.is_due(Some(6), 130.0, 120.0));
-        assert!(!cadence.is_due(Some(6), 1000.0, 120.0), "nothing new");
+        assert!(!cadence.is_due(None, 0.0, 10.0));
+        assert!(!cadence.is_due(Some(5), 10.0, 10.0));
+        // More edits do not put it off.
+        assert!(!cadence.is_due(Some(6), 19.0, 10.0));
+        assert!(cadence.is_due(Some(60), 20.0, 10.0));
+        assert!(!cadence.is_due(Some(60), 1000.0, 10.0), "nothing new");
         // The time counts from the next edit on.
-        assert!(!cadence.is_due(Some(7), 1001.0, 120.0));
-        assert!(cadence.is_due(Some(7), 1121.0, 120.0));
-        assert!(!cadence.is_due(Some(7 + EDITS - 1), 1122.0, 120.0));
-        assert!(cadence.is_due(Some(7 + EDITS), 1122.0, 120.0), "many edits");
+        assert!(!cadence.is_due(Some(61), 1001.0, 10.0));
+        assert!(cadence.is_due(Some(61), 1011.0, 10.0));
         // Saved in between.
-        assert!(!cadence.is_due(None, 1123.0, 120.0));
-        assert!(!cadence.is_due(Some(40), 1124.0, 120.0));
+        assert!(!cadence.is_due(None, 1012.0, 10.0));
+        assert!(!cadence.is_due(Some(62), 1013.0, 10.0));
+        // What is edited after that is copied too.
+        assert!(cadence.is_due(Some(63), 1023.0, 10.0));
     }
 }

@@ -3,6 +3,8 @@
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread::JoinHandle;
 
+use impasto_scene::whole_file::failure_in_words;
+
 use super::{Offer, Recovery, Work};
 
 /// Writes copies on a thread of its own, in order.
@@ -81,7 +83,7 @@ impl Drop for Keeper {
 }
 
 fn work(recovery: &Recovery, to_do: &Receiver<Order>, told: &Sender<Kept>) {
-    let not = |error: std::io::Error| Kept::Not(format!("Unsaved work could not be copied: {error}"));
+    let not = |error: std::io::Error| Kept::Not(failure_in_words(&error));
     while let Ok(mut order) = to_do.recv() {
         // Of several waiting copies, only the last is written.
         let mut next = None;

@@ -105,7 +105,7 @@ impl Brush {
             output.rings = vec![Ring::hollow(at_px, radius_px)];
             return output;
         };
-        output.rings = rings(&hit, radius_px, around);
+        output.rings = Ring::all_on(&hit, around);
         let shown = around.painted.shown_at(&hit);
         let moving = self.heading.is_moving(at_secs);
         let lying = shown.map(|shown| DVec2::from_angle(-shown.angle_rad));
@@ -179,7 +179,7 @@ impl Brush {
         let status = format!("{verb} {name}{angle}, radius {radius_px:.0} px   [Esc] take it back");
         let hit = around.hit(stroke.at_px).filter(|hit| hit.object == stroke.on.object);
         let rings = match &hit {
-            Some(hit) => rings(hit, radius_px, around),
+            Some(hit) => Ring::all_on(hit, around),
             None => vec![Ring::hollow(stroke.at_px, radius_px)],
         };
         let needle = along.map(|along| Needle { at_px: stroke.at_px, along, headed: true });
@@ -192,12 +192,6 @@ fn words(tool: Tool, around: &Surroundings) -> String {
     let selected = around.selected_region().and_then(|region| around.scene().regions.get(region));
     let name = selected.map_or("a new region", |region| region.name.as_str());
     waiting_words(tool, around.options, name)
-}
-
-fn rings(hit: &Hit, radius_px: f64, around: &Surroundings) -> Vec<Ring> {
-    let mut rings = Ring::mirrored(hit, radius_px, around);
-    rings.push(Ring::on(hit, radius_px, around));
-    rings
 }
 
 impl Act {

@@ -60,7 +60,7 @@ impl Hand {
             self.at_px = Some(at_px);
         }
         if let Some(sizing) = &mut self.sizing {
-            let (output, goes_on) = sizing.take(event);
+            let (output, goes_on) = sizing.take(event, around);
             if !goes_on {
                 self.sizing = None;
                 self.ignores_release = matches!(event, ToolEvent::Press { .. });
@@ -103,7 +103,7 @@ impl Hand {
             return Some(ToolOutput { options: Some(options), ..ToolOutput::saying(words) });
         }
         if let Some(mut sizing) = Sizing::begin(action, around.options, self.at_px) {
-            let (output, _) = sizing.take(&ToolEvent::Key(action));
+            let (output, _) = sizing.take(&ToolEvent::Key(action), around);
             self.sizing = Some(sizing);
             return Some(output);
         }

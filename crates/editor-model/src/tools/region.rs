@@ -1,5 +1,7 @@
 //! The region tool for clicks: makes or extends a region by a flood of faces, a group or a material of the mesh.
 
+use glam::DVec3;
+use impasto_core::flood::flooded;
 use impasto_scene::document::{Patch, Region, Seed, Selector};
 
 use super::{NOTHING_HERE, Surroundings, ToolEvent, ToolOutput};
@@ -23,9 +25,80 @@ pub(super) fn take(event: &ToolEvent, around: &Surroundings) -> ToolOutput {
         };
         return ToolOutput::saying(format!("[Click] {what}{to}"));
     };
-    match around.hit(at_px).ok_or_else(|| Refusal::new(NOTHING_HERE)).and_then(|hit| chosen(&hit, around)) {
-        Ok(commit) => ToolOutput { commit: Some(commit), ..ToolOutput::default() },
+    let hit = around.hit(at_px).ok_or_else(|| Refusal::new(NOTHING_HERE));
+    match hit.and_then(|hit| Ok((chosen(&hit, around)?, taken(&hit, around)?))) {
+        Ok((commit, None)) => ToolOutput { commit: Some(commit), ..ToolOutput::default() },
+        Ok((commit, Some(words))) => ToolOutput { ask: Some((commit, words)), ..ToolOutput::default() },
         Err(refusal) => ToolOutput::refusing(refusal),
+    }
+}
+
+/// What the click would take from other regions that were chosen face by face, in words; none if it takes nothing. A region
+/// of a whole object is there to be parted.
+fn taken(hit: &Hit, around: &Surroundings) -> Result<Option<String>, Refusal> {
+    let own = around.selected_region().filter(|_| around.options.region_does == RegionDoes::Add);
+    let mut counts = vec![0_usize; around.scene().regions.len()];
+    for triangle in covered(hit, around)? {
+        let region = around.painted.region_at(&on_face(hit, triangle, around));
+        if let Some(count) = region.filter(|region| Some(*region) != own).and_then(|at| counts.get_mut(at)) {
+            *count += 1;
+        }
+    }
+    let is_of_parts = |region: &Region| {
+        !matches!(region.on, Selector::Object(_) | Selector::Everything | Selector::Collection(_))
+    };
+    let taken: Vec<String> = around
+        .scene()
+        .regions
+        .iter()
+        .zip(counts)
+        .filter(|(region, count)| *count > 0 && is_of_parts(region))
+        .map(|(region, count)| {
+            let faces = if count == 1 { "1 triangle".to_owned() } else { format!("{count} triangles") };
+            format!("{faces} of {}", region.name)
+        })
+        .collect();
+    Ok((!taken.is_empty()).then(|| taken.join(", ")))
+}
+
+/// The triangles that a click covers.
+fn covered(hit: &Hit, around: &Surroundings) -> Result<Vec<usize>, Refusal> {
+    let unknown = || Refusal::new(NOTHING_HERE);
+    let object = around.object(hit.object).ok_or_else(unknown)?;
+    let surface = around.picker.surface(hit.object).ok_or_else(unknown)?;
+    let (mesh, file) = (&surface.mesh, around.loaded.meshes.get(&object.mesh).ok_or_else(unknown)?);
+    let named = |of_triangle: &[u32], index: Option<usize>| -> Vec<usize> {
+        let is_named = |triangle: &usize| Some(of_triangle[*triangle] as usize) == index;
+        (0..of_triangle.len()).filter(is_named).collect()
+    };
+    Ok(match patch(hit, around)?.0 {
+        Patch::Group(name) => {
+            named(&mesh.group_of_triangle, file.groups.iter().position(|known| *known == name))
+        }
+        Patch::Material(name) => {
+            named(&mesh.material_of_triangle, file.materials.iter().position(|known| known.name == name))
+        }
+        Patch::Flood(seed, sharp_deg) => {
+            let [at, normal] = [seed.at, seed.normal].map(DVec3::from);
+            let reached = flooded(mesh, at, normal, sharp_deg.to_radians());
+            (0..reached.len()).filter(|&triangle| reached[triangle]).collect()
+        }
+        _ => Vec::new(),
+    })
+}
+
+/// The middle of a triangle of the object that was hit.
+fn on_face(hit: &Hit, triangle: usize, around: &Surroundings) -> Hit {
+    let Some(surface) = around.picker.surface(hit.object) else { return *hit };
+    let [a, b, c] = surface.mesh.corners(triangle).map(|corner| corner.as_dvec3());
+    let normal = (b - a).cross(c - a).normalize_or_zero();
+    Hit {
+        triangle: triangle as u32,
+        barycentric: [1.0 / 3.0; 3],
+        position_in_model: (a + b + c) / 3.0,
+        normal_in_model: normal,
+        face_normal_in_model: normal,
+        ..*hit
     }
 }
 

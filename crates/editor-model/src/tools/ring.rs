@@ -54,6 +54,21 @@ pub struct CombPreview {
 }
 
 impl Ring {
+    /// The ring of the brush at a place of the picture, with its mirror images.
+    pub(super) fn all_at(at_px: DVec2, around: &Surroundings) -> Vec<Self> {
+        match around.hit(at_px) {
+            Some(hit) => Self::all_on(&hit, around),
+            None => vec![Self::hollow(at_px, around.options.radius_px)],
+        }
+    }
+
+    /// The ring of the brush at a hit, with its mirror images.
+    pub(super) fn all_on(hit: &Hit, around: &Surroundings) -> Vec<Self> {
+        let mut rings = Self::mirrored(hit, around.options.radius_px, around);
+        rings.push(Self::on(hit, around.options.radius_px, around));
+        rings
+    }
+
     /// A ring off every surface.
     pub(super) fn hollow(at_px: DVec2, radius_px: f64) -> Self {
         let points_px = (0..=PIECES).map(|piece| at_px + angle(piece) * radius_px).collect();

@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use super::{ToolEvent, ToolOutput};
+use super::ring::Ring;
+use super::{Surroundings, ToolEvent, ToolOutput};
 use crate::keymap::Action;
 use crate::session::ToolOptions;
 
@@ -40,7 +41,7 @@ impl Sizing {
     }
 
     /// Takes an event. Also returns whether the resizing goes on.
-    pub(super) fn take(&mut self, event: &ToolEvent) -> (ToolOutput, bool) {
+    pub(super) fn take(&mut self, event: &ToolEvent, around: &Surroundings) -> (ToolOutput, bool) {
         let goes_on = match *event {
             ToolEvent::Hover { at_px, .. } | ToolEvent::Move { at_px, .. } => {
                 let from_px = *self.from_px.get_or_insert(at_px);
@@ -67,7 +68,9 @@ impl Sizing {
             What::Strength => format!("Strength {:.0} %", self.value.strength * 100.0),
         };
         let status = format!("{words}   [Click] keep  [Esc] back");
-        (ToolOutput { options: Some(self.value.clone()), ..ToolOutput::saying(status) }, goes_on)
+        let around = Surroundings { options: &self.value, ..*around };
+        let rings = self.from_px.map_or_else(Vec::new, |at_px| Ring::all_at(at_px, &around));
+        (ToolOutput { rings, options: Some(self.value.clone()), ..ToolOutput::saying(status) }, goes_on)
     }
 }
 

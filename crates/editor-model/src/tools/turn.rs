@@ -3,6 +3,7 @@
 
 use glam::DVec2;
 
+use super::ring::Needle;
 use super::{Paintable, Surroundings, ToolEvent, ToolOutput, waiting_words};
 use crate::command::{Command, Directions};
 use crate::keymap::{Action, Modifiers};
@@ -90,7 +91,16 @@ impl Turning {
 fn waiting(at_px: DVec2, around: &Surroundings) -> ToolOutput {
     let hit = around.hit(at_px);
     match around.paintable(hit.as_ref()) {
-        Ok(on) => ToolOutput::saying(waiting_words(Tool::TurnDirection, around.options, &on.name)),
+        Ok(on) => {
+            // Lines look alike after a flip: an arrow shows which way strokes run.
+            let shown = hit.as_ref().and_then(|hit| around.painted.shown_at(hit));
+            let needle = shown.map(|shown| {
+                let along = DVec2::from_angle(-shown.angle_rad);
+                Needle { at_px, along, headed: true }
+            });
+            let words = waiting_words(Tool::TurnDirection, around.options, &on.name);
+            ToolOutput { needle, ..ToolOutput::saying(words) }
+        }
         Err(refusal) if hit.is_some() => ToolOutput { refusal: None, ..ToolOutput::refusing(refusal) },
         Err(_) => ToolOutput::saying(waiting_words(Tool::TurnDirection, around.options, "a region")),
     }

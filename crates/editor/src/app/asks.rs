@@ -34,9 +34,18 @@ impl EditorApp {
             }
             Ask::Timeline(event) => self.editor.timeline(event),
             Ask::Mend(mend) => self.mend(mend),
-            Ask::SaveCopy => {
-                let start = self.editor.document().suggested_copy();
-                self.files.dialogs.open(ctx, FileAsk::SaveCopy, &start);
+            Ask::SaveCopy => self.save_asking(FileAsk::SaveCopy),
+            Ask::ShowProblems => self.sheets.problems = !self.sheets.problems,
+            Ask::Settle(index, settle) => self.settle(index, settle, ctx),
+            Ask::BringFile(to) => {
+                let start = self.editor.document().folder().to_owned();
+                self.files.bring_to = Some(to);
+                self.files.dialogs.open(ctx, FileAsk::Missing, &start);
+            }
+            Ask::ChooseNoise(object, part) => {
+                self.files.noise_of = Some((object, part));
+                let start = self.editor.document().folder().to_owned();
+                self.files.dialogs.open(ctx, FileAsk::ChoosePicture, &start);
             }
             Ask::Open(path) => self.open_asking(&path),
             Ask::Copy(words) => ctx.copy_text(words),
@@ -63,14 +72,9 @@ impl EditorApp {
                 Request::New => self.new_asking(),
                 Request::Open => self.files.dialogs.open(ctx, FileAsk::Open, &start),
                 Request::Save if self.editor.document().file().is_some() => drop(self.save(None)),
-                Request::Save | Request::SaveAs => {
-                    let start = self.editor.document().suggested_file();
-                    self.files.dialogs.open(ctx, FileAsk::SaveAs, &start);
-                }
-                Request::SaveCopy => {
-                    let start = self.editor.document().suggested_file();
-                    self.files.dialogs.open(ctx, FileAsk::SaveCopy, &start);
-                }
+                Request::Save | Request::SaveAs => self.save_asking(FileAsk::SaveAs),
+                Request::SaveCopy => self.save_asking(FileAsk::SaveCopy),
+                Request::TakeFaces(command, taken) => self.sheets.take_faces = Some((*command, taken)),
                 Request::Quit => self.quit_asking(),
                 Request::Revert => self.mend(Mend::ReadAgain),
                 Request::Import => self.files.dialogs.open(ctx, FileAsk::ImportMesh, &start),

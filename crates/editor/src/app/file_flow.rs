@@ -4,22 +4,20 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use egui::{Context, Ui};
-use impasto_editor_model::Item;
-use impasto_editor_model::command::{Command, Regions, StrokeChange, StrokesOf};
 use impasto_editor_model::document::{Document, SaveError};
 use impasto_editor_model::editor::Mend;
 use impasto_editor_model::keymap::Preset;
-use impasto_scene::document::BrushMix;
 
 use super::EditorApp;
 use super::long_work::MeshFor;
 use crate::files::beside::Copies;
 use crate::files::dialogs::{Answer, FileDialogs};
 use crate::files::file_ask::FileAsk;
-use crate::files::incoming::{self, Present, Step, adopt_picture};
+use crate::files::incoming::{self, Present, Step};
 use crate::files::preferences::{self, Keys, Preferences};
+use crate::panels::NoisePart;
 use crate::panels::ask_close::{self, Question};
-use crate::panels::problems;
+use crate::panels::problems::{self, TroubleOf};
 use crate::panels::welcome::{self, Choices, Left};
 use crate::theme;
 
@@ -29,6 +27,8 @@ enum Next {
     Close,
     New,
     Open(PathBuf),
+    /// Ask for a file to save to.
+    Save(FileAsk),
 }
 
 /// The state of file dialogs and of questions about files.
@@ -40,6 +40,10 @@ pub(super) struct FileFlow {
     asks: Option<Unsaved>,
     /// The object for which a mesh is being chosen.
     pub(super) mesh_of: Option<String>,
+    /// The object, and the part of its noise, for which a picture is being chosen.
+    pub(super) noise_of: Option<(String, NoisePart)>,
+    /// Where the missing file that is being located is looked for.
+    pub(super) bring_to: Option<PathBuf>,
     /// When the first unsaved edit was noticed.
     edited_since: Option<Instant>,
     /// A save into another folder, while the user is asked whether to copy the scene's files there.
@@ -79,6 +83,8 @@ impl FileFlow {
             waiting: None,
             asks: None,
             mesh_of: None,
+            noise_of: None,
+            bring_to: None,
             edited_since: None,
             save_elsewhere: None,
             closes: false,
@@ -103,7 +109,7 @@ impl EditorApp {
             return false;
         }
         let Some(unsaved) = self.unsaved() else {
-            self.note_last_seen();
+            self.note_closing();
             return true;
         };
         self.wait_for(Next::Close, unsaved);
@@ -148,19 +154,19 @@ impl EditorApp {
     fn go_on(&mut self, next: Next) {
         match next {
             Next::Close => {
-                self.note_last_seen();
+                self.note_closing();
                 self.files.closes = true;
             }
             Next::New => {
                 self.long.forget();
                 self.note_last_seen();
                 let folder = self.editor.document().folder().to_owned();
+                self.forget_document();
                 self.editor.open(Document::empty(&folder));
                 self.sheets.problems = false;
                 self.keymap();
-                self.picture_flow.forget();
-                self.render.forget();
             }
+            Next::Save(ask) => self.ask_where_to_save(ask),
             Next::Open(path) => self.open(&path),
         }
     }
@@ -175,6 +181,7 @@ impl EditorApp {
     pub(super) fn saved(&mut self, saved: Result<(), SaveError>) -> bool {
         match saved {
             Ok(()) => {
+                self.troubles.retain(|trouble| !matches!(trouble.of, TroubleOf::Save(_) | TroubleOf::Copy));
                 if let Some(file) = self.editor.document().file().map(Path::to_owned) {
                     self.preferences.note_recent(&file);
                     self.note_last_seen();
@@ -220,6 +227,12 @@ impl EditorApp {
                 self.editor.recapture(frame);
             }
             self.sheets.recapture = None;
+        } else if let Some((_, taken)) = &self.sheets.take_faces
+            && let Some(answer) = ask_close::ask(ctx, &Question::TakeFaces { taken: taken.clone() })
+            && let Some((command, _)) = self.sheets.take_faces.take()
+            && answer == ask_close::Answer::TakeFaces
+        {
+            self.editor.run(&command);
         }
         if let Some(answer) = self.files.dialogs.poll(ctx) {
             self.answered(answer);
@@ -232,6 +245,10 @@ impl EditorApp {
         let Some(answer) = ask_close::ask(ctx, &question) else { return };
         self.files.asks = None;
         match (answer, self.files.waiting.take()) {
+            (ask_close::Answer::Discard, Some(next @ Next::Save(_))) => {
+                problems::forget_text(ctx);
+                self.go_on(next);
+            }
             (ask_close::Answer::Discard, Some(next)) if self.editor.document().is_edited() => {
                 self.wait_for(next, Unsaved::Edits);
             }
@@ -296,6 +313,8 @@ impl EditorApp {
             FileAsk::SaveCopy if self.editor.document().loss_count() > 0 => drop(self.save(Some(&path))),
             FileAsk::SaveCopy => self.save_copy(&path),
             FileAsk::LocateMesh => self.replace_mesh(&path),
+            FileAsk::Missing => self.bring_file(&path),
+            FileAsk::ChoosePicture => self.noise_picture(&path),
             FileAsk::RenderOutput { .. } => self.render_to(&path),
         }
     }
@@ -304,8 +323,26 @@ impl EditorApp {
         match self.editor.save_copy(path) {
             Ok(()) => {}
             Err(SaveError::FilesElsewhere { target, .. }) => self.offer_to_copy_files(target, SaveTo::Copy),
-            Err(error) => self.toast(error.to_string(), None, true),
+            Err(error) => self.ask_about_saving(error),
         }
+    }
+
+    /// Asks for a file to save to, after a question about text that was edited and not read.
+    pub(super) fn save_asking(&mut self, ask: FileAsk) {
+        match self.unsaved() {
+            Some(Unsaved::Text) => self.wait_for(Next::Save(ask), Unsaved::Text),
+            _ => self.ask_where_to_save(ask),
+        }
+    }
+
+    fn ask_where_to_save(&mut self, ask: FileAsk) {
+        let document = self.editor.document();
+        let start = match ask {
+            FileAsk::SaveCopy => document.suggested_copy(),
+            _ => document.suggested_file(),
+        };
+        let ctx = self.ctx.clone();
+        self.files.dialogs.open(&ctx, ask, &start);
     }
 
     /// Asks whether the scene's files are to be copied into the folder of `target`.
@@ -316,7 +353,7 @@ impl EditorApp {
             Ok(copies) => self.files.save_elsewhere = Some(SaveElsewhere { target, to, copies }),
             Err(error) => {
                 self.files.waiting = None;
-                self.toast(error.to_string(), None, true);
+                self.trouble(TroubleOf::Save(Some(target)), error.to_string());
             }
         }
     }
@@ -333,7 +370,7 @@ impl EditorApp {
         }
         if let Err(error) = copies.carry_out(target.parent().unwrap_or(Path::new("."))) {
             self.files.waiting = None;
-            return self.toast(error.to_string(), None, true);
+            return self.trouble(TroubleOf::Save(Some(target)), error.to_string());
         }
         match to {
             SaveTo::Own => {
@@ -378,22 +415,6 @@ impl EditorApp {
         }
         for step in plan.steps {
             self.take_step(step);
-        }
-    }
-
-    /// Makes a picture the brush of the selected region, or of the scene.
-    pub(super) fn brush(&mut self, path: &Path) {
-        let folder = self.editor.document().folder().to_owned();
-        match adopt_picture(path, &folder) {
-            Ok(adopted) => {
-                let of = match self.editor.document().selection().active() {
-                    Some(Item::Region(name)) => StrokesOf::Region(name.clone()),
-                    _ => StrokesOf::Scene,
-                };
-                let brush = StrokeChange::Brush(Some(BrushMix(vec![adopted.name])));
-                self.editor.run(&Command::Regions(Regions::SetStroke(of, brush)));
-            }
-            Err(error) => self.toast(error.to_string(), None, true),
         }
     }
 

@@ -11,6 +11,14 @@ use super::EditorApp;
 use crate::files::preferences::LastView;
 
 impl EditorApp {
+    /// Remembers the size of the window, and mode and view of the open scene.
+    pub(super) fn note_closing(&mut self) {
+        let size = self.ctx.content_rect().size() * self.ctx.zoom_factor();
+        self.preferences.window_size = (size.x, size.y);
+        self.keep_preferences();
+        self.note_last_seen();
+    }
+
     /// Remembers mode and view of the open scene.
     pub(super) fn note_last_seen(&mut self) {
         let Some(file) = self.editor.document().file().map(Path::to_owned) else { return };

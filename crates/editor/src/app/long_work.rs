@@ -17,6 +17,7 @@ use impasto_scene::problem::Report;
 
 use super::EditorApp;
 use crate::files::incoming::{Adopted, Step, adopt_mesh, name_of};
+use crate::panels::problems::TroubleOf;
 use crate::panels::work::{Work, WorkKind};
 use crate::window::Waker;
 
@@ -35,7 +36,8 @@ pub(super) enum MeshFor {
 /// The outcome of reading.
 enum Outcome {
     Opened(PathBuf, Result<Box<Document>, Report>),
-    Mesh(MeshFor, Result<(Adopted, Arc<MeshFile>), String>),
+    /// A mesh that was read from this path.
+    Mesh(PathBuf, MeshFor, Result<(Adopted, Arc<MeshFile>), String>),
     /// The document's own files, read again; with what another program changed, if that was the reason.
     Mended(Option<News>, Box<Mended>),
 }
@@ -65,6 +67,11 @@ impl LongWork {
     pub(super) fn forget(&mut self) {
         self.reading = None;
         self.queue.clear();
+    }
+
+    /// Drops the pictures that wait: they were to be brushes for a mesh that was not read.
+    fn drop_brushes(&mut self) {
+        self.queue.retain(|step| !matches!(step, Step::Brush(_)));
     }
 
     /// The entry in the status line; none while reading has taken less than [`SHOWN_AFTER`].
@@ -117,7 +124,8 @@ impl EditorApp {
                     .map_err(|report| report.0.first().map_or_else(String::new, ToString::to_string))?;
                 Ok((adopted, Arc::new(mesh)))
             };
-            Outcome::Mesh(what_for, read())
+            let read = read();
+            Outcome::Mesh(path, what_for, read)
         });
     }
 
@@ -226,6 +234,9 @@ impl EditorApp {
                     let words = format!("{} was not opened: {name} was edited meanwhile", name_of(&path));
                     return self.toast(words, None, true);
                 }
+                if opened.is_err() {
+                    self.long.drop_brushes();
+                }
                 self.opened(&path, opened.map(|document| *document));
             }
             Outcome::Mended(..) | Outcome::Mesh(..) if document.folder() != reading.folder => {}
@@ -239,7 +250,8 @@ impl EditorApp {
                     self.toast(words, None, true);
                 }
             },
-            Outcome::Mesh(what_for, Ok((adopted, file))) => {
+            Outcome::Mesh(path, what_for, Ok((adopted, file))) => {
+                self.settled(&TroubleOf::Import(path));
                 if !adopted.copied.is_empty() {
                     self.toast(format!("Copied {} beside the scene", adopted.name), None, false);
                 }
@@ -252,7 +264,11 @@ impl EditorApp {
                     }
                 };
             }
-            Outcome::Mesh(_, Err(words)) => self.toast(words, None, true),
+            Outcome::Mesh(path, _, Err(words)) => {
+                // What came with the mesh was meant for it.
+                self.long.drop_brushes();
+                self.trouble(TroubleOf::Import(path), words);
+            }
         }
     }
 }

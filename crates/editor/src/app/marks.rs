@@ -56,6 +56,7 @@ struct Key {
     frame: f64,
     framing: Framing,
     overlays: Overlays,
+    shows_regions: bool,
     mode: Mode,
     selected: Option<Item>,
     moving: bool,
@@ -101,10 +102,13 @@ impl MarkCache {
             frame: picture.frame,
             framing,
             overlays: session.overlays,
+            // The tool that makes regions shows them.
+            shows_regions: session.overlays.regions || session.tool() == Tool::Region,
             mode: session.mode,
             selected: editor.document().selection().active().cloned(),
             moving: editor.is_navigating(),
         };
+        let shows_regions = key.shows_regions;
         let half = &mut self.halves[picture.index];
         if half.of.as_ref() == Some(&key) {
             return;
@@ -116,7 +120,7 @@ impl MarkCache {
         let outlines = session.mode != Mode::Paint && active.is_some();
         let old_map = half.map.take();
         *half = Half { of: Some(key), ..Half::default() };
-        if !(shows_lines || session.overlays.regions || outlines) {
+        if !(shows_lines || shows_regions || outlines) {
             return;
         }
         let view = framing.view(picture.camera);
@@ -139,7 +143,7 @@ impl MarkCache {
             half.direction_lines =
                 direction_marks(painting, picture.camera, picture.frame, &framing, &map, &look);
         }
-        if session.overlays.regions {
+        if shows_regions {
             let names: Vec<(&str, Color32)> = scene
                 .regions
                 .iter()

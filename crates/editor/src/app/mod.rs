@@ -5,6 +5,7 @@
 //! panels ─▶ Ask ──────▲                                       └─▶ direction marks, picking
 //! ```
 
+mod adopted;
 mod asks;
 mod comb_preview;
 mod file_flow;
@@ -21,12 +22,14 @@ mod render_flow;
 mod safe_keeping;
 mod shader_flow;
 mod telling;
+mod troubles;
 mod view;
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use egui::{CentralPanel, Context, Ui};
+use impasto_editor_model::command::Command;
 use impasto_editor_model::document::Document;
 use impasto_editor_model::editor::{Editor, Offer, Said, reference_frame};
 use impasto_editor_model::keymap::{Digits, Keymap, Preset};
@@ -36,6 +39,7 @@ use impasto_scene::problem::Report;
 use crate::files::dialogs::FileDialogs;
 use crate::files::preferences::{Keys, Loaded, Preferences};
 use crate::options::EditOptions;
+use crate::panels::problems::{Trouble, TroubleOf};
 use crate::panels::{self, Area, Ask, Numbers, PanelInput, area};
 use crate::theme;
 use crate::widgets::{Toast, toasts};
@@ -52,8 +56,9 @@ use safe_keeping::SafeKeeping;
 use shader_flow::ShaderFlow;
 use telling::Telling;
 
-/// How long a message at the bottom stays.
+/// How long a message at the bottom stays, and one that reports an error.
 const TOAST: Duration = Duration::from_secs(4);
+const ERROR_TOAST: Duration = Duration::from_secs(10);
 
 /// The application in its window.
 pub(crate) struct EditorApp {
@@ -72,6 +77,8 @@ pub(crate) struct EditorApp {
     toasts: Vec<(Toast, Instant, Option<Offer>)>,
     folds: Folds,
     telling: Telling,
+    /// What failed and is not settled yet.
+    troubles: Vec<Trouble>,
     likely_meshes: LikelyMeshes,
 }
 
@@ -89,6 +96,8 @@ struct Sheets {
     palette: bool,
     shortcuts: bool,
     recapture: Option<i64>,
+    /// A command that takes triangles from other regions, and which.
+    take_faces: Option<(Command, String)>,
     problems: bool,
 }
 
@@ -138,6 +147,7 @@ impl EditorApp {
             toasts: Vec::new(),
             folds: Folds::default(),
             telling: Telling::new(options.tell),
+            troubles: Vec::new(),
             likely_meshes: LikelyMeshes::default(),
         };
         app.keymap();
@@ -172,6 +182,8 @@ impl EditorApp {
         match opened {
             Ok(document) => {
                 self.note_last_seen();
+                self.settled(&TroubleOf::Open(path.to_owned()));
+                self.forget_document();
                 let scene = document.scene();
                 let regions = scene.regions.len();
                 let triangles: usize =
@@ -181,14 +193,17 @@ impl EditorApp {
                 let losses = document.loss_count();
                 self.editor.open(document);
                 self.keymap();
-                self.picture_flow.forget();
-                self.render.forget();
                 self.sheets.welcome = false;
                 self.sheets.problems = losses > 0;
                 self.toast(format!("{name}: {triangles} triangles, {regions} regions"), None, false);
                 if warnings > 0 && losses == 0 {
-                    let words = format!("{warnings} warnings: `impasto check {name}` lists them");
-                    self.toast(words, None, false);
+                    let words =
+                        if warnings == 1 { "1 warning".to_owned() } else { format!("{warnings} warnings") };
+                    self.toast(
+                        format!("{words}: see the list of problems, at the bottom right"),
+                        None,
+                        false,
+                    );
                 }
                 self.go_to_last_seen(path);
                 self.preferences.note_recent(path);
@@ -196,11 +211,19 @@ impl EditorApp {
                 self.offer_copies(Some(path));
             }
             Err(report) => {
-                for problem in report.0.iter().filter(|problem| problem.severity.is_fatal()).take(3) {
-                    self.toast(problem.to_string(), None, true);
-                }
+                let fatal = report.0.iter().filter(|problem| problem.severity.is_fatal()).take(3);
+                let words: Vec<String> = fatal.map(ToString::to_string).collect();
+                self.trouble(TroubleOf::Open(path.to_owned()), words.join("; "));
             }
         }
+    }
+
+    /// Drops what belongs to the document that is shown, before another takes its place.
+    fn forget_document(&mut self) {
+        self.picture_flow.forget();
+        self.render.forget();
+        panels::problems::forget_text(&self.ctx);
+        self.troubles.retain(|trouble| matches!(trouble.of, TroubleOf::Open(_)));
     }
 
     fn keep_preferences(&mut self) {
@@ -217,9 +240,9 @@ impl EditorApp {
     }
 
     fn is_modal(&self) -> bool {
-        let Sheets { welcome, palette, shortcuts, recapture, problems: _ } = &self.sheets;
+        let Sheets { welcome, palette, shortcuts, recapture, take_faces, problems: _ } = &self.sheets;
         let asks = self.files.is_asking() || self.safe.is_asking() || self.render.is_modal();
-        *welcome || *palette || *shortcuts || recapture.is_some() || asks
+        *welcome || *palette || *shortcuts || recapture.is_some() || take_faces.is_some() || asks
     }
 
     fn page(&mut self, ui: &mut Ui) {
@@ -234,7 +257,7 @@ impl EditorApp {
             session: &self.editor.session,
             time: self.editor.time(),
             painting: self.editor.painting(),
-            keys: self.editor.keymap.preset,
+            keymap: self.editor.keymap,
             status: &status,
             numbers: Numbers {
                 strokes: self.picture_flow.strokes(),
@@ -244,6 +267,7 @@ impl EditorApp {
                 works: &works,
             },
             recent: &recent,
+            troubles: &self.troubles,
             likely_meshes: &self.likely_meshes.found,
         };
         if !self.folds.everything {
@@ -274,7 +298,8 @@ impl EditorApp {
         for Said { words, offers, is_refusal } in self.editor.take_said() {
             self.toast(words, offers, is_refusal);
         }
-        self.toasts.retain(|(_, since, _)| since.elapsed() < TOAST);
+        let stays = |toast: &Toast| if toast.error { ERROR_TOAST } else { TOAST };
+        self.toasts.retain(|(toast, since, _)| since.elapsed() < stays(toast));
         let shown: Vec<Toast> = self.toasts.iter().map(|(toast, ..)| toast.clone()).collect();
         let clear = if self.folds.everything {
             12.0
@@ -316,6 +341,11 @@ impl LikelyMeshes {
 impl window::App for EditorApp {
     fn ui(&mut self, ui: &mut Ui, frame: &mut window::Frame<'_>) {
         let ctx = ui.ctx().clone();
+        let window = ctx.content_rect().size() * ctx.zoom_factor();
+        let scale = theme::fitting_scale(self.preferences.scale, window);
+        if scale != ctx.zoom_factor() {
+            ctx.set_zoom_factor(scale);
+        }
         self.editor.tick(ui.input(|input| input.time));
         self.follow_reading(&ctx);
         self.follow();

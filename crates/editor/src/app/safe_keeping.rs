@@ -16,6 +16,7 @@ use super::EditorApp;
 use crate::files::file_ask::FileAsk;
 use crate::files::preferences;
 use crate::panels::ask_close::{self, Answer, Question};
+use crate::panels::problems::TroubleOf;
 
 /// How often the document's files are checked for changes.
 const LOOK: Duration = Duration::from_secs(1);
@@ -119,18 +120,19 @@ impl EditorApp {
         }
         let kept = self.safe.keeper.as_ref().map_or_else(Vec::new, Keeper::done);
         for kept in kept {
-            if let Kept::Not(words) = kept {
-                self.toast(words, None, true);
+            match kept {
+                Kept::At(_) => self.settled(&TroubleOf::Copy),
+                Kept::Not(words) => self.trouble(TroubleOf::Copy, words),
             }
         }
         let document = self.editor.document();
-        let minutes = self.preferences.autosave_minutes;
+        let after_secs = self.preferences.copy_after_secs;
         if !document.is_edited() {
             self.safe.give_up();
-        } else if minutes > 0 {
-            let every_secs = f64::from(minutes) * 60.0;
+        } else if after_secs > 0 {
+            let after_secs = f64::from(after_secs);
             let now_secs = self.safe.start.elapsed().as_secs_f64();
-            if self.safe.cadence.is_due(Some(document.revision()), now_secs, every_secs) {
+            if self.safe.cadence.is_due(Some(document.revision()), now_secs, after_secs) {
                 self.safe.keep(document);
             }
             ctx.request_repaint_after(LOOK);
@@ -150,7 +152,7 @@ impl EditorApp {
     /// Writes a recovery copy now, before something that may go wrong.
     pub(super) fn keep_before_risk(&mut self) {
         let document = self.editor.document();
-        if document.is_edited() && self.preferences.autosave_minutes > 0 {
+        if document.is_edited() && self.preferences.copy_after_secs > 0 {
             self.safe.keep(document);
         }
     }
@@ -167,6 +169,11 @@ impl EditorApp {
         match error {
             SaveError::ChangedOutside { .. } => self.safe.asks = Some(About::SavingOver),
             SaveError::Problems { count, line } => self.safe.asks = Some(About::Losses(count, line)),
+            SaveError::Unwritable { ref target, .. } => {
+                let own = self.editor.document().file() == Some(target);
+                let of = TroubleOf::Save((!own).then(|| target.clone()));
+                self.trouble(of, error.to_string());
+            }
             error => self.toast(error.to_string(), None, true),
         }
     }
@@ -228,10 +235,9 @@ impl EditorApp {
         match Document::recovered(&offer.copy, &LoadOptions::default()) {
             Ok(document) => {
                 self.keep_before_risk();
+                self.forget_document();
                 self.editor.open(document);
                 self.keymap();
-                self.picture_flow.forget();
-                self.render.forget();
                 self.sheets.welcome = false;
                 self.sheets.problems = self.editor.document().loss_count() > 0;
                 self.toast(

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use impasto_scene::assets::{AssetFolders, AssetRequest};
 use impasto_scene::mesh_format;
-use impasto_scene::whole_file::WholeFile;
+use impasto_scene::whole_file::{WholeFile, failure_in_words};
 
 use super::incoming::Kind;
 
@@ -29,7 +29,7 @@ pub enum CopyError {
         folder: PathBuf,
     },
     /// A file could not be read or written.
-    #[error("{} could not be copied: {source}", name.display())]
+    #[error("{} could not be copied: {}", name.display(), failure_in_words(source))]
     Failed {
         /// Its path relative to the scene's folder.
         name: PathBuf,

@@ -14,6 +14,7 @@ use std::time::{Duration, Instant};
 use egui::{Align2, Area, Context, Frame, Id, Margin, RichText, vec2};
 
 use super::file_ask::FileAsk;
+use super::incoming::PICTURES;
 use super::path_sheet::{PathSheet, Picked};
 use crate::theme::{Theme, measure, type_face};
 use crate::widgets::Button;
@@ -197,6 +198,8 @@ fn choose_on_desktop(ask: FileAsk, start: &Path) -> Option<PathBuf> {
             dialog.add_filter("Meshes", &["obj", "OBJ", "gltf", "glb", "GLB"])
         }
         FileAsk::SaveAs | FileAsk::SaveCopy => dialog.add_filter("Scenes", &["ron"]),
+        FileAsk::Missing => dialog,
+        FileAsk::ChoosePicture => dialog.add_filter("Pictures", PICTURES),
         FileAsk::RenderOutput { .. } => dialog.add_filter("Pictures", &["png", "exr"]),
     };
     if !ask.is_save() {

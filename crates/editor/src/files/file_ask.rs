@@ -17,6 +17,10 @@ pub enum FileAsk {
     SaveCopy,
     /// Find a mesh that the scene names.
     LocateMesh,
+    /// Find a file that another file names, of any kind.
+    Missing,
+    /// Choose a picture.
+    ChoosePicture,
     /// Choose where rendered frames go.
     RenderOutput {
         /// The ending for a name without one.
@@ -33,16 +37,20 @@ impl FileAsk {
             Self::SaveAs => "Save the scene as",
             Self::SaveCopy => "Save a copy of the scene",
             Self::LocateMesh => "Locate the mesh",
+            Self::Missing => "Locate the missing file",
+            Self::ChoosePicture => "Choose a picture",
             Self::RenderOutput { .. } => "Choose where the frames go",
         }
     }
 
-    /// The kinds of files that fit.
+    /// The kinds of files that fit; empty where any file does.
     pub fn kinds(self) -> &'static [Kind] {
         match self {
             Self::Open => &[Kind::Scene, Kind::Mesh],
             Self::ImportMesh | Self::LocateMesh => &[Kind::Mesh],
             Self::SaveAs | Self::SaveCopy => &[Kind::Scene],
+            Self::Missing => &[],
+            Self::ChoosePicture => &[Kind::Picture],
             Self::RenderOutput { .. } => &[Kind::Picture, Kind::Exr],
         }
     }
@@ -52,7 +60,7 @@ impl FileAsk {
         match self {
             Self::SaveAs | Self::SaveCopy => self.as_file(path, "ron"),
             Self::RenderOutput { ending } => self.as_file(path, ending),
-            Self::Open | Self::ImportMesh | Self::LocateMesh => path,
+            Self::Open | Self::ImportMesh | Self::LocateMesh | Self::Missing | Self::ChoosePicture => path,
         }
     }
 
@@ -67,6 +75,7 @@ impl FileAsk {
     /// Why it does not fit, in words to show.
     pub(crate) fn fits(self, path: &Path) -> Result<(), String> {
         match Kind::of(path) {
+            _ if self.kinds().is_empty() => Ok(()),
             Some(kind) if self.kinds().contains(&kind) => Ok(()),
             None | Some(Kind::Exr) => Err(refusal(path)),
             Some(_) => Err(format!("{} is not what is asked for: {}", name_of(path), self.title())),

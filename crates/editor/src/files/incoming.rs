@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use impasto_editor_model::Document;
 use impasto_scene::mesh_format;
 
-pub use adopt::{AdoptError, Adopted, adopt_mesh, adopt_picture};
+pub use adopt::{AdoptError, Adopted, adopt_mesh, adopt_picture, bring};
 
 /// File extensions of pictures that can serve as brushes.
 pub const PICTURES: &[&str] = &["png", "jpg", "jpeg", "bmp", "tga", "webp"];

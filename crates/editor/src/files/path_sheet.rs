@@ -11,6 +11,8 @@ use egui::{
     vec2,
 };
 
+use impasto_scene::whole_file::failure_in_words;
+
 use super::file_ask::FileAsk;
 use super::incoming::{Kind, name_of};
 use crate::icons;
@@ -43,6 +45,10 @@ pub struct PathSheet {
     replaces: Option<PathBuf>,
     /// Whether the field takes the focus in the next pass.
     wants_focus: bool,
+    /// Whether the name in the field, without its ending, is selected in the next pass.
+    selects_name: bool,
+    /// The name of the folder that is to be made, while it is typed.
+    new_folder: Option<String>,
 }
 
 impl PathSheet {
@@ -52,7 +58,16 @@ impl PathSheet {
         let typed = if is_file { name_of(start) } else { String::new() };
         let folder = if is_file { start.parent().unwrap_or(Path::new("")) } else { start };
         let listing = Listing::read(&nearest_folder(folder), ask.kinds());
-        Self { ask, listing, typed, error: None, replaces: None, wants_focus: true }
+        Self {
+            ask,
+            listing,
+            typed,
+            error: None,
+            replaces: None,
+            wants_focus: true,
+            selects_name: is_file,
+            new_folder: None,
+        }
     }
 
     /// Shows the sheet and returns the answer, once there is one.
@@ -82,8 +97,11 @@ impl PathSheet {
                 if Button::new("Cancel").on_sheet().show(ui).clicked() {
                     done = Some(Picked::Cancelled);
                 }
+                if self.ask.is_save() {
+                    ui.with_layout(Layout::left_to_right(Align::Center), |ui| self.make_folder(ui));
+                }
             });
-            if ui.input(|input| input.key_pressed(Key::Escape)) {
+            if self.new_folder.is_none() && ui.input(|input| input.key_pressed(Key::Escape)) {
                 done = Some(Picked::Cancelled);
             }
         });
@@ -164,6 +182,14 @@ impl PathSheet {
         if std::mem::take(&mut self.wants_focus) {
             response.request_focus();
         }
+        if std::mem::take(&mut self.selects_name) {
+            let stem =
+                Path::new(&self.typed).file_stem().map_or(0, |stem| stem.to_string_lossy().chars().count());
+            let [from, to] = [0, stem].map(|at| egui::text::CCursor::new(egui::text::CharIndex(at)));
+            let mut state = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
+            state.cursor.set_char_range(Some(egui::text::CCursorRange::two(from, to)));
+            state.store(ui.ctx(), id);
+        }
         if response.changed() {
             self.error = None;
         }
@@ -202,6 +228,42 @@ impl PathSheet {
         self.error = None;
         if !self.ask.is_save() {
             self.typed.clear();
+        }
+    }
+
+    /// The button that makes a folder, or the field for its name.
+    fn make_folder(&mut self, ui: &mut Ui) {
+        let Some(mut name) = self.new_folder.clone() else {
+            if Button::new("New folder").on_sheet().show(ui).clicked() {
+                self.new_folder = Some(String::new());
+            }
+            return;
+        };
+        let id = Id::unique("name of a new folder");
+        let is_fresh = TextEdit::load_state(ui.ctx(), id).is_none();
+        let edit = TextEdit::singleline(&mut name).id(id).font(type_face::body()).desired_width(180.0);
+        let response = ui.add(edit.hint_text("Name of the folder").min_size(vec2(0.0, measure::FIELD)));
+        ui.ctx().accesskit_node_builder(response.id, |node| node.set_label("Folder name"));
+        if is_fresh {
+            response.request_focus();
+        }
+        let enter = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+        let escape = ui.input(|input| input.key_pressed(Key::Escape));
+        if Button::new("Make it").on_sheet().show(ui).clicked() || enter {
+            let folder = resolve(&self.listing.folder, name.trim());
+            match std::fs::create_dir(&folder) {
+                _ if name.trim().is_empty() => self.error = Some("Type a name for the folder".to_owned()),
+                Ok(()) => self.enter(&folder.to_string_lossy()),
+                Err(error) => {
+                    self.error = Some(format!("{} was not made: {}", name.trim(), failure_in_words(&error)))
+                }
+            }
+            self.wants_focus = true;
+        }
+        let is_done = enter || escape || response.lost_focus();
+        self.new_folder = (!is_done).then_some(name);
+        if is_done {
+            ui.data_mut(|data| data.remove::<egui::text_edit::TextEditState>(id));
         }
     }
 

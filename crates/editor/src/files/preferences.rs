@@ -40,8 +40,8 @@ pub struct Preferences {
     pub show_welcome: bool,
     /// What draws the paintings.
     pub driver: DriverChoice,
-    /// Minutes between two copies of unsaved work; 0 for none.
-    pub autosave_minutes: u32,
+    /// Seconds from an edit to the copy of unsaved work; 0 for no copies.
+    pub copy_after_secs: u32,
     /// Whether the digits above the letters choose views, as those of the number pad do.
     pub digits_as_numpad: bool,
     /// Whether to preview what a comb would do, before the press.
@@ -65,7 +65,7 @@ impl Default for Preferences {
             scale: 1.0,
             show_welcome: true,
             driver: DriverChoice::default(),
-            autosave_minutes: 2,
+            copy_after_secs: 10,
             digits_as_numpad: false,
             foresee_strokes: true,
             reduced_motion: false,
@@ -177,9 +177,9 @@ impl Preferences {
         };
         self.version = VERSION;
         self.scale = within(self.scale, 0.75, 3.0, 1.0);
-        self.autosave_minutes = self.autosave_minutes.min(120);
-        self.window_size.0 = within(self.window_size.0, 960.0, 16_384.0, 1280.0);
-        self.window_size.1 = within(self.window_size.1, 600.0, 16_384.0, 800.0);
+        self.copy_after_secs = self.copy_after_secs.min(7200);
+        self.window_size.0 = within(self.window_size.0, 640.0, 16_384.0, 1280.0);
+        self.window_size.1 = within(self.window_size.1, 440.0, 16_384.0, 800.0);
         self.recent.truncate(MAX_RECENT);
         self.last_seen.truncate(MAX_LAST_SEEN);
         for seen in &mut self.last_seen {

@@ -18,6 +18,11 @@ pub enum Question {
         /// The document's name.
         name: String,
     },
+    /// A click with the region tool would take triangles from other regions.
+    TakeFaces {
+        /// Which: *340 triangles of skin*.
+        taken: String,
+    },
     /// Another frame is to become the reference.
     Recapture {
         /// The frame.
@@ -81,6 +86,8 @@ pub enum Answer {
     Save,
     /// Go on without saving.
     Discard,
+    /// Take the triangles.
+    TakeFaces,
     /// Take the frame as the reference.
     Recapture,
     /// Read the file again and drop the edits.
@@ -126,6 +133,11 @@ pub fn ask(ctx: &egui::Context, question: &Question) -> Option<Answer> {
             format!("Drop your changes to the text of \u{201c}{name}\u{201d}?"),
             "They have not been read: the scene does not have them.".to_owned(),
             &[("Drop them", Answer::Discard), ("Cancel", Answer::Cancel), ("Read them", Answer::ReadText)],
+        ),
+        Question::TakeFaces { taken } => (
+            "Take from other regions?".to_owned(),
+            format!("{taken} would be in the new part only. Their strokes follow it."),
+            &[("Take them", Answer::TakeFaces), ("Cancel", Answer::Cancel)],
         ),
         Question::Recapture { frame } => (
             format!("Take frame {frame} as the new reference?"),

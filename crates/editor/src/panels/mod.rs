@@ -32,7 +32,7 @@ mod tree;
 
 use impasto_editor_model::command::Command;
 use impasto_editor_model::editor::Mend;
-use impasto_editor_model::keymap::{Action, Keymap, Preset};
+use impasto_editor_model::keymap::{Action, Keymap};
 use impasto_editor_model::timeline::{TimeHand, TimelineEvent};
 use impasto_editor_model::{Document, Selection, Session};
 use impasto_painting::Painting;
@@ -40,7 +40,8 @@ use impasto_painting::Painting;
 pub use areas::{Area, area, next_area};
 pub use column::{column, column_fits};
 pub use column_state::{open_add_menu, rename};
-pub use inspector::inspector;
+pub use inspector::{NoisePart, inspector};
+use problems::{Settle, Trouble};
 pub use tree::tree;
 
 /// What the panels show.
@@ -54,27 +55,24 @@ pub struct PanelInput<'a> {
     pub time: &'a TimeHand,
     /// The painting as it was last prepared, perhaps from an earlier version of the document; `None` before the first.
     pub painting: Option<&'a Painting>,
-    /// Which preset of key bindings is used.
-    pub keys: Preset,
+    /// The key bindings in use; menus and tooltips take the texts of shortcuts from them.
+    pub keymap: Keymap,
     /// What the mouse would do now, alone and with keys: `[Drag] comb  [Shift] smooth`.
     pub status: &'a str,
     /// Numbers for the status line.
     pub numbers: Numbers<'a>,
     /// Recently opened files, the latest first.
     pub recent: &'a [PathBuf],
+    /// What failed in the window and is not settled yet.
+    pub troubles: &'a [Trouble],
     /// For each missing mesh, the file in the scene's folder that is likely meant.
     pub likely_meshes: &'a [(String, String)],
 }
 
 impl PanelInput<'_> {
-    /// The key bindings in use; menus and tooltips take the texts of shortcuts from them.
-    pub fn keymap(&self) -> Keymap {
-        Keymap { preset: self.keys, ..Keymap::default() }
-    }
-
     /// The keys of an action, empty where it has none.
     pub fn keys_of(&self, action: Action) -> String {
-        self.keymap().shortcut_text(action).unwrap_or_default()
+        self.keymap.shortcut_text(action).unwrap_or_default()
     }
 
     /// Why an action cannot be done now, in the words of its tooltip; `None` if it can.
@@ -145,6 +143,14 @@ pub enum Ask {
     ChooseMesh(String),
     /// Repair a problem of the document, or read the document again.
     Mend(Mend),
+    /// Let the user choose a file that is missing, and copy it to this place, where it is looked for.
+    BringFile(PathBuf),
+    /// Show the list of problems.
+    ShowProblems,
+    /// Settle the trouble with this index.
+    Settle(usize, Settle),
+    /// Let the user choose a picture for the noise of this object's vertices or of its surface.
+    ChooseNoise(String, NoisePart),
     /// Let the user choose a file, and write a copy of the scene there.
     SaveCopy,
     /// Carry out this action, as its key would.

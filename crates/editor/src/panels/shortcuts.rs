@@ -27,7 +27,7 @@ pub fn shortcuts(ctx: &egui::Context, shown: &PanelInput<'_>) -> bool {
         let mut close = false;
         ui.horizontal(|ui| {
             ui.label(RichText::new("Keys").font(type_face::sheet_title()).color(tokens.text));
-            let like = match shown.keys {
+            let like = match shown.keymap.preset {
                 Preset::Blender => "like Blender",
                 Preset::Maya => "like Maya",
             };
@@ -37,7 +37,7 @@ pub fn shortcuts(ctx: &egui::Context, shown: &PanelInput<'_>) -> bool {
             });
         });
         ui.add_space(measure::GAP);
-        let lines = lines(groups(&shown.keymap()));
+        let lines = lines(groups(&shown.keymap));
         // One more line, because no column may end with a heading.
         let high = lines.len().div_ceil(columns) + 1;
         let most = room.y - 2.0 * measure::SHEET_PADDING - 48.0;

@@ -22,6 +22,8 @@ pub fn status_line(ui: &mut egui::Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask
             let mut free = ui.max_rect().shrink2(egui::vec2(10.0, 0.0));
             let right = within(ui, free, row_from_right(), |ui| {
                 ui.spacing_mut().item_spacing.x = 14.0;
+                // At the very end, where it does not move as numbers come and go.
+                super::problems::chip(ui, shown, asks);
                 for words in numbers(&shown.numbers) {
                     note(ui, &words);
                 }

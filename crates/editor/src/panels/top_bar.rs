@@ -11,8 +11,13 @@ use crate::widgets::{self, Button, Tip};
 
 /// In a window at least this wide, in points, the bars show controls that are behind a button in narrower ones.
 pub(super) const WIDE: f32 = 1600.0;
-/// The mode switch never begins left of this, in points, so that the document's name does not move it.
+/// The mode switch never begins left of this, in points, so that the document's name does not move it; but in a narrow window
+/// it leaves room at its right.
 const SWITCH_LEFT: f32 = 525.0;
+/// Room for the menus and for undo at the left end, points.
+const LEFT: f32 = 346.0;
+/// Room for the controls at the right end in a narrow window, points.
+const RIGHT: f32 = 152.0;
 const SWITCH_WIDTH: f32 = 278.0;
 const MODES: [Mode; 3] = [Mode::Arrange, Mode::Paint, Mode::Animate];
 
@@ -21,7 +26,9 @@ pub fn top_bar(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let frame = egui::Frame::new().fill(Tokens::of(ui).alt);
     Panel::top("top bar").exact_size(measure::TOP_BAR).resizable(false).frame(frame).show(ui, |ui| {
         let whole = ui.max_rect();
-        let switch = whole.left() + SWITCH_LEFT.max((whole.width() - SWITCH_WIDTH) / 2.0);
+        let room = whole.width() - SWITCH_WIDTH - RIGHT;
+        let most = if room < LEFT { SWITCH_LEFT } else { room.min(SWITCH_LEFT) };
+        let switch = whole.left() + most.max((whole.width() - SWITCH_WIDTH) / 2.0);
         let part = |left: f32, right: f32| egui::Rect::from_x_y_ranges(left..=right, whole.y_range());
         let end = switch + SWITCH_WIDTH + measure::GAP;
         within(ui, part(whole.left(), switch - 6.0), row(), |ui| left(ui, shown, asks));

@@ -6,5 +6,5 @@ mod style;
 mod tokens;
 pub mod type_face;
 
-pub use style::apply;
+pub use style::{apply, fitting_scale};
 pub use tokens::{DARK, LIGHT, Theme, Tokens};

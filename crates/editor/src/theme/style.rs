@@ -24,6 +24,16 @@ pub fn apply(ctx: &Context, theme: Theme, scale: f32) {
     ctx.set_zoom_factor(scale);
 }
 
+/// The smallest window that the bars and panels are laid out for, points.
+const LEAST_LAYOUT: egui::Vec2 = vec2(800.0, 500.0);
+
+/// The scale to draw with in a window of `window` points at scale 1: the one that was chosen, or less where the bars and
+/// panels would have no room.
+pub fn fitting_scale(chosen: f32, window: egui::Vec2) -> f32 {
+    let most = (window / LEAST_LAYOUT).min_elem();
+    if most.is_finite() && most > 0.0 { chosen.min(most.max(0.5)) } else { chosen }
+}
+
 fn style(theme: Theme) -> Style {
     let mut style = Style {
         animation_time: 0.1,
@@ -119,4 +129,18 @@ fn widgets(visuals: &mut Visuals, tokens: &Tokens) {
         state.expansion = 0.0;
     }
     visuals.widgets.noninteractive.bg_stroke = Stroke::new(1.0, tokens.div);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_small_window_is_drawn_smaller_and_a_large_one_as_chosen() {
+        assert_eq!(fitting_scale(1.0, vec2(3840.0, 2160.0)), 1.0);
+        assert_eq!(fitting_scale(2.0, vec2(3840.0, 2160.0)), 2.0);
+        assert_eq!(fitting_scale(1.0, vec2(640.0, 440.0)), 0.8);
+        assert_eq!(fitting_scale(3.0, vec2(1600.0, 1000.0)), 2.0);
+        assert_eq!(fitting_scale(1.5, vec2(0.0, 0.0)), 1.5, "a window that is not shown yet");
+    }
 }

@@ -76,7 +76,7 @@ fn overlays(ui: &mut Ui, session: &Session, events: &mut ViewportEvents) {
     let shown = &mut wanted.overlays;
     let paints = session.mode == Mode::Paint;
     let toggle = |ui: &mut Ui, icon, (name, key, effect): (&str, &str, &str), on: &mut bool| {
-        let response = icon_toggle(ui, icon, name, on);
+        let response = icon_toggle(ui, icon, name, on).on_disabled_hover_text(effect);
         Tip { name, key, effect, range: "" }.on(response);
     };
     // Directions are drawn in Paint only, so elsewhere the toggle is off.

@@ -56,6 +56,31 @@ pub(super) fn words_within(ui: &Ui, at: Pos2, text: &str, font: FontId, colour: 
     rect
 }
 
+/// A text that fits into `room` points: where it is too long, its middle is left out, since names that begin alike end
+/// differently.
+pub(super) fn without_middle(ui: &Ui, text: &str, font: FontId, room: f32) -> String {
+    let characters: Vec<char> = text.chars().collect();
+    let shortened = |kept: usize| -> String {
+        let (head, tail) = (kept.div_ceil(2), kept / 2);
+        let [head, tail] = [&characters[..head], &characters[characters.len() - tail..]];
+        head.iter().chain(&['\u{2026}']).chain(tail).collect()
+    };
+    if width(ui, text, font.clone()) <= room {
+        return text.to_owned();
+    }
+    // The most that fits, by halving.
+    let (mut fits, mut too_long) = (1, characters.len());
+    while too_long - fits > 1 {
+        let kept = (fits + too_long) / 2;
+        if width(ui, &shortened(kept), font.clone()) <= room {
+            fits = kept;
+        } else {
+            too_long = kept;
+        }
+    }
+    shortened(fits.min(characters.len()))
+}
+
 pub(super) fn width(ui: &Ui, text: &str, font: FontId) -> f32 {
     ui.painter().layout_no_wrap(text.to_owned(), font, Color32::WHITE).size().x
 }

@@ -15,6 +15,9 @@ use super::{Tip, draw};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 
+/// The width of the letter before a number, points.
+const LETTER: f32 = 11.0;
+
 /// A number in a box whose filled part shows where it lies in its range. It is dragged, typed after a click or `Enter`,
 /// or stepped: by the arrow keys while it has the focus, by the wheel while it has the focus or `Ctrl` is held.
 /// Otherwise the wheel scrolls what the field stands in. A double click brings the default back. Typed text that is no
@@ -357,9 +360,9 @@ impl<'a> NumberField<'a> {
         painter.rect_stroke(frame, draw::corner(), line, StrokeKind::Inside);
         let colour = if self.warns { tokens.ochre } else { tokens.text };
         let mut at = frame.left_center() + vec2(8.0, 0.0);
+        self.draw_letter(ui, frame);
         if !self.letter.is_empty() {
-            draw::words(painter, at, Align2::LEFT_CENTER, self.letter, type_face::small(), tokens.weak);
-            at.x += 11.0;
+            at.x += LETTER;
         }
         let (at, align) =
             if self.centred { (frame.center(), Align2::CENTER_CENTER) } else { (at, Align2::LEFT_CENTER) };
@@ -367,6 +370,11 @@ impl<'a> NumberField<'a> {
         let end = frame.right_center() - vec2(8.0, 0.0);
         draw::words(painter, end, Align2::RIGHT_CENTER, self.unit, type_face::small(), tokens.weak);
         draw::focus_ring(ui, response, frame, measure::CORNER);
+    }
+
+    fn draw_letter(&self, ui: &Ui, frame: Rect) {
+        let (at, weak) = (frame.left_center() + vec2(8.0, 0.0), Tokens::of(ui).weak);
+        draw::words(ui.painter(), at, Align2::LEFT_CENTER, self.letter, type_face::small(), weak);
     }
 
     fn describe(&self, mut response: Response, changed: bool) -> Response {

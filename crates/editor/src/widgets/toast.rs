@@ -5,6 +5,9 @@ use egui::{Align2, Area, Context, Frame, Id, Margin, Order, RichText, vec2};
 use super::{Button, draw};
 use crate::theme::{Tokens, measure, type_face};
 
+/// The most that a message is wide; longer ones take more lines. Points.
+const MOST_WIDE: f32 = 720.0;
+
 /// A short message that comes up at the bottom of the window and vanishes by itself.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Toast {
@@ -21,12 +24,17 @@ pub struct Toast {
 pub fn toasts(ctx: &Context, shown: &[Toast], clear: f32) -> Option<usize> {
     let first = shown.len().saturating_sub(3);
     let mut clicked = None;
-    for (index, toast) in shown.iter().enumerate().skip(first) {
-        let below = (shown.len() - 1 - index) as f32 * (measure::CHIP + measure::GAP);
-        let up = vec2(0.0, -clear - measure::GAP - below);
-        let area = Area::new(Id::unique(("toast", below as i32)));
-        let area = area.order(Order::Foreground).anchor(Align2::CENTER_BOTTOM, up);
-        if area.show(ctx, |ui| line(ui, toast)).inner {
+    let mut below = clear + measure::GAP;
+    for (index, toast) in shown.iter().enumerate().skip(first).rev() {
+        let area = Area::new(Id::unique(("toast", shown.len() - index)));
+        let area = area.order(Order::Foreground).anchor(Align2::CENTER_BOTTOM, vec2(0.0, -below));
+        let most = (ctx.content_rect().width() - 96.0).clamp(160.0, MOST_WIDE);
+        let line = area.show(ctx, |ui| {
+            ui.set_max_width(most);
+            line(ui, toast)
+        });
+        below += line.response.rect.height() + measure::GAP;
+        if line.inner {
             clicked = Some(index);
         }
     }
@@ -48,9 +56,12 @@ fn line(ui: &mut egui::Ui, toast: &Toast) -> bool {
         })
         .show(ui, |ui| {
             ui.horizontal(|ui| {
-                ui.set_height(measure::CHIP - 4.0);
+                ui.set_min_height(measure::CHIP - 4.0);
                 let words = RichText::new(&toast.words).font(type_face::body()).color(tokens.text);
-                let label = ui.label(words);
+                let button = if toast.action.is_empty() { 0.0 } else { 80.0 };
+                let room = (ui.available_width() - button).max(80.0);
+                let wide = draw::width(ui, &toast.words, type_face::body()).min(room);
+                let label = ui.add_sized([wide, measure::CHIP - 4.0], egui::Label::new(words).wrap());
                 label.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Alert, true, &toast.words));
                 !toast.action.is_empty() && Button::new(&toast.action).plain().show(ui).clicked()
             })

@@ -119,8 +119,10 @@ impl TreeRow<'_> {
             weak,
         );
         let room = note.left() - measure::GAP - name_at.x;
-        draw::words_within(ui, name_at, self.name, type_face::body(), colour, room);
+        let name = draw::without_middle(ui, self.name, type_face::body(), room);
+        draw::words_within(ui, name_at, &name, type_face::body(), colour, room);
         draw::focus_ring(ui, &response, rect.shrink(3.0), 2.0);
+        let response = if name == self.name { response } else { response.on_hover_text(self.name) };
         RowResponse { response, toggled, hide_clicked: clicks[1], lock_clicked: clicks[0] }
     }
 

@@ -127,7 +127,8 @@ impl<A: App, M: FnOnce(&Opened) -> A> Shell<A, M> {
     fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<(), WindowError> {
         let Some(make) = self.make.take() else { return Ok(()) };
         let no_gl = |reason| WindowError::NoOpenGl { reason };
-        let (window, gl) = WindowGl::open(event_loop, attributes(&self.options)).map_err(no_gl)?;
+        let (window, gl) = WindowGl::open(event_loop, attributes(&self.options, screen_points(event_loop)))
+            .map_err(no_gl)?;
         let painter = egui_glow::Painter::new(gl.gl().clone(), "", None, false)
             .map_err(|error| WindowError::NoOpenGl { reason: error.to_string() })?;
 
@@ -200,14 +201,29 @@ impl<A: App, M: FnOnce(&Opened) -> A> Shell<A, M> {
     }
 }
 
-fn attributes(options: &Options) -> winit::window::WindowAttributes {
+/// Width and height of the screen that the window opens on, points; none where the system does not say.
+fn screen_points(event_loop: &ActiveEventLoop) -> Option<egui::Vec2> {
+    let screen = event_loop.primary_monitor().or_else(|| event_loop.available_monitors().next())?;
+    let size = screen.size().to_logical::<f32>(screen.scale_factor());
+    (size.width > 0.0 && size.height > 0.0).then(|| egui::vec2(size.width, size.height))
+}
+
+fn attributes(options: &Options, screen: Option<egui::Vec2>) -> winit::window::WindowAttributes {
     let size = |size: egui::Vec2| LogicalSize::new(size.x, size.y);
+    let first = options.size.max(options.least_size);
+    let [first, least] = [first, options.least_size].map(|size| on_screen(size, screen));
     let attributes = Window::default_attributes()
         .with_visible(false)
-        .with_inner_size(size(options.size))
-        .with_min_inner_size(size(options.least_size))
+        .with_inner_size(size(first))
+        .with_min_inner_size(size(least))
         .with_window_icon(icon());
     named(attributes, &options.app_id)
+}
+
+/// A size of a window that fits on the screen. One that does not fit leaves room for the system's title bar and panels.
+fn on_screen(size: egui::Vec2, screen: Option<egui::Vec2>) -> egui::Vec2 {
+    const FRAME: egui::Vec2 = egui::vec2(0.0, 40.0);
+    screen.map_or(size, |screen| size.min(screen - FRAME))
 }
 
 #[cfg(target_os = "linux")]
@@ -393,5 +409,22 @@ impl<A: App> OpenWindow<A> {
         let mut textures = textures;
         self.painter.clear(size, [0.0, 0.0, 0.0, 1.0]);
         self.painter.paint_and_update_textures(size, scale, primitives, &mut textures);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::vec2;
+
+    use super::*;
+
+    #[test]
+    fn a_window_is_never_larger_than_its_screen() {
+        let usual = Options::default();
+        assert_eq!(on_screen(usual.size, Some(vec2(3840.0, 2160.0))), usual.size);
+        // 1920 x 1080 pixels at a scale of 2, and a small screen.
+        assert_eq!(on_screen(usual.size, Some(vec2(960.0, 540.0))), vec2(960.0, 500.0));
+        assert_eq!(on_screen(usual.least_size, Some(vec2(640.0, 480.0))), vec2(640.0, 440.0));
+        assert_eq!(on_screen(usual.size, None), usual.size);
     }
 }

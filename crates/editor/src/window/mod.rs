@@ -58,7 +58,7 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { size: vec2(1280.0, 800.0), least_size: vec2(960.0, 600.0), app_id: "impasto".to_owned() }
+        Self { size: vec2(1280.0, 800.0), least_size: vec2(640.0, 440.0), app_id: "impasto".to_owned() }
     }
 }
 

@@ -379,6 +379,50 @@ fn fields_shift_the_motion_in_arrange_and_key_it_in_animate() {
     let moved = keys(&harness).into_iter().find(|key| key.frame == 42.0).expect("the key has moved");
     assert_eq!((moved.rotation_deg[2], moved.ease), (12.0, impasto_scene::document::Ease::Step));
     assert_eq!(harness.state().session.frame, 42.0);
+    // A step of the wheel takes the frame along too, so that the key stays in sight.
+    turn_the_wheel(&mut harness, "Key frame", 1.0, Modifiers::COMMAND);
+    assert_eq!(harness.state().session.frame, 43.0);
+    assert!(keys(&harness).iter().any(|key| key.frame == 43.0));
+    let field = harness.get_by_role_and_label(Role::SpinButton, "Key frame");
+    assert_eq!(field.accesskit_node().value().as_deref(), Some("43"));
+}
+
+/// Two clicks in quick succession in the middle of a field.
+fn double_click(harness: &mut Harness<'_, Column>, name: &str) {
+    // The test's clock moves in large steps, so the delay has to be long.
+    harness.ctx.options_mut(|options| options.input_options.max_double_click_delay = 2.0);
+    // Clicks elsewhere are so long ago that this is no third one.
+    harness.run_steps(20);
+    let middle = harness.get_by_role_and_label(Role::SpinButton, name).rect().center();
+    for _ in 0..2 {
+        harness.drag_at(middle);
+        harness.step();
+        harness.drop_at(middle);
+        harness.step();
+        harness.step();
+    }
+}
+
+#[test]
+fn a_double_click_resets_a_pose_and_selects_the_whole_of_a_number_without_a_default() {
+    let mut harness = harness("still_life.ron", object("apple"));
+    let place = |harness: &Harness<'_, Column>| {
+        let mut objects = harness.state().document.scene().objects.iter();
+        objects.find(|object| object.name == "apple").expect("it is there").keys[0].translation[1]
+    };
+    assert!(place(&harness) != 0.0);
+    double_click(&mut harness, "Move Y");
+    harness.run();
+    assert!(harness.query_by_role_and_label(Role::TextInput, "Move Y").is_none(), "it is not typed");
+    assert!(place(&harness).abs() < 1e-9, "{}", place(&harness));
+    harness.state_mut().document.select(Selection::only(Item::Camera));
+    harness.run();
+    double_click(&mut harness, "Eye X");
+    harness.event(egui::Event::Text("7".to_owned()));
+    harness.run();
+    harness.key_press(Key::Enter);
+    harness.run();
+    assert_eq!(harness.state().document.scene().camera.keys[0].eye[0], 7.0, "what is typed takes its place");
 }
 
 #[test]
@@ -411,7 +455,13 @@ fn noise_of_a_material_is_set_and_reset() {
     assert_eq!(noise(&harness), None);
     click(&mut harness, "Material");
     click(&mut harness, "Noise");
+    // Nothing moves and no texture is dropped before that is chosen.
+    assert_eq!(noise(&harness).map(|noise| (noise.vertex, noise.surface)), Some((None, None)));
+    click(&mut harness, "Noise moves the vertices");
+    click(&mut harness, "Noise colours the surface");
     assert_eq!(noise(&harness), Some(Default::default()));
+    click(&mut harness, "Browse for Surface noise file");
+    assert_eq!(harness.state().log.last().map(String::as_str), Some("choose noise for apple: Surface"));
     type_in(&mut harness, "Noise scale", "0.3");
     type_in(&mut harness, "Noise rate Y", "0.75");
     type_in(&mut harness, "Noise layers", "9");

@@ -16,7 +16,7 @@ use egui_kittest::{Harness, HarnessBuilder};
 use impasto_editor::panels::{self, Ask, Numbers, PanelInput};
 use impasto_editor::theme::{self, Theme};
 use impasto_editor_model::command::Command;
-use impasto_editor_model::keymap::{Action, Preset};
+use impasto_editor_model::keymap::{Action, Keymap};
 use impasto_editor_model::{Document, Item, Session};
 use impasto_scene::document::{Guide, GuidePoint};
 use impasto_scene::load::LoadOptions;
@@ -56,10 +56,11 @@ impl Column {
             document: &self.document,
             session: &self.session,
             painting: None,
-            keys: Preset::Blender,
+            keymap: Keymap::default(),
             status: "",
             numbers: Numbers { strokes_of: &self.strokes_of, ..Numbers::default() },
             recent: &[],
+            troubles: &[],
             likely_meshes: &self.likely_meshes,
         };
         // The harness has margins, the window has none.
@@ -115,7 +116,11 @@ impl Column {
             | Ask::Welcome
             | Ask::Mend(_)
             | Ask::SaveCopy
+            | Ask::BringFile(_)
+            | Ask::ShowProblems
+            | Ask::Settle(..)
             | Ask::StopWork(_) => "of another panel".to_owned(),
+            Ask::ChooseNoise(object, part) => format!("choose noise for {object}: {part:?}"),
             Ask::Session(session) => {
                 self.session = *session;
                 "session".to_owned()

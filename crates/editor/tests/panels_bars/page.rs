@@ -9,7 +9,7 @@ use impasto_editor::panels::{
 };
 use impasto_editor::theme::{Theme, Tokens};
 use impasto_editor_model::command::SceneEdit;
-use impasto_editor_model::keymap::Preset;
+use impasto_editor_model::keymap::{Keymap, Preset};
 use impasto_editor_model::session::{Mode, Tool};
 use impasto_editor_model::timeline::{TimeHand, TimelineEvent, lanes};
 use impasto_editor_model::{Command, Document, Session};
@@ -32,7 +32,7 @@ pub struct Page {
     pub document: Document,
     pub session: Session,
     pub time: TimeHand,
-    pub keys: Preset,
+    pub keymap: Keymap,
     pub status: String,
     pub recent: Vec<PathBuf>,
     pub shows: Shows,
@@ -74,7 +74,7 @@ impl Page {
             document: Document::open(&scene, &Default::default()).expect("the still life opens"),
             session: Session::default(),
             time: TimeHand::default(),
-            keys: Preset::Blender,
+            keymap: Keymap::default(),
             status: COMBING.to_owned(),
             recent: vec![scene, PathBuf::from("/pictures/pears.ron")],
             shows: Shows::Bars,
@@ -117,7 +117,7 @@ impl Page {
             document: &self.document,
             session: &self.session,
             painting: None,
-            keys: self.keys,
+            keymap: self.keymap,
             status: &self.status,
             numbers: Numbers {
                 strokes: 5774,
@@ -126,6 +126,7 @@ impl Page {
                 ..Numbers::default()
             },
             recent: &self.recent,
+            troubles: &[],
             likely_meshes: &[],
         };
         top_bar::top_bar(ui, &shown, &mut asks);

@@ -81,8 +81,15 @@ pub fn salvage_text(path: &Path, text: &str, options: &LoadOptions) -> Result<Sa
     if text.len() as u64 > limits::MAX_SCENE_BYTES {
         return Err(Report(vec![source::too_long(path)]));
     }
-    let mut reading =
-        Reading { path, left: text.to_owned(), losses: Vec::new(), blanked: Vec::new(), unlisted: 0 };
+    let mut reading = Reading {
+        path,
+        left: text.to_owned(),
+        losses: Vec::new(),
+        blanked: Vec::new(),
+        of_scene: Vec::new(),
+        is_cut: false,
+        unlisted: 0,
+    };
     let mut cache = FileCache::new(path, options);
     let most_passes = (MOST_PARSED_BYTES / text.len().max(1)).clamp(2, MOST_PASSES);
     for _ in 0..most_passes {
@@ -101,14 +108,21 @@ pub fn salvage_text(path: &Path, text: &str, options: &LoadOptions) -> Result<Sa
     Err(reading.given_up())
 }
 
+/// Index of a loss in the list; none where the list was full, so that the loss is only counted.
+type Listed = Option<usize>;
+
 /// A text from which errors are removed pass by pass.
 struct Reading<'a> {
     path: &'a Path,
     /// The text with spaces in place of errors. Bytes keep their offsets; fields may have been added at the end.
     left: String,
     losses: Vec<Loss>,
-    /// The ranges that were overwritten, each with the index of the loss that it belongs to.
-    blanked: Vec<(std::ops::Range<usize>, usize)>,
+    /// The ranges that were overwritten, each with the loss that it belongs to.
+    blanked: Vec<(std::ops::Range<usize>, Listed)>,
+    /// The names of the scene's own fields that were overwritten, as they were written.
+    of_scene: Vec<String>,
+    /// Whether the end of the text was cut off.
+    is_cut: bool,
     unlisted: usize,
 }
 
@@ -149,7 +163,7 @@ impl Reading<'_> {
         if !files.refused.is_empty() {
             for (problem, field_path, fix) in std::mem::take(&mut files.refused) {
                 let index = self.lose(problem, "Left out until then.".to_owned());
-                self.losses[index].fix = fix;
+                self.set_fix(index, fix);
                 self.blank_for(&located, &field_path, index)?;
             }
             return Ok(None);
@@ -178,19 +192,24 @@ impl Reading<'_> {
         }))
     }
 
-    /// Adds a loss and returns its index. Beyond the limit a loss is only counted, and the index is that of the last
-    /// loss in the list.
-    fn lose(&mut self, problem: Problem, instead: String) -> usize {
+    /// Adds a loss. Beyond the limit a loss is only counted.
+    fn lose(&mut self, problem: Problem, instead: String) -> Listed {
         self.add(Loss { problem, instead, mesh: None, fix: None })
     }
 
-    fn add(&mut self, loss: Loss) -> usize {
-        if self.losses.len() < limits::MAX_PROBLEMS {
-            self.losses.push(loss);
-        } else {
+    fn add(&mut self, loss: Loss) -> Listed {
+        if self.losses.len() >= limits::MAX_PROBLEMS {
             self.unlisted += 1;
+            return None;
         }
-        self.losses.len() - 1
+        self.losses.push(loss);
+        Some(self.losses.len() - 1)
+    }
+
+    fn set_fix(&mut self, loss: Listed, fix: Option<Fix>) {
+        if let Some(index) = loss {
+            self.losses[index].fix = fix;
+        }
     }
 
     /// Ends the text before what cannot be read.
@@ -219,6 +238,7 @@ impl Reading<'_> {
         };
         self.lose(Problem { message, place: at, ..problem }, instead);
         self.left = cut.text;
+        self.is_cut = true;
         Ok(())
     }
 
@@ -237,8 +257,9 @@ impl Reading<'_> {
         if let Some(field) = unknown {
             let fix = fix::renamed(located, field, &error.code);
             let index = self.lose(problem, "Left out until then; its default serves.".to_owned());
-            self.losses[index].fix = fix;
+            self.set_fix(index, fix);
             self.blanked.push((field.key.start as usize..field.value.end as usize, index));
+            self.note_of_scene(located, field.key.start as usize);
             blank_out(&mut self.left, field);
             return Ok(());
         }
@@ -264,10 +285,12 @@ impl Reading<'_> {
         // A field that is missing because it was removed is not a loss of its own.
         let cause = self.blanked.iter().rev().find(|(range, _)| within.contains(&range.start));
         let index = match cause {
-            Some(&(_, index)) => {
-                let what = described(&field_path);
-                self.losses[index].instead = format!("{what} is left out until then.");
-                index
+            Some(&(_, listed)) => {
+                if let Some(index) = listed {
+                    self.losses[index].instead =
+                        format!("{} is left out until then.", described(&field_path));
+                }
+                listed
             }
             None => self.lose(problem, format!("{} is left out until then.", described(&field_path))),
         };
@@ -282,8 +305,9 @@ impl Reading<'_> {
             "camera" => "camera: (keys: [(frame: 0, eye: (0, 1, 4), target: (0, 0, 0))])",
             _ => return Err(Report(vec![problem])),
         };
-        // If there are losses, the field was cut off or mistyped, and that is reported already.
-        if self.losses.is_empty() {
+        // One that was cut off, mistyped or removed is reported already.
+        let is_removed = self.of_scene.iter().any(|name| fix::is_near(name, field));
+        if !self.is_cut && !is_removed {
             self.lose(problem, "A usual one stands in for it.".to_owned());
         }
         self.add_at_end(located, written);
@@ -309,6 +333,13 @@ impl Reading<'_> {
         Ok(!fatal.is_empty())
     }
 
+    /// Notes the name of the scene's own field that begins here, if one does: it is about to be overwritten.
+    fn note_of_scene(&mut self, located: &Located, start: usize) {
+        let Inside::Fields(fields) = &located.root().inside else { return };
+        let field = fields.iter().find(|field| field.key.start as usize == start);
+        self.of_scene.extend(field.map(|field| located.text_of(&field.key).to_owned()));
+    }
+
     /// Overwrites a field with spaces. Returns false if it was overwritten before.
     fn blank(&mut self, located: &Located, field_path: &str) -> bool {
         let Some(range) = removable_range(located, field_path, &self.left) else { return false };
@@ -318,10 +349,11 @@ impl Reading<'_> {
 
     /// Overwrites a field or an item of a list with spaces. If it was overwritten before, does so with the value around
     /// it.
-    fn blank_for(&mut self, located: &Located, field_path: &str, loss: usize) -> Result<(), Report> {
+    fn blank_for(&mut self, located: &Located, field_path: &str, loss: Listed) -> Result<(), Report> {
         let mut path = field_path.to_owned();
         loop {
             if let Some(range) = removable_range(located, &path, &self.left) {
+                self.note_of_scene(located, range.start);
                 blank_range(&mut self.left, range.clone());
                 self.blanked.push((range, loss));
                 return Ok(());

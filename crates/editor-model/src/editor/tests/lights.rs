@@ -130,3 +130,16 @@ fn a_sun_turns_about_an_axis() {
     let wanted = glam::DQuat::from_rotation_y(std::f64::consts::FRAC_PI_2) * before;
     assert!(after.distance(wanted) < 1e-5, "{after}, not {wanted}");
 }
+
+#[test]
+fn the_tool_adds_a_light_of_the_kind_that_is_chosen() {
+    for kind in [LightKind::Sun, LightKind::Point, LightKind::Ambient] {
+        let mut editor = with_lamp();
+        let count = editor.document().scene().lights.len();
+        editor.session.options.light = kind;
+        editor.session.set_tool(Tool::AddLight);
+        click(&mut editor, DVec2::new(200.0, 120.0));
+        let lights = &editor.document().scene().lights;
+        assert_eq!((lights.len(), lights[count].kind), (count + 1, kind));
+    }
+}

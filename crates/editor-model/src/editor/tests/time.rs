@@ -321,3 +321,44 @@ fn a_copy_that_lands_on_a_key_takes_its_place() {
     assert_eq!(keys[1], ObjectKey { frame: 60.0, ..first });
     assert_eq!(keys[3], ObjectKey { frame: 120.0, ..second });
 }
+
+#[test]
+fn undo_brings_back_a_pose_that_was_left_and_drops_one_that_shows() {
+    let (mut editor, name) = animating(60.0);
+    editor.session.auto_key = false;
+    let (before, count) = (editor.document().scene().clone(), editor.document().undo_count());
+    move_by_half(&mut editor);
+    act(&mut editor, Action::StepOn);
+    editor.tick(1.0);
+    assert!(!editor.time().is_loose(&name));
+    act(&mut editor, Action::Undo);
+    assert!(editor.time().is_loose(&name), "the pose is back");
+    assert_eq!((editor.session.frame, editor.document().undo_count()), (60.0, count));
+    act(&mut editor, Action::Undo);
+    assert!(!editor.time().is_loose(&name), "the pose is undone");
+    assert_eq!((editor.document().undo_count(), &editor.shown().0.scene), (count, &before));
+    act(&mut editor, Action::Undo);
+    assert_eq!(editor.document().undo_count(), count - 1, "then the entry before");
+}
+
+#[test]
+fn both_camera_tools_key_this_frame_alone() {
+    for by_view in [false, true] {
+        let (mut editor, _) = animating(30.0);
+        let camera = |editor: &Editor| editor.document().scene().camera.keys.clone();
+        let before = camera(&editor);
+        if by_view {
+            drag(&mut editor, Button::Middle, [DVec2::new(300.0, 200.0), DVec2::new(360.0, 230.0)], HERE);
+            act(&mut editor, Action::CameraFromView);
+        } else {
+            editor.session.set_tool(Tool::ShotCamera);
+            drag(&mut editor, Button::Left, [DVec2::new(300.0, 200.0), DVec2::new(360.0, 230.0)], HERE);
+        }
+        let after = camera(&editor);
+        let at_30 = |keys: &[impasto_scene::document::CameraKey]| keys.iter().any(|key| key.frame == 30.0);
+        assert!(!at_30(&before) && at_30(&after), "by view: {by_view}");
+        for key in &before {
+            assert!(after.contains(key), "another key was moved");
+        }
+    }
+}

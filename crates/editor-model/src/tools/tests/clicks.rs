@@ -99,7 +99,9 @@ fn a_click_makes_regions_of_floods_groups_and_materials() {
         assert_eq!(world.document.scene().regions.last().unwrap().on, wanted);
     }
     world.options.region_by = RegionBy::Flood;
-    world.click(Tool::Region, HERE, NONE);
+    // The flood reaches the lid: the user agrees.
+    let [asked, _] = world.click(Tool::Region, HERE, NONE);
+    world.run(asked.ask.expect("it is asked about").0);
     let made = world.document.scene().regions.last().unwrap();
     assert!(matches!(&made.on, Selector::Flood(object, _, sharp) if object == "ball" && *sharp == 30.0));
     world.options.region_does = RegionDoes::Add;
@@ -116,6 +118,41 @@ fn a_click_makes_regions_of_floods_groups_and_materials() {
 }
 
 #[test]
+fn a_click_that_takes_from_a_region_of_parts_is_asked_about_first() {
+    let mut world = World::new();
+    // The lid is a group: it was chosen. The skin is the whole ball: it is there to be parted.
+    world.options.region_does = RegionDoes::New;
+    let on_lid = [320.0, 80.0];
+    for by in [RegionBy::Flood, RegionBy::Group, RegionBy::Material] {
+        world.options.region_by = by;
+        let count = world.document.undo_count();
+        let [asked, _] = world.click(Tool::Region, on_lid, NONE);
+        let (command, taken) = asked.ask.expect("it is asked about");
+        assert!(taken.ends_with(" triangles of lid") && !taken.contains("skin"), "{taken}");
+        assert_eq!(world.document.undo_count(), count, "nothing is taken yet");
+        world.document.apply(&command).unwrap();
+        assert_eq!(world.document.undo_count(), count + 1);
+        world.document.undo();
+    }
+    world.options.region_by = RegionBy::Group;
+    let [made, _] = world.click(Tool::Region, HERE, NONE);
+    assert!(made.commit.is_some() && made.ask.is_none(), "from the skin it is taken at once");
+    world.document.undo();
+    // What the region has already is not taken from anybody.
+    world.options.region_does = RegionDoes::Add;
+    world.select(Item::Region("lid".to_owned()));
+    assert!(world.click(Tool::Region, on_lid, NONE)[0].commit.is_some());
+}
+
+#[test]
+fn the_turn_tool_shows_which_way_strokes_run() {
+    let mut world = World::new();
+    let needle = world.hover(Tool::TurnDirection, HERE).needle.expect("a needle");
+    assert!(needle.headed && (needle.along - DVec2::from_angle(-10f64.to_radians())).length() < 1e-9);
+    assert!(world.hover(Tool::TurnDirection, [20.0, 20.0]).needle.is_none());
+}
+
+#[test]
 fn f_sizes_the_brush_until_a_press() {
     let mut world = World::new();
     let key = |world: &mut World, action| world.take(Tool::Comb, ToolEvent::Key(action));
@@ -127,6 +164,11 @@ fn f_sizes_the_brush_until_a_press() {
         (world.options.radius_px, sized.status.as_str()),
         (55.0, "Radius 55 px   [Click] keep  [Esc] back")
     );
+    // The ring stays where F was pressed, and shows the radius that it would have.
+    let [ring] = &sized.rings[..] else { panic!("{} rings", sized.rings.len()) };
+    assert!(ring.at_px.distance(DVec2::from(HERE)) < 1.0, "{}", ring.at_px);
+    let reach_px = ring.points_px.iter().map(|at| at.distance(ring.at_px)).fold(0.0, f64::max);
+    assert!((45.0..70.0).contains(&reach_px), "{reach_px}");
     world.press(Tool::Comb, HERE, NONE);
     assert!(!world.hand.is_busy(), "the press keeps, and does not comb");
     world.drag_to(Tool::Comb, [HERE[0] + 60.0, HERE[1]], NONE);

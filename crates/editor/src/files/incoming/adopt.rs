@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use impasto_scene::assets::{self, AssetError, AssetFolders, AssetRequest};
 use impasto_scene::problem::Report;
+use impasto_scene::whole_file::{WholeFile, failure_in_words};
 use impasto_scene::{mesh_format, texture};
 
 use super::name_of;
@@ -36,7 +37,7 @@ pub enum AdoptError {
     #[error("{0}")]
     Unread(#[from] AssetError),
     /// A copy could not be written.
-    #[error("{file} could not be copied into {}: {source}", folder.display())]
+    #[error("{file} could not be copied into {}: {}", folder.display(), failure_in_words(source))]
     Unwritable {
         /// The file's name.
         file: String,
@@ -87,6 +88,27 @@ pub fn adopt_picture(picture: &Path, scene_folder: &Path) -> Result<Adopted, Ado
     let own_name = PathBuf::from(format!("{}.{}", plain_stem(&source), ending(&source)));
     let files = BTreeMap::from([(own_name.clone(), (source, texture::MAX_FILE_BYTES))]);
     copy_into_scene(&files, &own_name, scene_folder, "brushes")
+}
+
+/// Copies a file to where another file looks for it. No existing file is overwritten.
+///
+/// # Errors
+/// What the system said, in words to show.
+pub fn bring(file: &Path, to: &Path) -> Result<(), String> {
+    let copy = || -> io::Result<()> {
+        if let Some(folder) = to.parent() {
+            fs::create_dir_all(folder)?;
+        }
+        let mut copy = WholeFile::create(to)?;
+        io::copy(&mut fs::File::open(file)?, &mut copy)?;
+        copy.finish_new()
+    };
+    copy().map_err(|error| match error.kind() {
+        io::ErrorKind::AlreadyExists => format!("{} is there by now: press Retry", to.display()),
+        _ => {
+            format!("{} could not be copied to {}: {}", name_of(file), to.display(), failure_in_words(&error))
+        }
+    })
 }
 
 /// A file's ending in small letters.

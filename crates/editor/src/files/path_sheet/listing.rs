@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
+use impasto_scene::whole_file::failure_in_words;
+
 use super::Kind;
 
 /// At most this many rows are listed.
@@ -52,7 +54,9 @@ impl Listing {
             }
             Ok(found) if found.is_empty() => (found, Some("Nothing to choose in this folder.".to_owned())),
             Ok(found) => (found, None),
-            Err(error) => (Vec::new(), Some(format!("This folder cannot be read: {error}"))),
+            Err(error) => {
+                (Vec::new(), Some(format!("This folder cannot be read: {}", failure_in_words(&error))))
+            }
         };
         rows.extend(found.into_iter().take(MAX_ROWS));
         Self { folder: folder.to_owned(), rows, note }
@@ -83,7 +87,7 @@ impl Listing {
     }
 }
 
-/// The folders, then the files of the wanted kinds, each sorted by name. Hidden ones are left out.
+/// The folders, then the files of the wanted kinds (all, where none are given), each sorted by name. Hidden ones are left out.
 fn entries(folder: &Path, kinds: &[Kind]) -> std::io::Result<Vec<ListedFile>> {
     let (mut folders, mut files) = (Vec::new(), Vec::new());
     for entry in fs::read_dir(folder)?.flatten().take(MAX_ENTRIES) {
@@ -95,7 +99,7 @@ fn entries(folder: &Path, kinds: &[Kind]) -> std::io::Result<Vec<ListedFile>> {
         let path = entry.path();
         if path.is_dir() {
             folders.push(name);
-        } else if Kind::of(&path).is_some_and(|kind| kinds.contains(&kind)) {
+        } else if kinds.is_empty() || Kind::of(&path).is_some_and(|kind| kinds.contains(&kind)) {
             files.push(name);
         }
     }

@@ -186,6 +186,30 @@ fn a_save_asks_before_it_replaces() {
 }
 
 #[test]
+fn the_proposed_name_is_selected_without_its_ending() {
+    let (mut harness, _home) = sheet(FileAsk::SaveAs, "still_life.ron");
+    harness.event(egui::Event::Text("pears".to_owned()));
+    harness.run();
+    assert_eq!(field(&harness), "pears.ron");
+}
+
+#[test]
+fn a_folder_is_made_to_save_in() {
+    let (mut harness, home) = sheet(FileAsk::SaveAs, "still_life.ron");
+    harness.get_by_label("New folder").click();
+    harness.run();
+    harness.get_by_label("Folder name").type_text("pears");
+    harness.run();
+    press(&mut harness, Key::Enter);
+    assert!(home.path().join("pears").is_dir());
+    assert_eq!(harness.state().sheet.listing.folder, home.path().join("pears"));
+    assert_eq!(field(&harness), "still_life.ron", "the name stays");
+    harness.get_by_label("Save").click();
+    harness.run();
+    assert_eq!(harness.state().picked, Some(Picked::File(home.path().join("pears/still_life.ron"))));
+}
+
+#[test]
 fn a_save_gives_the_name_its_ending() {
     let (mut harness, home) = sheet(FileAsk::SaveCopy, "apple.v2");
     harness.get_by_label("Save").click();

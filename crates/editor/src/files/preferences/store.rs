@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use etcetera::BaseStrategy as _;
 use impasto_scene::assets::{AssetError, read_regular_file};
-use impasto_scene::whole_file::WholeFile;
+use impasto_scene::whole_file::{WholeFile, failure_in_words};
 use serde::Deserialize;
 
 use super::{Preferences, VERSION};
@@ -50,7 +50,7 @@ pub struct Loaded {
 #[derive(Debug, thiserror::Error)]
 pub enum PreferencesError {
     /// The file could not be written.
-    #[error("the preferences could not be kept in {}: {source}", folder.display())]
+    #[error("the preferences could not be kept in {}: {}", folder.display(), failure_in_words(source))]
     Unwritable {
         /// The config folder.
         folder: PathBuf,

@@ -22,7 +22,7 @@ fn what_is_saved_is_read_back() {
         scale: 1.5,
         show_welcome: false,
         driver: DriverChoice::Osmesa,
-        autosave_minutes: 7,
+        copy_after_secs: 7,
         digits_as_numpad: true,
         foresee_strokes: false,
         reduced_motion: true,
@@ -72,12 +72,12 @@ fn a_file_that_cannot_be_used_is_kept_beside() {
 fn hand_written_numbers_come_into_range() {
     let view = "Some((eye: (NaN, 0.0, 0.0), target: (0.0, 0.0, 0.0)))";
     let text = format!(
-        "(scale: 90.0, window_size: (NaN, 3.0), autosave_minutes: 4000, last_seen: [(file: \"/a.ron\", view: {view})])"
+        "(scale: 90.0, window_size: (NaN, 3.0), copy_after_secs: 40000, last_seen: [(file: \"/a.ron\", view: {view})])"
     );
     let (loaded, _folder) = read(&text);
     assert_eq!(loaded.note, None);
-    let Preferences { scale, window_size, autosave_minutes, last_seen, .. } = loaded.preferences;
-    assert_eq!((scale, window_size, autosave_minutes), (3.0, (1280.0, 600.0), 120));
+    let Preferences { scale, window_size, copy_after_secs, last_seen, .. } = loaded.preferences;
+    assert_eq!((scale, window_size, copy_after_secs), (3.0, (1280.0, 440.0), 7200));
     assert_eq!(last_seen[0].view, None);
 }
 

@@ -23,6 +23,7 @@ use impasto_editor_model::command::Command;
 use impasto_scene::document::Scene;
 
 use super::{Ask, PanelInput};
+pub use noise::NoisePart;
 
 /// The settings of what is selected. It fills the width and height of `ui`, which has no margins.
 pub fn inspector(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {

@@ -11,7 +11,20 @@ use impasto_scene::limits::{MAX_NOISE_INTENSITY, MAX_STRENGTH, NOISE_LAYERS, NOI
 use super::Asker;
 use super::number::Number;
 use super::parts::{FieldStyle, pick, reset, row, seen, text};
-use crate::widgets::{self, Tip};
+use crate::panels::Ask;
+use crate::widgets::{self, Button, Tip};
+
+/// The width of the button that opens a dialog for a picture, with its space.
+const BROWSE: f32 = 92.0;
+
+/// A part of the noise of an object's material.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoisePart {
+    /// What moves the vertices.
+    Vertex,
+    /// What colours the surface.
+    Surface,
+}
 
 /// A number of one part of the noise (vertex or surface): how it is shown, and access to its value.
 struct Setting<T> {
@@ -56,9 +69,11 @@ pub(super) fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]: [&O
     };
     let mut on = noise_of(object).is_some();
     let switch = widgets::checkbox(ui, "Noise", &mut on);
-    let effect = "A texture of noise moves its vertices and colours it.";
+    let effect = "Lets noise move its vertices, or colour its surface in place of its texture.";
     if (Tip { name: "Noise", effect, ..Tip::default() }).on(switch).changed() {
-        asker.ask(set(on.then(NoiseDisplace::default)));
+        // Neither part is on yet, so that the surface stays as it is until one is chosen.
+        let unused = NoiseDisplace { vertex: None, surface: None, ..NoiseDisplace::default() };
+        asker.ask(set(on.then_some(unused)));
     }
     let (Some(shown), Some(stored_noise)) = (noise_of(object), noise_of(stored)) else { return };
     let set = |noise: NoiseDisplace| set(Some(noise));
@@ -68,7 +83,13 @@ pub(super) fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]: [&O
     }
     if let (Some(now), Some(was)) = (&shown.vertex, &stored_noise.vertex) {
         let set = |vertex| set(NoiseDisplace { vertex: Some(vertex), ..stored_noise.clone() });
-        texture(ui, asker, ("Vertex noise file", object), (now, was), (|noise| &mut noise.texture, &set));
+        texture(
+            ui,
+            asker,
+            ("Vertex noise file", object, NoisePart::Vertex),
+            (now, was),
+            (|noise| &mut noise.texture, &set),
+        );
         settings(ui, asker, &vertex_numbers(), [now, was], &set);
         choices(ui, asker, &VERTEX_CHOICES, [now, was], &set);
     }
@@ -78,7 +99,13 @@ pub(super) fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]: [&O
     }
     if let (Some(now), Some(was)) = (&shown.surface, &stored_noise.surface) {
         let set = |surface| set(NoiseDisplace { surface: Some(surface), ..stored_noise.clone() });
-        texture(ui, asker, ("Surface noise file", object), (now, was), (|noise| &mut noise.texture, &set));
+        texture(
+            ui,
+            asker,
+            ("Surface noise file", object, NoisePart::Surface),
+            (now, was),
+            (|noise| &mut noise.texture, &set),
+        );
         layers(ui, asker, [now, was], &set);
         settings(ui, asker, &surface_numbers(), [now, was], &set);
         tint(ui, asker, [now, was], &set);
@@ -91,13 +118,23 @@ pub(super) fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]: [&O
 fn texture<T: Clone>(
     ui: &mut Ui,
     asker: &mut Asker<'_, '_>,
-    (label, object): (&str, &Object),
+    (label, object, part): (&str, &Object, NoisePart),
     (now, was): (&T, &T),
     (of, set): (NameOf<T>, &dyn Fn(T) -> Command),
 ) {
     let key = egui::Id::unique((label, &object.name));
     let name = of(&mut now.clone()).clone().unwrap_or_default();
-    let typed = row(ui, "Picture", |ui| text(ui, label, key, &name, FieldStyle::Field));
+    let typed = row(ui, "Picture", |ui| {
+        let room = ui.available_width() - BROWSE;
+        let typed = ui.scope(|ui| {
+            ui.set_max_width(room);
+            text(ui, label, key, &name, FieldStyle::Field)
+        });
+        if Button::new("Browse\u{2026}").name(&format!("Browse for {label}")).show(ui).clicked() {
+            asker.asks.push(Ask::ChooseNoise(object.name.clone(), part));
+        }
+        typed.inner
+    });
     if let Some(typed) = typed {
         let mut next = was.clone();
         *of(&mut next) = Some(typed.trim().to_owned()).filter(|name| !name.is_empty());

@@ -56,6 +56,7 @@ pub(super) fn of_object(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]
                     letter,
                     unit: if turns { "\u{b0}" } else { "" },
                     step: if turns { (1.0, 1) } else { (0.01, decimals(now[axis])) },
+                    default: Some(0.0),
                     unlabelled: Some(width),
                     warns,
                     ..Number::new(&name, effect_of(animate))
@@ -69,6 +70,7 @@ pub(super) fn of_object(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]
                 range: *KEY_SCALE.start()..=f64::INFINITY,
                 limits: Some(KEY_SCALE),
                 step: (0.01, 3),
+                default: Some(1.0),
                 unlabelled: Some(ui.available_width()),
                 warns,
                 ..Number::new("Uniform scale", effect_of(animate))
@@ -143,7 +145,12 @@ pub(super) fn key_rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: KeyOf, ease: 
     // Not previewed: a key that moved to another frame would vanish from this section during the drag. It moves
     // on release.
     asker.asks.retain(|ask| !matches!(ask, Ask::Preview(Command::Time(Time::MoveKeys(..)))));
-    if let Some(Ask::Do(Command::Time(Time::MoveKeys(_, by)))) = asker.asks.get(before) {
+    // Typed, or stepped by the wheel and the arrows.
+    if let Some(
+        Ask::Do(Command::Time(Time::MoveKeys(_, by)))
+        | Ask::DoMerged(Command::Time(Time::MoveKeys(_, by)), _),
+    ) = asker.asks.get(before)
+    {
         let session = impasto_editor_model::Session { frame: frame + by, ..asker.shown.session.clone() };
         asker.asks.push(Ask::Session(Box::new(session)));
     }

@@ -1,7 +1,7 @@
 //! Tests that the options bar has room for long words at every width.
 
 use egui::{Rect, accesskit, pos2, vec2};
-use impasto_editor_model::keymap::Preset;
+use impasto_editor_model::keymap::Keymap;
 use impasto_editor_model::session::{FillKind, RegionBy};
 use impasto_editor_model::{Document, Session};
 
@@ -57,10 +57,11 @@ fn boxes(session: &Session, (wide, window): (f32, f32), say: Translate) -> Vec<(
         document: &document,
         session,
         painting: None,
-        keys: Preset::Blender,
+        keymap: Keymap::default(),
         status: "",
         numbers: Numbers::default(),
         recent: &[],
+        troubles: &[],
         likely_meshes: &[],
     };
     let size = Rect::from_min_size(pos2(0.0, 0.0), vec2(window, 800.0));

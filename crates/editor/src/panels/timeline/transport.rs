@@ -16,6 +16,9 @@ use crate::widgets::{self, Button, FieldResponse, NumberField, Tip};
 /// The frames per second that can be typed.
 const FPS: std::ops::RangeInclusive<f64> = 0.001..=1e6;
 
+/// In a window narrower than this, in points, the bar leaves out what only tells something.
+const NARROW: f32 = 900.0;
+
 /// The buttons that go to the ends, step and play; and the field of the frame that is shown.
 pub(in crate::panels) fn transport(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.x = 1.0;
@@ -56,14 +59,10 @@ pub(in crate::panels) fn transport(ui: &mut Ui, shown: &PanelInput<'_>, asks: &m
 
 /// What follows the playback buttons while the lanes are open: the time, Auto key and Set key.
 pub(super) fn keying(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
-    ui.add_space(8.0);
-    let seconds = shown.session.frame / shown.document.scene().timeline.fps;
-    let words = format!("{seconds:.2} s");
-    let room = text_width(ui, "0000.00 s", type_face::number());
-    let left = ui.cursor().left();
-    ui.label(RichText::new(words).font(type_face::number()).color(Tokens::of(ui).weak));
-    ui.add_space((left + room - ui.cursor().left()).max(2.0));
-    divider(ui);
+    let is_narrow = ui.ctx().content_rect().width() < NARROW;
+    if !is_narrow {
+        seconds(ui, shown);
+    }
     ui.add_space(6.0);
     let on = shown.session.auto_key;
     let response = Button::new("    Auto key").name("Auto key").on(on).show(ui);
@@ -85,9 +84,21 @@ pub(super) fn keying(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     if (Tip { name: "Set key", key: &keys, effect, range: "" }).on(response).clicked() {
         asks.push(Ask::Act(Action::SetKey));
     }
-    if !keys.is_empty() {
+    if !keys.is_empty() && !is_narrow {
         widgets::key_cap(ui, &keys);
     }
+}
+
+/// The time of the frame that is shown.
+fn seconds(ui: &mut Ui, shown: &PanelInput<'_>) {
+    ui.add_space(8.0);
+    let seconds = shown.session.frame / shown.document.scene().timeline.fps;
+    let words = format!("{seconds:.2} s");
+    let room = text_width(ui, "0000.00 s", type_face::number());
+    let left = ui.cursor().left();
+    ui.label(RichText::new(words).font(type_face::number()).color(Tokens::of(ui).weak));
+    ui.add_space((left + room - ui.cursor().left()).max(2.0));
+    divider(ui);
 }
 
 /// The controls at the right end, from right to left: fold, loop, fields for rate and range, pacing.

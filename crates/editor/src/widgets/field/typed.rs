@@ -24,18 +24,24 @@ impl NumberField<'_> {
         let line = Stroke::new(2.0, if is_wrong { tokens.vermilion } else { tokens.accent_text });
         ui.painter().rect(frame, draw::corner(), tokens.field, line, StrokeKind::Inside);
         let mut inside = ui.new_child(UiBuilder::new().max_rect(frame));
+        // The text begins where the number stands while it is not typed.
+        let before = if self.centred || self.letter.is_empty() { 0 } else { super::LETTER as i8 };
+        self.draw_letter(ui, frame);
+        let align = if self.centred { egui::Align::Center } else { egui::Align::Min };
         let output = egui::TextEdit::singleline(&mut typed)
             .id(edit_id)
             .frame(egui::Frame::NONE)
-            .margin(egui::Margin::symmetric(8, 4))
-            .desired_width(frame.width() - 16.0)
+            .margin(egui::Margin { left: 8 + before, right: 8, top: 4, bottom: 4 })
+            .desired_width(frame.width() - 16.0 - f32::from(before))
+            .align(egui::Align2([align, egui::Align::Center]))
             .font(type_face::number())
             .show(&mut inside);
         let response = output.response.response;
         let name = self.name;
         response
             .widget_info(|| WidgetInfo { label: Some(name.to_owned()), ..WidgetInfo::new(Role::TextInput) });
-        if fresh {
+        // Without a default to bring back, a double click selects the whole number and not just a part of it.
+        if fresh || self.default.is_none() && is_double_click_in(ui, frame) {
             response.request_focus();
             let mut state = output.state;
             let all = egui::text::CCursorRange::two(
@@ -78,11 +84,7 @@ impl NumberField<'_> {
     /// text field, so the second one lands there.
     pub(super) fn is_double_clicked(&mut self, ui: &Ui, id: egui::Id, frame: Rect) -> bool {
         let Some(default) = self.default else { return false };
-        let is_here = ui.input(|input| {
-            let pointer = &input.pointer;
-            pointer.button_double_clicked(egui::PointerButton::Primary)
-                && pointer.interact_pos().is_some_and(|at| frame.contains(at))
-        });
+        let is_here = is_double_click_in(ui, frame);
         if is_here {
             let edit_id = id.with("typed");
             ui.data_mut(|data| data.remove::<egui::text_edit::TextEditState>(edit_id));
@@ -111,6 +113,14 @@ impl NumberField<'_> {
             (false, false) => "Any number".to_owned(),
         }
     }
+}
+
+fn is_double_click_in(ui: &Ui, frame: Rect) -> bool {
+    ui.input(|input| {
+        let pointer = &input.pointer;
+        pointer.button_double_clicked(egui::PointerButton::Primary)
+            && pointer.interact_pos().is_some_and(|at| frame.contains(at))
+    })
 }
 
 /// The number in what was typed, with a comma or a point, and with or without the unit.

@@ -39,11 +39,7 @@ pub fn mended(text: &str, fixes: &[&Fix]) -> String {
 /// or where a field of that name is given already.
 pub(super) fn renamed(located: &Located, field: &Field, error: &ron::Error) -> Option<Fix> {
     let ron::Error::NoSuchStructField { expected, found, .. } = error else { return None };
-    if found.len() > 64 {
-        return None;
-    }
-    let near: Vec<&str> =
-        expected.iter().copied().filter(|known| strsim::damerau_levenshtein(known, found) <= NEAR).collect();
+    let near: Vec<&str> = expected.iter().copied().filter(|known| is_near(known, found)).collect();
     let holder = holder_of(located.root(), field)?;
     let is_given = |name: &str| holder.iter().any(|other| located.text_of(&other.key) == name);
     let [meant] = near[..] else { return None };
@@ -52,6 +48,11 @@ pub(super) fn renamed(located: &Located, field: &Field, error: &ron::Error) -> O
         is_certain: true,
         edits: vec![(field.key.start as usize..field.key.end as usize, meant.to_owned())],
     })
+}
+
+/// Whether a name may be a mistyped other one.
+pub(super) fn is_near(name: &str, other: &str) -> bool {
+    name.len() <= 64 && strsim::damerau_levenshtein(name, other) <= NEAR
 }
 
 /// All fields of the value that a field belongs to.

@@ -169,6 +169,39 @@ fn a_scene_without_camera_objects_or_version_gets_usual_ones() {
 }
 
 #[test]
+fn a_missing_camera_is_told_beside_other_losses_and_a_mistyped_one_only_once() {
+    let folder = Folder::new();
+    let of_camera = |text: &str| {
+        let salvaged = folder.read(text);
+        assert_eq!(salvaged.loaded.scene.camera.keys.len(), 1, "{text}");
+        let of_camera = |loss: &&Loss| loss.problem.message.contains("has no `camera`");
+        salvaged.losses.iter().filter(of_camera).map(|loss| loss.problem.message.clone()).collect::<Vec<_>>()
+    };
+    let told = of_camera("(version: 1, sede: 4, objects: [])");
+    assert_eq!(told.len(), 1, "{told:?}");
+    let told = of_camera("(version: 1, camra: (keys: []), objects: [])");
+    assert_eq!(told.len(), 0, "{told:?}");
+    let told = of_camera("(version: 1, camera: (keys: 4), objects: [])");
+    assert_eq!(told.len(), 0, "{told:?}");
+}
+
+#[test]
+fn losses_beyond_the_most_that_are_listed_leave_the_listed_ones_alone() {
+    let folder = Folder::new();
+    let object = |index: usize| format!("    (name: \"o{index}\", mesh: \"meshes/leaf.obj\", hiden: false),");
+    let objects: Vec<String> = (0..limits::MAX_PROBLEMS + 20).map(object).collect();
+    let salvaged = folder.read(&scene(&objects.join("\n"), ""));
+    let (more, listed) = salvaged.losses.split_last().expect("losses");
+    assert_eq!(listed.len(), limits::MAX_PROBLEMS);
+    assert!(more.problem.message.starts_with("20 more"), "{}", more.problem.message);
+    for loss in listed {
+        let line = loss.problem.place.expect("a place").line;
+        let fixed = mended(&salvaged.text, &[loss.fix.as_ref().expect("a rename")]);
+        assert!(fixed.lines().nth(line - 1).is_some_and(|line| line.contains("hidden: ")), "line {line}");
+    }
+}
+
+#[test]
 fn text_that_is_not_a_scene_is_refused() {
     let folder = Folder::new();
     for text in ["", "// only words", "(version: 2, camera: ())", "{\"version\": 1}", "\0"] {

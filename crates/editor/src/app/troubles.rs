@@ -1,0 +1,57 @@
+//! Lists what failed in the window until it is settled, and settles it.
+
+use egui::Context;
+
+use super::EditorApp;
+use super::long_work::MeshFor;
+use crate::files::file_ask::FileAsk;
+use crate::panels::problems::{Settle, Trouble, TroubleOf};
+
+impl EditorApp {
+    /// Lists a failure and shows the list.
+    pub(super) fn trouble(&mut self, of: TroubleOf, words: String) {
+        let (words, mend, settles): (_, _, &'static [Settle]) = match &of {
+            TroubleOf::Save(_) => {
+                (words, "Your work is still here, and not in the file", &[Settle::SaveAs, Settle::Retry])
+            }
+            TroubleOf::Copy => (
+                format!("Unsaved work could not be copied: {words}"),
+                "A crash would lose what is not saved",
+                &[Settle::SaveAs, Settle::Retry, Settle::Dismiss],
+            ),
+            TroubleOf::Open(_) | TroubleOf::Import(_) => {
+                (words, "Nothing changed", &[Settle::Retry, Settle::Dismiss])
+            }
+        };
+        let trouble = Trouble { of, words, mend: mend.to_owned(), settles };
+        match self.troubles.iter_mut().find(|known| known.of == trouble.of) {
+            Some(known) if *known == trouble => {}
+            Some(known) => *known = trouble,
+            None => {
+                self.troubles.push(trouble);
+                self.sheets.problems = true;
+            }
+        }
+    }
+
+    /// Takes what was settled off the list.
+    pub(super) fn settled(&mut self, of: &TroubleOf) {
+        self.troubles.retain(|trouble| trouble.of != *of);
+    }
+
+    /// Does what a button of the list says.
+    pub(super) fn settle(&mut self, index: usize, settle: Settle, ctx: &Context) {
+        let Some(of) = self.troubles.get(index).map(|trouble| trouble.of.clone()) else { return };
+        match (settle, &of) {
+            (Settle::Dismiss, _) => self.settled(&of),
+            (Settle::SaveAs, _) => {
+                let start = self.editor.document().suggested_file();
+                self.files.dialogs.open(ctx, FileAsk::SaveAs, &start);
+            }
+            (Settle::Retry, TroubleOf::Save(target)) => drop(self.save(target.as_deref())),
+            (Settle::Retry, TroubleOf::Copy) => self.keep_before_risk(),
+            (Settle::Retry, TroubleOf::Open(path)) => self.open_asking(path),
+            (Settle::Retry, TroubleOf::Import(path)) => self.read_mesh(path, MeshFor::Import),
+        }
+    }
+}

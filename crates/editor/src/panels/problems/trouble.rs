@@ -1,0 +1,51 @@
+//! What failed in the window and is not settled yet: a save, a copy of unsaved work, a file that was to be read.
+
+use std::path::PathBuf;
+
+/// A failure that is listed until it is settled.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Trouble {
+    /// What failed.
+    pub of: TroubleOf,
+    /// What failed and why, as one sentence.
+    pub words: String,
+    /// What to do about it, as one sentence; empty where the buttons say it.
+    pub mend: String,
+    /// What can be done, the best first; never empty.
+    pub settles: &'static [Settle],
+}
+
+/// What a [`Trouble`] is about. A new one replaces an older one of the same thing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum TroubleOf {
+    /// The document was not saved to this file; none stands for its own.
+    Save(Option<PathBuf>),
+    /// Unsaved work was not copied.
+    Copy,
+    /// A scene or a mesh was not opened.
+    Open(PathBuf),
+    /// A mesh was not imported.
+    Import(PathBuf),
+}
+
+/// What settles a trouble.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Settle {
+    /// Do again what failed.
+    Retry,
+    /// Save the scene elsewhere.
+    SaveAs,
+    /// Take it off the list.
+    Dismiss,
+}
+
+impl Settle {
+    /// The words of its button, and its name.
+    pub(super) fn words(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Retry => ("Retry", "Retry"),
+            Self::SaveAs => ("Save as\u{2026}", "Save as"),
+            Self::Dismiss => ("Dismiss", "Dismiss"),
+        }
+    }
+}

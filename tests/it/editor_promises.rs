@@ -1,0 +1,131 @@
+//! Tests of what the window promises about the user's work, in the real window: nothing is lost by a kill or by a save
+//! that fails, and what is wrong stays listed until it is mended.
+
+use std::path::Path;
+
+use impasto_tests::screen::{EditorWindow, Screen, wait_for};
+
+use crate::editor_window::{folder, read};
+
+/// Adds the missing texture `skin.png` to the apple's material.
+fn with_a_missing_texture(folder: &Path) {
+    let mtl = folder.join("meshes/apple.mtl");
+    let text = std::fs::read_to_string(&mtl).unwrap();
+    let named = text.replacen("newmtl red\n", "newmtl red\nmap_Kd skin.png\n", 1);
+    assert_ne!(named, text);
+    std::fs::write(&mtl, named).unwrap();
+}
+
+fn move_the_apple(editor: &mut EditorWindow<'_>) {
+    editor.click("Viewport");
+    let shown = editor.rest().0;
+    editor.keys(&["g", "x", "period", "5", "Return"]);
+    editor.wait_for_title("apple.ron (edited) - Impasto");
+    editor.rest_after(shown);
+}
+
+#[test]
+fn work_outlives_a_kill_soon_after_an_edit() {
+    let Some(screen) = Screen::open() else { return };
+    let folder = folder();
+    let before = read(folder.path(), "apple.ron");
+    std::fs::create_dir(folder.path().join("config")).unwrap();
+    // As it is by itself, but for the seconds.
+    std::fs::write(folder.path().join("config/editor.ron"), "(copy_after_secs: 1)").unwrap();
+    let mut editor = EditorWindow::open(&screen, "killed", folder.path(), "apple.ron");
+    move_the_apple(&mut editor);
+    wait_for("a copy of the work", || {
+        let copies = std::fs::read_dir(folder.path().join("config/recovery")).ok()?.flatten();
+        // A copy that is still being written has another ending.
+        let whole =
+            copies.map(|copy| copy.path()).filter(|path| path.extension().is_none_or(|end| end != "part"));
+        let mut texts = whole.filter_map(|path| std::fs::read_to_string(path).ok());
+        texts.any(|text| text.contains("translation: (0.5")).then_some(())
+    });
+    // Dropping the window kills it.
+    drop(editor);
+    assert_eq!(read(folder.path(), "apple.ron"), before);
+    let mut editor = EditorWindow::start(&screen, "killed_again", folder.path(), &["apple.ron"]);
+    editor.click("Open what was being painted");
+    editor.wait_for_title("apple.ron (edited) - Impasto");
+    editor.keys(&["ctrl+s"]);
+    editor.wait_for_title("apple.ron - Impasto");
+    assert_eq!(read(folder.path(), "apple.ron").objects[0].keys[0].translation, [0.5, 0.0, 0.0]);
+}
+
+#[test]
+fn a_save_that_fails_stays_listed_until_the_work_is_saved_elsewhere() {
+    let Some(screen) = Screen::open() else { return };
+    let home = folder();
+    let work = home.path().join("work");
+    std::fs::create_dir(&work).unwrap();
+    std::fs::copy(home.path().join("apple.ron"), work.join("apple.ron")).unwrap();
+    std::fs::rename(home.path().join("meshes"), work.join("meshes")).unwrap();
+    let mut editor = EditorWindow::open(&screen, "unsaved", home.path(), "work/apple.ron");
+    move_the_apple(&mut editor);
+    // The folder is gone, with the mesh.
+    std::fs::rename(&work, home.path().join("moved")).unwrap();
+    editor.keys(&["ctrl+s"]);
+    editor.control("Show problems");
+    editor.keep_picture("listed");
+    editor.click("Save as");
+    editor.control("File name");
+    editor.keys(&["ctrl+a"]);
+    screen.type_text(&home.path().join("elsewhere.ron").to_string_lossy());
+    editor.keys(&["Return"]);
+    // It is saved at once, without a question about files that are not there.
+    editor.wait_for_title("elsewhere.ron - Impasto");
+    editor.wait_until_gone("Dismiss");
+    editor.keep_picture("settled");
+    let text = std::fs::read_to_string(home.path().join("elsewhere.ron")).unwrap();
+    assert!(text.contains("translation: (0.5, 0") && text.contains("meshes/apple.obj"), "{text}");
+}
+
+#[test]
+fn a_missing_texture_is_located_from_the_list_of_problems() {
+    let Some(screen) = Screen::open() else { return };
+    let folder = folder();
+    with_a_missing_texture(folder.path());
+    let elsewhere = tempfile::tempdir().unwrap();
+    let picture = elsewhere.path().join("my skin.png");
+    image_of_one_colour(&picture);
+    let mut editor = EditorWindow::open(&screen, "texture", folder.path(), "apple.ron");
+    editor.click("Show problems");
+    editor.control("Retry skin.png");
+    editor.keep_picture("listed");
+    editor.click("Locate skin.png");
+    editor.control("File name");
+    screen.type_text(&picture.to_string_lossy());
+    editor.keys(&["Return"]);
+    editor.wait_until_gone("Show problems");
+    editor.keep_picture("located");
+    let brought = std::fs::read(folder.path().join("meshes/skin.png")).unwrap();
+    assert_eq!(brought, std::fs::read(&picture).unwrap());
+    assert_eq!(editor.title(), "apple.ron - Impasto", "the scene was not edited");
+    assert_eq!(editor.quit(), Some(0));
+}
+
+/// Writes a PNG file of four red pixels.
+fn image_of_one_colour(path: &Path) {
+    let file = std::fs::File::create(path).unwrap();
+    let mut encoder = png::Encoder::new(file, 2, 2);
+    encoder.set_color(png::ColorType::Rgb);
+    let mut writer = encoder.write_header().unwrap();
+    writer.write_image_data(&[200, 20, 20].repeat(4)).unwrap();
+}
+
+#[test]
+fn the_window_opens_as_large_as_it_was() {
+    let Some(screen) = Screen::open() else { return };
+    let folder = folder();
+    let editor = EditorWindow::open(&screen, "sized", folder.path(), "apple.ron");
+    let [width, height] = [1000, 640].map(|side: i32| side.to_string());
+    let window = ["search", "--onlyvisible", "--name", " - Impasto$"];
+    screen.xdotool(&[&window[..], &["windowsize", "--sync", &width, &height]].concat());
+    assert_eq!(editor.quit(), Some(0));
+    let kept = std::fs::read_to_string(folder.path().join("config/editor.ron")).unwrap();
+    assert!(kept.contains("window_size: (1000.0, 640.0)"), "{kept}");
+    let mut editor = EditorWindow::open(&screen, "sized_again", folder.path(), "apple.ron");
+    let status = editor.control("Status");
+    assert!(status.corner[1] + status.size[1] <= 640 && status.corner[1] > 560, "{status:?}");
+}
