@@ -49,6 +49,7 @@ mod shapes;
 mod stated;
 mod stroke;
 mod stroke_directions;
+mod stroke_size;
 mod surface;
 mod traits;
 mod view;

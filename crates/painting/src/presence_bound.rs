@@ -10,7 +10,7 @@ use crate::coat::Coat;
 use crate::counts::most_wanted;
 use crate::painting::Painting;
 use crate::parts::Cap;
-use crate::stroke::{most_size, reach_px};
+use crate::stroke_size::{most_size, reach_px};
 
 /// Strokes fade near a body's outline, and more strokes make up for that; a fade below this counts as this.
 pub(crate) const LEAST_COUNTED_FADE: f32 = 0.3;

@@ -18,13 +18,10 @@ use crate::order::OrderEntry;
 use crate::painting_view::{CoatView, PaintingView, PlacedParticle};
 use crate::parts::{fit_of, wanted_where_small};
 use crate::presence_bound::LEAST_COUNTED_FADE;
+use crate::stroke_size::{LENGTH_SHARE, WIDTH_SHARE, reach_px};
 use crate::traits::{
     BEND, BOW, DRYNESS_JITTER, LENGTH_JITTER, SIZE_JITTER, THICKNESS_JITTER, USUAL_JITTER_DEG, WIDTH_JITTER,
 };
-
-/// Length and width also vary each on its own: standard deviations of their logarithms, as shares of the size jitter.
-const LENGTH_SHARE: f32 = 1.1;
-const WIDTH_SHARE: f32 = 0.75;
 
 /// Standard deviation of the logarithm of a stroke's thickness.
 const THICKNESS_DEVIATION: f32 = 0.2;
@@ -38,9 +35,6 @@ const BEND_SHARE: f32 = 1.5;
 
 /// How strongly the slow noise of edges changes the overrun.
 const EDGE_SWING: f32 = 0.6;
-
-/// Size of a stroke's quad over that of the stroke itself; the margin has room for ragged ends.
-const QUAD: f32 = 1.0 / impasto_core::brush::FILL;
 
 /// ln(D/u) of a stroke that is present whatever its rank.
 const WHOLE: f32 = 8.0;
@@ -206,17 +200,6 @@ impl PaintingView<'_> {
             Edges::Free => Stroke::FREE,
         }
     }
-}
-
-/// How far a stroke reaches from its centre along an axis of the picture, which has these parts along and across the stroke,
-/// pixels. The resolve shader may shift a stroke along itself: that is in it.
-pub(crate) fn reach_px([along, across]: [f32; 2], [length_px, width_px]: [f32; 2]) -> f32 {
-    0.5 * QUAD * (along.abs() * length_px + across.abs() * width_px) + 0.5 * length_px * along.abs()
-}
-
-/// The most that chance makes of a length and a width, as factors, where sizes vary by this much.
-pub(crate) fn most_size(jitter: f32) -> [f32; 2] {
-    [LENGTH_SHARE, WIDTH_SHARE].map(|share| (jitter * (1.0 + share) * hash::MOST_NORMAL).exp())
 }
 
 /// A stroke's outline in the picture.
