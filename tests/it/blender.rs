@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3, DVec4};
 use impasto_painting::{Painting, Preparer};
 use impasto_scene::document::Lens;
 use impasto_scene::load::{LoadOptions, load};
-use impasto_scene::motion::{CameraPose, camera_at, poses_at};
+use impasto_scene::motion::{CameraPose, camera_at, hidden_at, poses_at};
 use serde_json::Value;
 
 const SIZE_PX: DVec2 = DVec2::new(640.0, 360.0);
@@ -77,6 +77,13 @@ fn differences(shot: &Path, frames: &[Value]) -> [f64; 3] {
         for truth in frames {
             let frame = truth["frame"].as_f64().unwrap();
             let (camera, ours) = (camera_at(&loaded.scene, frame), vertices(&painting, index, frame));
+            let blender_hides = places(truth, &object.name).is_empty();
+            let name = &object.name;
+            assert_eq!(
+                hidden_at(&loaded.scene, frame)[index],
+                blender_hides,
+                "{name:?} is hidden, frame {frame}"
+            );
             for (&own, (in_world, blenders)) in pairs.iter().zip(places(truth, &object.name)) {
                 most_share = most_share.max(ours[own].distance(in_world) / (high - low).length());
                 let Some(at) = seen(&camera, ours[own]) else { continue };

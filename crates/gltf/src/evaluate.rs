@@ -335,7 +335,7 @@ fn drive_trs(trs: &mut Trs, property: NodeProperty, track: &Track, place: keys::
 fn rotation(track: &Track, place: keys::Place) -> DQuat {
     let key = |key| DQuat::from_array(place.key::<4>(track, key)).normalize();
     match track.interpolation {
-        Interpolation::Step => key(place.before),
+        Interpolation::Step => key(place.reached),
         Interpolation::Linear => match place.fraction() {
             0.0 => key(place.before),
             fraction => key(place.before).slerp(key(place.before + 1), fraction).normalize(),

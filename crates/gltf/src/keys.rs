@@ -4,11 +4,17 @@ use std::array;
 
 use crate::animation::{Interpolation, Track};
 
+/// A key at most this share of its time after the time that is asked for counts as reached: files round the times of frames to 32 bits, and
+/// half of them upwards. Only steps jump there.
+const ROUNDED: f64 = 2.0 * f32::EPSILON as f64;
+
 /// A time among the keys of a clock.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Place {
     /// The key at or before the time; the first, if the time is before all.
     pub before: usize,
+    /// The key whose value steps have; `before`, or the next one where the time differs from that by rounding only.
+    pub reached: usize,
     /// From the key before to the one after, seconds; 0 at or beyond the ends.
     span_s: f64,
     /// How far the time is between them, 0..1; 0 at a key and beyond the ends.
@@ -20,12 +26,13 @@ impl Place {
     pub fn at(times_s: &[f32], time_s: f64) -> Self {
         let last = times_s.len().saturating_sub(1);
         let time = |key: usize| f64::from(times_s[key]);
+        let at_end = |key: usize| Self { before: key, reached: key, span_s: 0.0, fraction: 0.0 };
         // A time that is no number counts as before all.
         if last == 0 || time_s.is_nan() || time_s <= time(0) {
-            return Self { before: 0, span_s: 0.0, fraction: 0.0 };
+            return at_end(0);
         }
         if time_s >= time(last) {
-            return Self { before: last, span_s: 0.0, fraction: 0.0 };
+            return at_end(last);
         }
         // Most tracks have a key per frame: then the first guess is right, or one beside it.
         let guess = (time_s - time(0)) / (time(last) - time(0)) * last as f64;
@@ -34,8 +41,10 @@ impl Place {
         let near = [guess, guess.wrapping_sub(1), guess + 1];
         let searched = || times_s.partition_point(|&key_s| f64::from(key_s) <= time_s) - 1;
         let before = near.into_iter().find(|&key| holds(key)).unwrap_or_else(searched);
-        let span_s = time(before + 1) - time(before);
-        Self { before, span_s, fraction: (time_s - time(before)) / span_s }
+        let next = time(before + 1);
+        let span_s = next - time(before);
+        let reached = if next - time_s <= ROUNDED * next.abs() { before + 1 } else { before };
+        Self { before, reached, span_s, fraction: (time_s - time(before)) / span_s }
     }
 
     /// How far the time is between its keys: 0 at a key and beyond the ends.
@@ -61,7 +70,7 @@ impl Place {
         let part = |index: usize| f64::from(track.values[index * track.width + axis]);
         let (before, t) = (self.before, self.fraction);
         match track.interpolation {
-            Interpolation::Step => part(before),
+            Interpolation::Step => part(self.reached),
             Interpolation::Linear if t == 0.0 => part(before),
             Interpolation::Linear => {
                 let (from, to) = (part(before), part(before + 1));
@@ -76,6 +85,24 @@ impl Place {
                     + self.span_s * (t3 - 2.0 * t2 + t) * out_tangent
                     + (3.0 * t2 - 2.0 * t3) * to
                     + self.span_s * (t3 - t2) * in_tangent
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_are_at_their_own_frame_however_its_time_was_rounded() {
+        for fps in [24.0, 25.0, 30.0, 30000.0 / 1001.0] {
+            let times_s: Vec<f32> = (0..5000).map(|frame| (f64::from(frame) / fps) as f32).collect();
+            let late = (1..4999).filter(|&frame| f64::from(times_s[frame]) > frame as f64 / fps).count();
+            assert!(late > 100, "no time of {fps} frames a second is rounded upwards");
+            for frame in 1..4999 {
+                let at = |frame: f64| Place::at(&times_s, frame / fps).reached;
+                assert_eq!([frame as f64, frame as f64 - 0.02].map(at), [frame, frame - 1], "{fps}");
             }
         }
     }
