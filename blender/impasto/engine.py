@@ -41,6 +41,10 @@ class ImpastoEngine(bpy.types.RenderEngine):
         except Exception as error:  # noqa: BLE001
             self._fail(f"{type(error).__name__}: {error}")
 
+    def _is_stopped(self) -> bool:
+        """Whether Esc was pressed. Tests put something else in its place, which Blender's own functions do not allow."""
+        return self.test_break()
+
     def _fail(self, words: str) -> None:
         if export_request.is_on:
             export_request.failure = words
@@ -73,7 +77,7 @@ class ImpastoEngine(bpy.types.RenderEngine):
         if self.is_animation:
             further = list(range(frame + scene.frame_step, scene.frame_end + 1, scene.frame_step))
         painter = painter_of(place.scene_file)
-        path = painter.frame(frame, further, how, self.test_break)
+        path = painter.frame(frame, further, how, self._is_stopped)
         for words in painter.take_warnings():
             self.report({"WARNING"}, words)
         planes = read(path)
@@ -105,7 +109,7 @@ class ImpastoEngine(bpy.types.RenderEngine):
             walk,
             view_layer=view_layer,
             report=report,
-            stop=self.test_break,
+            stop=self._is_stopped,
             anew=export_request.is_on and export_request.anew,
         )
         self.frame_set(frame, 0.0)

@@ -66,23 +66,23 @@ scene_file.write_text(text)
 assert not session.render(write_still=True)
 session.report("an error in the scene file, and its mend")
 
-# Esc: while exporting, and while painting.
+# Esc: while exporting, and while painting. How long it took is told, not judged: that depends on what else the machine does.
 engine = session.module("engine").ImpastoEngine
+heeded = engine._is_stopped
 for after in (0, 3):
-    count = [0]
+    asked: list[float] = []
 
     def breaks(_self: object) -> bool:
-        count[0] += 1
-        return count[0] > after
+        asked.append(time.monotonic())
+        return len(asked) > after
 
-    engine.test_break = breaks
+    engine._is_stopped = breaks
     monkey.location.x += 0.01
     session.module("painter").stop_all_painters()
-    begun_s = time.monotonic()
     assert not session.render()
-    took_s = time.monotonic() - begun_s
-    assert took_s < 1.5, f"Esc took {took_s:.2f} s"
-del engine.test_break
+    assert len(asked) == after + 1, f"{len(asked)} looks, and Esc at look {after + 1}"
+    session.report(f"Esc at look {after + 1} was heeded within {time.monotonic() - asked[-1]:.2f} s")
+engine._is_stopped = heeded
 assert not session.render(write_still=True)
 session.report("Esc while exporting and painting")
 
