@@ -160,7 +160,9 @@ class Painter:
                 continue
             if line is None or line.get("event") in ("stopped", "done", "error"):
                 return
+        # Until it has ended, it would count as alive for the next frame.
         self._process.kill()
+        self._process.wait()
 
     def end(self) -> None:
         """Ends the process and removes its files."""

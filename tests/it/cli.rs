@@ -262,11 +262,11 @@ fn outputs_are_refused_before_anything_is_drawn() {
 #[test]
 fn what_takes_more_memory_than_the_process_may_have_is_refused_and_does_not_end_it() {
     let folder = Folder::new();
-    let limited = |arguments: &str| {
-        let line =
-            format!("ulimit -v 1500000; exec {} render scene.ron -o f.png {arguments}", impasto().display());
+    let run = |arguments: &str| {
+        let line = format!("ulimit -v 1500000; exec {} {arguments}", impasto().display());
         Command::new("sh").current_dir(folder.path(".")).args(["-c", &line]).output().unwrap()
     };
+    let limited = |arguments: &str| run(&format!("render scene.ron -o f.png {arguments}"));
     let good = limited("--frames 0");
     assert_eq!(code(&good), 0, "{}", words(&good.stderr));
     for (arguments, says) in [
@@ -282,6 +282,15 @@ fn what_takes_more_memory_than_the_process_may_have_is_refused_and_does_not_end_
         let words = words(&output.stderr);
         assert!(code(&output) == 3 && words.contains(says) && words.lines().count() == 1, "{words}");
     }
+    let strokes = run("strokes scene.ron -o s.csv --size 8192x8192");
+    assert_eq!(code(&strokes), 3, "{}", words(&strokes.stderr));
+    // Who serves refuses the order, and lives on.
+    let order = r#"{"command":"render","id":1,"frames":"0","output":"f.exr","size":[8192,8192]}"#;
+    let served = run(&format!("serve scene.ron <<'END'\n{order}\n{{\"command\":\"quit\"}}\nEND\n"));
+    let said = words(&served.stdout);
+    let refusal = said.lines().find(|line| line.contains(r#""event":"error""#)).unwrap_or_default();
+    assert!(refusal.contains("8192x8192") && refusal.contains("MiB are left"), "{said}");
+    assert_eq!(code(&served), 0, "{said}");
 }
 
 /// As where a share goes away, or a disk is full.

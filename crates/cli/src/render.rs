@@ -15,7 +15,9 @@ use impasto_scene::document::{Scene, Style};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::memory;
 use impasto_scene::whole_file::WholeFile;
-use impasto_sequence::{Drawn, Ending, FileOutcome, FrameError, FrameFiles, Sequence, Wanted, picture_bytes};
+use impasto_sequence::{
+    Drawn, Ending, FileOutcome, FrameError, FrameFiles, Sequence, Wanted, fits_in_memory,
+};
 
 use crate::args::{ColorsChoice, RenderArguments, RotationChoice};
 use crate::cache::Storing;
@@ -102,7 +104,8 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
     let size_px = arguments.size.unwrap_or([loaded.scene.size.0, loaded.scene.size.1]);
     let scene_name = name_of(&loaded);
     let mut renderer = session::open_renderer(arguments.driver, verbose)?;
-    fits_in_memory(&loaded.scene, wanted, size_px, &renderer)?;
+    fits_in_memory(&loaded.scene, wanted, size_px, &renderer)
+        .map_err(|why| Failure::Refused(format!("{why}: make it smaller with --size")))?;
     let mut shaders = ShaderTexts::default();
     if let Some(folder) = &arguments.shaders {
         (_, shaders) = ShaderFolder::open(folder).map_err(Failure::Refused)?;
@@ -143,26 +146,6 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
         counted: verbose || arguments.json,
     };
     Ok(Plan { sequence, renderer, frames, destination, storing })
-}
-
-/// Refuses a picture that a software driver has no memory for: it would end the process in the middle.
-fn fits_in_memory(
-    scene: &Scene,
-    wanted: Wanted,
-    size_px: [u32; 2],
-    renderer: &Renderer,
-) -> Result<(), Failure> {
-    let takes = picture_bytes(scene, wanted, size_px, renderer);
-    let [width, height] = size_px;
-    let is_software = ["llvmpipe", "softpipe"].iter().any(|name| renderer.report().renderer.contains(name));
-    match memory::available_bytes() {
-        Some(left) if is_software && takes > left => Err(Failure::Refused(format!(
-            "a picture of {width}x{height} takes about {} MiB while it is drawn, and {} MiB are left: make it smaller with --size",
-            takes >> 20,
-            left >> 20,
-        ))),
-        _ => Ok(()),
-    }
 }
 
 /// Refuses to take a frame of another scene, or of another state of it, for one that is done.

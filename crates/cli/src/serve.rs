@@ -14,7 +14,7 @@ use impasto_gl_render::{Renderer, ShaderTexts};
 use impasto_painting::{FrameOptions, Preparer};
 use impasto_scene::aovs::AovSet;
 use impasto_scene::problem::Report;
-use impasto_sequence::{Ending, FileOutcome, FrameFiles, Sequence, Wanted};
+use impasto_sequence::{Ending, FileOutcome, FrameFiles, Sequence, Wanted, fits_in_memory};
 use serde_json::{Value, json};
 
 use crate::args::ServeArguments;
@@ -154,6 +154,12 @@ impl Server<'_> {
             none => none.insert(session::open_renderer(self.arguments.driver, false)?),
         };
         let size_px = order.size.unwrap_or([scene.size.0, scene.size.1]);
+        let wanted = Wanted {
+            exr: Some(aovs),
+            packing: if order.plain { Packing::Plain } else { Packing::Small },
+            ..Wanted::default()
+        };
+        fits_in_memory(scene, wanted, size_px, renderer).map_err(Failure::Refused)?;
         let sequence = Sequence {
             painting: painting.clone(),
             options: FrameOptions { transparent: order.alpha, ..FrameOptions::new(size_px) },
@@ -168,11 +174,7 @@ impl Server<'_> {
             state: String::new(),
             driver: session::driver(self.arguments.driver),
             shaders: ShaderTexts::default(),
-            wanted: Wanted {
-                exr: Some(aovs),
-                packing: if order.plain { Packing::Plain } else { Packing::Small },
-                ..Wanted::default()
-            },
+            wanted,
             timed: false,
             counted: false,
         };

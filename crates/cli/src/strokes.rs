@@ -11,6 +11,7 @@ use impasto_gl_render::ResolvedStroke;
 use impasto_painting::frame::{LayerRun, Stroke, StrokeSource};
 use impasto_painting::{Frame, FrameOptions, Painting};
 use impasto_scene::whole_file;
+use impasto_sequence::{Wanted, fits_in_memory};
 use serde::Serialize;
 
 use crate::args::{StrokeFormat, StrokesArguments};
@@ -60,6 +61,8 @@ pub(crate) fn run(arguments: &StrokesArguments) -> Result<(), Failure> {
     }
     let size_px = arguments.size.unwrap_or([loaded.scene.size.0, loaded.scene.size.1]);
     let mut renderer = session::open_renderer(arguments.driver, false)?;
+    fits_in_memory(&loaded.scene, Wanted::default(), size_px, &renderer)
+        .map_err(|why| Failure::Refused(format!("{why}: make it smaller with --size")))?;
     let Prepared { painting, storing } = session::prepare_scene(loaded, &arguments.scene, false)?;
     let frame_number = arguments.frame.unwrap_or(painting.scene().timeline.first as f64);
     if !frame_number.is_finite() {

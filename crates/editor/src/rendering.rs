@@ -19,7 +19,7 @@ use impasto_editor_model::render_settings::{
 use impasto_gl_render::context::{self, Driver, OpenOptions};
 use impasto_gl_render::{Picture, Renderer, ShaderTexts};
 use impasto_painting::{FrameOptions, PrepareError, PrepareOptions, Preparer};
-use impasto_sequence::{Ending, FileOutcome, FrameFiles, PngDepth, Sequence, Wanted};
+use impasto_sequence::{Ending, FileOutcome, FrameFiles, PngDepth, Sequence, Wanted, fits_in_memory};
 
 #[cfg(test)]
 mod tests;
@@ -184,6 +184,7 @@ fn run(
     if stop() {
         return Ok(Outcome::Stopped);
     }
+    fits_in_memory(&plan.loaded.scene, wanted(plan), plan.size_px, &renderer)?;
     let options = PrepareOptions {
         give_up: &stop,
         memory_bytes: impasto_scene::memory::available_bytes(),

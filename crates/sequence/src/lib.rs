@@ -23,10 +23,11 @@ use impasto_gl_render::Renderer;
 use impasto_scene::whole_file;
 
 use in_order::{Workers, in_order};
+use memory::picture_bytes;
 use painter::Painter;
 use shot::{Job, Painted};
 
-pub use memory::picture_bytes;
+pub use memory::fits_in_memory;
 pub use shot::{Drawn, FrameError, PngDepth, Sequence, Wanted};
 pub use state::state;
 

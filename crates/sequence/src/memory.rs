@@ -4,12 +4,13 @@ use impasto_gl_render::{Keeps, Renderer};
 use impasto_painting::frame::samples_that_fit;
 use impasto_scene::aovs::Aov;
 use impasto_scene::document::Scene;
+use impasto_scene::memory;
 
 use crate::shot::Wanted;
 
 /// What the frames and files of one painter take at most, bytes of a picture of this size; what was prepared comes on top. Measured with
 /// llvmpipe at 7680 x 4320 and 8192 x 8192.
-pub fn picture_bytes(scene: &Scene, wanted: Wanted, size_px: [u32; 2], renderer: &Renderer) -> u64 {
+pub(crate) fn picture_bytes(scene: &Scene, wanted: Wanted, size_px: [u32; 2], renderer: &Renderer) -> u64 {
     let style = scene.style.settings();
     let samples = samples_that_fit(style.preparation().samples, size_px, renderer.max_side_px());
     let aovs = wanted.exr.map(|aovs| aovs.shared(style.aovs()));
@@ -24,6 +25,29 @@ pub fn picture_bytes(scene: &Scene, wanted: Wanted, size_px: [u32; 2], renderer:
         while_drawn
     };
     size_px.map(u64::from).iter().product::<u64>() * while_read
+}
+
+/// Whether a software driver has the memory for such pictures: without it, it would end the process in the middle.
+///
+/// # Errors
+/// What they take and what is left, in words.
+pub fn fits_in_memory(
+    scene: &Scene,
+    wanted: Wanted,
+    size_px: [u32; 2],
+    renderer: &Renderer,
+) -> Result<(), String> {
+    let takes = picture_bytes(scene, wanted, size_px, renderer);
+    let [width, height] = size_px;
+    let is_software = ["llvmpipe", "softpipe"].iter().any(|name| renderer.report().renderer.contains(name));
+    match memory::available_bytes() {
+        Some(left) if is_software && takes > left => Err(format!(
+            "a picture of {width}x{height} takes about {} MiB while it is drawn, and {} MiB are left",
+            takes >> 20,
+            left >> 20,
+        )),
+        _ => Ok(()),
+    }
 }
 
 /// Those of the scene, but for the depth, which takes next to nothing.
