@@ -11,7 +11,7 @@ use impasto_scene::load::{self, LoadOptions};
 use impasto_scene::save;
 use libfuzzer_sys::fuzz_target;
 
-#[path = "../../crates/editor-model/tests/any_command/mod.rs"]
+#[path = "../../crates/editor-model/tests/it/any_command/mod.rs"]
 mod any_command;
 
 const SCENE: &str = include_str!("../scenes/values.ron");

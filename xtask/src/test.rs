@@ -15,12 +15,15 @@ use times::Times;
 /// How many of the slowest tests are named.
 const SLOWEST: usize = 10;
 
+/// What is built and run: all that has tests. Examples are checked by clippy, and no page of the code has an example that runs.
+const TARGETS: [&str; 3] = ["--lib", "--bins", "--tests"];
+
 /// Installs what is missing, then runs every test of the workspace; `passed_on` goes to `cargo test`. Names the slowest
 /// tests after a run of all of them.
 pub fn run(root: &Path, install: Install, passed_on: &[String]) -> anyhow::Result<()> {
     packages::ensure(root, packages::FOR_TESTS, install)?;
     let mut command = Command::new(cargo());
-    command.args(["test", "--workspace", "--locked"]).args(passed_on).current_dir(root);
+    command.args(["test", "--workspace", "--locked"]).args(TARGETS).args(passed_on).current_dir(root);
     if !passed_on.is_empty() {
         let status = command.status().context("cargo cannot be started")?;
         return if status.success() { Ok(()) } else { bail!("tests failed: {status}") };

@@ -3,7 +3,7 @@
 //!
 //! `busy` draws without a pause and prints how long a frame takes.
 
-#[path = "../tests/page/mod.rs"]
+#[path = "../tests/it/page/mod.rs"]
 mod page;
 
 use impasto_editor::theme::{self, Theme};

@@ -4,7 +4,6 @@
 
 #![expect(clippy::unwrap_used, reason = "a test fails by it")]
 
-#[path = "scene_file_page/declared.rs"]
 mod declared;
 
 use std::collections::BTreeMap;

@@ -1,14 +1,12 @@
 //! Tests of the render sheet: what it asks for, what it refuses, and how it looks. Controls are found by name.
 
-mod headless;
-
 use std::path::{Path, PathBuf};
 
+use crate::headless::Headless;
 use egui::accesskit::Toggled;
 use egui::{Color32, ColorImage, Key, Modifiers, TextureHandle, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, SnapshotOptions, SnapshotResults};
-use headless::Headless;
 use impasto_editor::panels::render_sheet::{RenderAsk, RenderShown, render_sheet};
 use impasto_editor::panels::work::{Work, WorkKind};
 use impasto_editor::panels::{Ask, Numbers, PanelInput, status_line};

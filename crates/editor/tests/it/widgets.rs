@@ -1,17 +1,14 @@
 //! Tests of the controls: what they do, and how they look. Controls are found by name.
 
-mod headless;
-mod page;
-
+use crate::headless::Headless;
+use crate::page::Page;
 use egui::{Key, Role, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, SnapshotOptions, SnapshotResults, try_image_snapshot_options};
-use headless::Headless;
 use impasto_editor::theme::{self, Theme};
 use impasto_editor::widgets::Toast;
 use impasto_editor::window::FocusRules;
 use impasto_gl_render::context::Driver;
-use page::Page;
 
 fn harness(theme: Theme) -> Harness<'static, Page> {
     Harness::builder()

@@ -1,13 +1,11 @@
 //! Tests of the panel of problems in a scene file: what it lists, what it asks for, and how it looks.
 
-mod headless;
-
 use std::path::PathBuf;
 
+use crate::headless::Headless;
 use egui::{CentralPanel, Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, SnapshotOptions};
-use headless::Headless;
 use impasto_editor::panels::problems::{Settle, Trouble, TroubleOf};
 use impasto_editor::panels::{Ask, Numbers, PanelInput, problems, status_line, top_bar};
 use impasto_editor::theme::{self, Theme, Tokens};

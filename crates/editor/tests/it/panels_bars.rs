@@ -1,16 +1,13 @@
 //! Tests of the panels round the viewport: what they ask for, and how they look. Controls are found by name.
 
-mod headless;
-#[path = "panels_bars/page.rs"]
 mod page;
-#[path = "panels_bars/timeline.rs"]
 mod timeline;
 
+use crate::headless::Headless;
 use egui::accesskit::Role;
 use egui::{Key, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, SnapshotOptions, SnapshotResults};
-use headless::Headless;
 use impasto_editor::panels::ask_close::{Answer, Question};
 use impasto_editor::panels::{Ask, welcome};
 use impasto_editor::theme::{self, Theme};

@@ -1,12 +1,10 @@
 //! Tests of the viewport on a page of its own: pointer events, what chips ask for, and how overlays look.
 
-mod headless;
-
+use crate::headless::Headless;
 use egui::{Event, Modifiers, PointerButton, Rect, Role, pos2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, SnapshotOptions};
 use glam::{DVec2, DVec3};
-use headless::Headless;
 use impasto_editor::panels::Ask;
 use impasto_editor::theme::{self, Theme};
 use impasto_editor::viewport::overlay::{CurvePart, DirectionInk, DirectionMark, GuideCurve};

@@ -1,10 +1,8 @@
 //! Every command can be undone: after a thousand random commands and as many undos, the document equals the first one.
 
-mod any_command;
-
 use std::path::Path;
 
-use any_command::{Dice, command};
+use crate::any_command::{Dice, command};
 use impasto_editor_model::{Document, Item, Selection};
 use impasto_scene::load::LoadOptions;
 use proptest::prelude::*;

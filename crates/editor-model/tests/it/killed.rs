@@ -49,7 +49,7 @@ fn nothing_written_is_lost_when_killed_at_any_moment() {
     let (mut random, mut offered, mut seen) = (0x2545_f491_4f6c_dd1d_u64, 0, 0);
     for run in 0..100 {
         let mut child = Process::new(std::env::current_exe().expect("this test"))
-            .args(["--exact", "painter", "--ignored", "--nocapture"])
+            .args(["--exact", "killed::painter", "--ignored", "--nocapture"])
             .env(FOLDER, folder.path())
             .stdout(Stdio::piped())
             .stderr(Stdio::null())

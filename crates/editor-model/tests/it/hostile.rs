@@ -94,7 +94,7 @@ fn hostile_files_open_or_are_refused_and_stay_what_they_are() {
     let lines: String = files.iter().map(|file| format!("{}\n", file.display())).collect();
     std::fs::write(&list, lines).expect("a list");
     let script = format!(
-        "ulimit -v {MEMORY_KIB} && exec timeout {SECONDS} \"$0\" --exact opener --ignored --nocapture --test-threads=1"
+        "ulimit -v {MEMORY_KIB} && exec timeout {SECONDS} \"$0\" --exact hostile::opener --ignored --nocapture --test-threads=1"
     );
     let output = Process::new("sh")
         .args(["-c", &script])
