@@ -11,7 +11,7 @@ use impasto_scene::mesh_format;
 
 pub use adopt::{AdoptError, Adopted, adopt_mesh, adopt_picture, bring};
 
-/// File extensions of pictures that can serve as brushes.
+/// File extensions of pictures that can serve as textures and brushes.
 pub const PICTURES: &[&str] = &["png", "jpg", "jpeg", "bmp", "tga", "webp"];
 
 /// The kind of a file, by its extension.
@@ -72,8 +72,8 @@ pub enum Step {
     Begin(PathBuf),
     /// Bring the mesh into the document ([`adopt_mesh`]).
     Import(PathBuf),
-    /// Bring the picture in as a brush ([`adopt_picture`]).
-    Brush(PathBuf),
+    /// Bring the picture in as the texture of the selected object, or as a brush ([`adopt_picture`]).
+    Picture(PathBuf),
 }
 
 /// What to do with files that came together.
@@ -90,7 +90,7 @@ pub struct Plan {
 /// What to do with files that are dropped or opened together.
 ///
 /// A scene is opened alone. A mesh starts a new scene if the document is empty, and is imported otherwise. Pictures
-/// become brushes, if there is a scene.
+/// become textures or brushes, if there is a scene.
 pub fn plan(paths: &[PathBuf], present: Present) -> Plan {
     let mut plan = Plan::default();
     let mut known = Vec::new();
@@ -119,10 +119,10 @@ pub fn plan(paths: &[PathBuf], present: Present) -> Plan {
     }
     for (_, picture) in known.iter().filter(|(kind, _)| *kind == Kind::Picture) {
         if is_there {
-            plan.steps.push(Step::Brush((*picture).clone()));
+            plan.steps.push(Step::Picture((*picture).clone()));
         } else {
             let words = format!(
-                "{} could be a brush, and there is nothing to paint yet: open a mesh first",
+                "{} could be a texture or a brush, and there is nothing to paint yet: open a mesh first",
                 name_of(picture)
             );
             plan.refused.push(words);
