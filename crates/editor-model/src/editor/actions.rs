@@ -127,6 +127,7 @@ impl Editor {
             Action::CameraFromView => self.bring_shot_to_view(),
             Action::SetKey => self.set_key(),
             Action::Render => self.requests.push(Request::Render),
+            Action::ExportMovie => self.requests.push(Request::ExportMovie),
             Action::Play => self.play_or_stop(),
             _ => {}
         }

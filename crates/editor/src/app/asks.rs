@@ -100,6 +100,7 @@ impl EditorApp {
                 Request::MaximiseViewport => self.folds.everything = !self.folds.everything,
                 Request::NextArea => panels::next_area(ctx),
                 Request::Render => self.open_render_sheet(),
+                Request::ExportMovie => self.open_movie_sheet(),
                 Request::Recapture(frame) => self.sheets.recapture = Some(frame),
             }
         }

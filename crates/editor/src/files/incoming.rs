@@ -25,6 +25,8 @@ pub enum Kind {
     Picture,
     /// A rendered picture that only other programs read, `.exr`.
     Exr,
+    /// A movie, which only other programs read.
+    Movie,
 }
 
 impl Kind {
@@ -34,6 +36,7 @@ impl Kind {
         match ending.as_str() {
             "ron" => Some(Self::Scene),
             "exr" => Some(Self::Exr),
+            "mp4" | "mov" | "webm" | "mkv" => Some(Self::Movie),
             _ if mesh_format::is_mesh(path) => Some(Self::Mesh),
             ending => PICTURES.contains(&ending).then_some(Self::Picture),
         }
@@ -146,7 +149,7 @@ pub fn taken(path: &Path) -> Result<Kind, String> {
     if !path.is_file() {
         return Err(format!("{name} is a device or a pipe, not a file"));
     }
-    Kind::of(path).filter(|kind| *kind != Kind::Exr).ok_or_else(|| refusal(path))
+    Kind::of(path).filter(|kind| !matches!(kind, Kind::Exr | Kind::Movie)).ok_or_else(|| refusal(path))
 }
 
 /// Why a file that Impasto does not read is not taken.
@@ -159,6 +162,9 @@ pub(super) fn refusal(path: &Path) -> String {
             format!("{name} is a model that Impasto does not read: export it as glTF or OBJ")
         }
         "exr" => format!("{name} is a rendered picture: Impasto writes EXR files and does not read them"),
+        "mp4" | "mov" | "webm" | "mkv" => {
+            format!("{name} is a movie: Impasto writes movies and does not read them")
+        }
         "mtl" => format!("{name} holds materials only: open the OBJ file that names it"),
         _ => format!("{name} is no scene (.ron), mesh (.obj, .glb) or picture (.png, .jpg)"),
     }

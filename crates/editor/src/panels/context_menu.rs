@@ -2,13 +2,16 @@
 //! act on what is selected; their words and keys are those of the menus at the top.
 
 use egui::containers::menu::menu_style;
-use egui::{Align, Context, Id, Layout, Popup, PopupAnchor, PopupKind, Pos2, RichText, Ui};
+use egui::text::{LayoutJob, TextWrapping};
+use egui::{
+    Align, Context, Id, Layout, Popup, PopupAnchor, PopupKind, Pos2, Role, Sense, Ui, WidgetInfo, vec2,
+};
 use impasto_editor_model::Item;
 use impasto_editor_model::keymap::Action;
 
 use super::menus::{self, Line};
 use super::{Ask, PanelInput};
-use crate::theme::{Tokens, type_face};
+use crate::theme::{Tokens, measure, type_face};
 
 use Line::{Add, Do, Separator};
 
@@ -134,11 +137,16 @@ fn words_of(about: &Item, selected: usize) -> String {
     }
 }
 
+/// The name of what the menu is about, in line with the words below.
 fn head(ui: &mut Ui, words: &str) {
-    let words = RichText::new(words).font(type_face::small()).color(Tokens::of(ui).weak);
-    ui.horizontal(|ui| {
-        ui.add_space(28.0);
-        ui.set_max_width(220.0);
-        ui.add(egui::Label::new(words).truncate().selectable(false));
-    });
+    const INDENT: f32 = 28.0;
+    let weak = Tokens::of(ui).weak;
+    let mut job = LayoutJob::simple_singleline(words.to_owned(), type_face::small(), weak);
+    job.wrap = TextWrapping::truncate_at_width(220.0);
+    let galley = ui.painter().layout_job(job);
+    let size = vec2(galley.size().x + 2.0 * INDENT, measure::HIT);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    let at = rect.left_center() + vec2(INDENT, -galley.size().y / 2.0);
+    ui.painter().galley(at, galley, weak);
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words));
 }

@@ -47,6 +47,7 @@ const MENUS: [(&str, &[Line]); 4] = [
             Do(Action::Revert),
             Separator,
             Do(Action::Render),
+            Do(Action::ExportMovie),
             CopyRenderCommand,
             Separator,
             Do(Action::Quit),

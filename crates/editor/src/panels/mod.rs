@@ -98,7 +98,7 @@ impl PanelInput<'_> {
             {
                 Some("Nothing is selected")
             }
-            Action::SelectAll | Action::FrameAll | Action::Render
+            Action::SelectAll | Action::FrameAll | Action::Render | Action::ExportMovie
                 if self.document.scene().objects.is_empty() =>
             {
                 Some("The scene is empty")

@@ -8,7 +8,7 @@ use impasto_editor_model::{Document, Selection};
 use impasto_scene::document::{Color, MaterialOverride};
 use impasto_scene::load::LoadOptions;
 
-use super::{Column, click, harness, harness_of, object, region, right_click, type_in};
+use super::{Column, click, harness_of, object, region, right_click, type_in};
 
 const OBJ: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n";
 
@@ -19,13 +19,23 @@ fn folder() -> tempfile::TempDir {
     write("leaf.obj", OBJ);
     write("bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     write("bad.png", "no picture");
+    let scene = |mesh: &str| {
+        format!(
+            "(version: 1, size: (64, 36), camera: (keys: [(frame: 0, eye: (0, 0, 4), target: (0, 0, 0))]), \
+             objects: [(name: \"leaf\", mesh: \"{mesh}\")])"
+        )
+    };
+    write("leaf.ron", &scene("leaf.obj"));
+    write("bare.ron", &scene("bare.obj"));
     let skin = image::RgbaImage::from_pixel(4, 4, image::Rgba([200, 60, 40, 255]));
     skin.save(folder.path().join("skin.png")).expect("written");
     folder
 }
 
-fn opened(folder: &tempfile::TempDir, mesh: &str) -> Harness<'static, Column> {
-    let document = Document::open(&folder.path().join(mesh), &LoadOptions::default()).expect("a mesh opens");
+fn opened(folder: &tempfile::TempDir, scene: &str) -> Harness<'static, Column> {
+    let mut document =
+        Document::open(&folder.path().join(scene), &LoadOptions::default()).expect("a scene opens");
+    document.select(Selection::from_iter(object("leaf")));
     let mut column = Column::of(document);
     column.tree_height = 300.0;
     harness_of(column, Theme::Dark, vec2(280.0, 1600.0))
@@ -53,6 +63,8 @@ fn name_file(harness: &mut Harness<'_, Column>, field: &str, file: &str) {
 
 /// Drags over the field of colours of the picker that is open under a square.
 fn pick_colour(harness: &mut Harness<'_, Column>, square: &str) {
+    // egui's picker has a button with a sign that no font of the window has; it is drawn empty.
+    harness.ctx.set_missing_glyph_policy(egui::MissingGlyphPolicy::Tofu);
     let at = harness.get_by_label(square).rect();
     click(harness, square);
     let from = at.left_bottom() + vec2(30.0, 190.0);
@@ -71,7 +83,7 @@ fn pick_colour(harness: &mut Harness<'_, Column>, square: &str) {
 #[test]
 fn a_colour_is_picked_as_one_entry_of_the_history_and_reset() {
     let folder = folder();
-    let mut harness = opened(&folder, "leaf.obj");
+    let mut harness = opened(&folder, "leaf.ron");
     assert_eq!(material(&harness), None);
     pick_colour(&mut harness, "Material colour");
     let picked = material(&harness).and_then(|material| material.color);
@@ -90,7 +102,7 @@ fn a_colour_is_picked_as_one_entry_of_the_history_and_reset() {
 #[test]
 fn colour_texture_and_gloss_are_saved_as_a_person_writes_them_and_read_again() {
     let folder = folder();
-    let mut harness = opened(&folder, "leaf.obj");
+    let mut harness = opened(&folder, "leaf.ron");
     name_file(&mut harness, "Texture file", "skin.png");
     assert_eq!(log(&harness), Some("Texture of leaf"));
     assert!(harness.state().document.shown().textures.contains_key("skin.png"), "it is painted with");
@@ -120,7 +132,7 @@ fn colour_texture_and_gloss_are_saved_as_a_person_writes_them_and_read_again() {
 #[test]
 fn a_picture_that_cannot_be_used_changes_nothing() {
     let folder = folder();
-    let mut harness = opened(&folder, "leaf.obj");
+    let mut harness = opened(&folder, "leaf.ron");
     for (file, why) in [("bad.png", "format of the picture is unknown"), ("nowhere.png", "was not found")] {
         name_file(&mut harness, "Texture file", file);
         let words = log(&harness).unwrap_or_default();
@@ -135,16 +147,19 @@ fn a_picture_that_cannot_be_used_changes_nothing() {
 fn a_mesh_without_places_for_a_picture_says_so() {
     let folder = folder();
     let words = "The mesh has no UV coordinates, so nothing says where the picture lies.";
-    for (mesh, says) in [("leaf.obj", false), ("bare.obj", true)] {
-        let mut harness = opened(&folder, mesh);
+    for (scene, says) in [("leaf.ron", false), ("bare.ron", true)] {
+        let mut harness = opened(&folder, scene);
         name_file(&mut harness, "Texture file", "skin.png");
-        assert_eq!(harness.query_by_label(words).is_some(), says, "{mesh}");
+        assert_eq!(harness.query_by_label(words).is_some(), says, "{scene}");
     }
 }
 
 #[test]
 fn pigments_of_a_region_are_added_picked_taken_out_and_reset() {
-    let mut harness = harness("still_life.ron", region("lemon"));
+    let mut column = Column::open("still_life.ron");
+    column.document.select(Selection::from_iter(region("lemon")));
+    // Wide enough for the picker below its square.
+    let mut harness = harness_of(column, Theme::Dark, vec2(700.0, 1600.0));
     let palette = |harness: &Harness<'_, Column>| harness.state().region("lemon").strokes.palette.clone();
     assert_eq!(palette(&harness), None);
     click(&mut harness, "Add a pigment");
@@ -165,8 +180,7 @@ fn pigments_of_a_region_are_added_picked_taken_out_and_reset() {
 fn a_region_leads_to_the_material_of_its_object() {
     let mut column = Column::open("still_life.ron");
     column.document.select(Selection::from_iter(region("lemon")));
-    let mut harness = harness_of(column, Theme::Dark, super::SIZE);
-    harness.run();
+    let mut harness = harness_of(column, Theme::Dark, vec2(280.0, 1600.0));
     click(&mut harness, "Material of lemon");
     harness.run();
     assert_eq!(harness.state().document.selection(), &Selection::from_iter(object("lemon")));

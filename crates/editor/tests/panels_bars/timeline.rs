@@ -181,12 +181,12 @@ fn a_click_between_keys_changes_the_ease_and_a_right_click_lists_them() {
 }
 
 fn right_click(harness: &mut Harness<'_, Page>, at: Pos2) {
+    harness.event(egui::Event::PointerMoved(at));
     for pressed in [true, false] {
         let button = egui::PointerButton::Secondary;
-        harness.event(egui::Event::PointerMoved(at));
         harness.event(egui::Event::PointerButton { pos: at, button, pressed, modifiers: Default::default() });
-        harness.run();
     }
+    harness.run();
 }
 
 #[test]

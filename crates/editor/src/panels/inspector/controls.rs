@@ -5,7 +5,7 @@ use egui::{Context, Id, RawInput, Rect, Vec2};
 
 use super::inspector;
 use crate::panels::column_state::ColumnState;
-use crate::panels::{Ask, PanelInput};
+use crate::panels::{Ask, PanelInput, brush_thumbnails};
 use crate::theme::{self, Theme};
 use crate::widgets;
 
@@ -35,6 +35,7 @@ pub fn controls(ctx: &Context, shown: &PanelInput<'_>) -> Vec<Control> {
         })
         .clone()
     });
+    brush_thumbnails::share(ctx, &unseen);
     let screen_rect = Some(Rect::from_min_size(egui::Pos2::ZERO, SIZE));
     let mut output = unseen.run_ui(RawInput { screen_rect, ..RawInput::default() }, |ui| {
         let mut unheard: Vec<Ask> = Vec::new();

@@ -157,8 +157,11 @@ fn material(ui: &mut Ui, asker: &mut Asker<'_, '_>, of_object: [&Object; 2]) {
     };
     let file = asker.shown.document.shown().meshes.get(&object.mesh);
     row(ui, "Colour", |ui| {
-        let of_mesh = file.and_then(|file| file.materials.first()).map(|material| Color(material.color));
-        let of_mesh = of_mesh.filter(|_| shown.texture.is_none()).unwrap_or(Color::white());
+        // A mesh of several materials has no one colour to show.
+        let of_mesh = match file.map(|file| &file.materials[..]) {
+            Some([only]) if only.texture.is_none() && shown.texture.is_none() => Color(only.color),
+            _ => Color::white(),
+        };
         let colour = seen(shown.color.unwrap_or(of_mesh));
         let square = asker.colour(ui, "Material colour", colour, |color| {
             set(MaterialOverride { color: Some(color), ..stored.clone() })
