@@ -104,6 +104,7 @@ pub fn open_context_menu(ctx: &Context, about: Option<Item>) {
     let Some(at) = ctx.input(|input| input.pointer.latest_pos()) else { return };
     ctx.data_mut(|data| data.insert_temp(id(), Opened { about, at }));
     Popup::open_id(ctx, id());
+    ctx.request_repaint();
 }
 
 /// Shows the menu while it is open. `Esc` and a click close it.

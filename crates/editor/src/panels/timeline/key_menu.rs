@@ -26,7 +26,7 @@ pub(super) struct KeyMenu {
 
 /// What a row of the menu does.
 enum Does {
-    Ask(Ask),
+    Ask(Box<Ask>),
     Copy,
 }
 
@@ -53,7 +53,7 @@ impl KeyMenu {
         });
         match chosen?.inner? {
             Does::Ask(ask) => {
-                asks.push(ask);
+                asks.push(*ask);
                 None
             }
             Does::Copy => Some(self.keys.clone()),
@@ -62,7 +62,7 @@ impl KeyMenu {
 
     /// The rows: words, keys, and what each does.
     fn rows(&self, copied: &[KeyAt]) -> Vec<(String, &'static str, Does)> {
-        let time = |time: Time| Does::Ask(Ask::Do(Command::Time(time)));
+        let time = |time: Time| Does::Ask(Box::new(Ask::Do(Command::Time(time))));
         let counted = |count: usize| if count == 1 { "key".to_owned() } else { format!("{count} keys") };
         let frame = self.frame;
         let mut rows = Vec::new();
@@ -86,7 +86,7 @@ impl KeyMenu {
             rows.push((words, "", time(Time::SetKey(lane.clone(), frame))));
         }
         let go = Ask::Timeline(TimelineEvent::GoTo(frame));
-        rows.push((format!("Go to frame {frame}"), "", Does::Ask(go)));
+        rows.push((format!("Go to frame {frame}"), "", Does::Ask(Box::new(go))));
         rows
     }
 }
