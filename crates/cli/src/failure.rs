@@ -8,6 +8,7 @@ use impasto_gl_render::RenderError;
 use impasto_gl_render::context::ContextError;
 use impasto_scene::problem::Report;
 use impasto_sequence::FrameError;
+use impasto_sequence::movie::MovieError;
 
 /// The exit code where the command line is wrong.
 pub(crate) const USAGE: u8 = 2;
@@ -119,6 +120,20 @@ impl From<FrameError> for Failure {
         match error {
             FrameError::Render(error) => error.into(),
             FrameError::Encode(_) | FrameError::Write(_) => Self::Other(error.to_string()),
+        }
+    }
+}
+
+impl From<MovieError> for Failure {
+    fn from(error: MovieError) -> Self {
+        match error {
+            MovieError::NoTransparency(words) => Self::Usage(format!("--alpha: {words}")),
+            MovieError::NotInstalled(words) => Self::Refused(format!(
+                "{words}, or let impasto render write frames (-o out/frame_####.png) or one animated PNG (--apng)"
+            )),
+            MovieError::NoEncoder(words) => Self::Refused(words),
+            MovieError::Failed(words) => Self::Other(words),
+            MovieError::Frame(error) => error.into(),
         }
     }
 }

@@ -13,11 +13,11 @@ use impasto_scene::assets::AssetFolders;
 use impasto_scene::load::{LoadOptions, load};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::whole_file::WholeFile;
+use impasto_sequence::movie::Kind;
 
 use crate::args::{Arguments, Command};
 use crate::failure::Failure;
 use crate::farm_args::{FarmArguments, FarmCommand, PackArguments, SlurmArguments};
-use crate::ffmpeg::Kind;
 
 /// What `impasto render` gets from the job itself.
 const OWN_FLAGS: [&str; 6] = ["-o", "--output", "-f", "--frames", "--skip-existing", "--progress"];

@@ -10,7 +10,6 @@ mod edit;
 mod failure;
 mod farm;
 mod farm_args;
-mod ffmpeg;
 mod info;
 mod interrupt;
 mod manual;

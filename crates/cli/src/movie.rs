@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use impasto_frame_files::frame_reader::{self, Depth, FrameInfo, FramePixels};
 use impasto_frame_files::{FrameList, Pattern, not_an_input, ready_folder};
+use impasto_sequence::movie::{FrameFormat, Kind, Movie};
 use rayon::prelude::*;
 
 use crate::args::MovieArguments;
 use crate::failure::Failure;
-use crate::ffmpeg::{FrameFormat, Kind, Movie};
 use crate::interrupt::Interrupt;
 use crate::progress::progress_bar;
 

@@ -15,6 +15,7 @@ use impasto_scene::document::{Scene, Style};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::memory;
 use impasto_scene::whole_file::WholeFile;
+use impasto_sequence::movie::{Encoding, FrameFormat, Kind, Movie};
 use impasto_sequence::{
     Drawn, Ending, FileOutcome, FrameError, FrameFiles, Sequence, Wanted, fits_in_memory,
 };
@@ -22,7 +23,6 @@ use impasto_sequence::{
 use crate::args::{ColorsChoice, RenderArguments, RotationChoice};
 use crate::cache::Storing;
 use crate::failure::Failure;
-use crate::ffmpeg::{Encoding, FrameFormat, Kind, Movie};
 use crate::interrupt::Interrupt;
 use crate::progress::{Progress, progress_bar};
 use crate::session::{self, Prepared};
@@ -362,7 +362,7 @@ impl Plan {
             fps: self.sequence.painting.scene().timeline.fps,
         };
         let mut movie = Movie::start(path, encoding, frames)?;
-        let fault = self.pictures(arguments, interrupt, |rgba8| movie.add(rgba8))?;
+        let fault = self.pictures(arguments, interrupt, |rgba8| Ok(movie.add(rgba8)?))?;
         movie.finish()?;
         self.tell_done(arguments, path);
         Ok(fault)

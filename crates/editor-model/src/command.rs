@@ -4,6 +4,7 @@ mod arrange;
 mod direction;
 mod edit;
 mod keys;
+mod material;
 mod region;
 mod scene;
 mod time;

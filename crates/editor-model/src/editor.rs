@@ -12,6 +12,7 @@ mod mending;
 mod objects;
 mod painted;
 mod pointer;
+mod request;
 mod saving;
 #[cfg(test)]
 mod tests;
@@ -40,69 +41,7 @@ use crate::transform::Transforming;
 pub use lights::LightPlace;
 pub use mending::{Mend, Mended, Took};
 pub use pointer::{PointerEvent, PointerKind};
-
-/// A request that only the window can fulfil.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Request {
-    /// Opens a new, empty scene; asks about unsaved work first.
-    New,
-    /// Asks for a scene or a mesh to open.
-    Open,
-    /// Writes to the document's own file, or asks for one.
-    Save,
-    /// Asks for a file to write to.
-    SaveAs,
-    /// Asks for a file to write a copy to.
-    SaveCopy,
-    /// Reads the document's file again; asks about unsaved work first.
-    Revert,
-    /// Closes the window; asks about unsaved work first.
-    Quit,
-    /// Asks for a mesh to add.
-    Import,
-    /// Shows the command search.
-    Palette,
-    /// Shows the list of all keys.
-    Shortcuts,
-    /// Lets the user type a new name for what is selected.
-    Rename,
-    /// Shows the menu of things to add.
-    Add,
-    /// Shows or folds the right column.
-    ToggleColumn,
-    /// Shows only the viewport, or everything.
-    MaximiseViewport,
-    /// Gives the keyboard to the next area of the window.
-    NextArea,
-    /// Shows the dialog in which one sets what is rendered.
-    Render,
-    /// Reads the scene from the text that is edited in the panel of problems.
-    ReadSource,
-    /// Asks before this frame becomes the reference.
-    Recapture(i64),
-    /// Asks before this command, which takes these triangles from other regions.
-    TakeFaces(Box<Command>, String),
-}
-
-/// A message to show for a while.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Said {
-    /// The words.
-    pub words: String,
-    /// The action that a click on it triggers.
-    pub offers: Option<Offer>,
-    /// Whether it reports something that was refused.
-    pub is_refusal: bool,
-}
-
-/// An action that a message offers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Offer {
-    /// Undoes the last entry of the history.
-    Undo,
-    /// Restores the pose that was left without a key.
-    PoseAgain,
-}
+pub use request::{Offer, Request, Said};
 
 /// A transform of objects under way.
 #[derive(Debug)]
@@ -152,6 +91,8 @@ pub struct Editor {
     busy: Busy,
     /// Where the pointer is, when it is over the viewport.
     pointer_px: Option<DVec2>,
+    /// Where the right button went down, if that began nothing: a release there asks for a menu.
+    right_px: Option<DVec2>,
     held: Modifiers,
     at_secs: f64,
     /// When the pointer last did something. `at_secs` goes on while it rests.
@@ -185,6 +126,7 @@ impl Editor {
             time: TimeHand::default(),
             busy: Busy::Idle,
             pointer_px: None,
+            right_px: None,
             held: Modifiers::default(),
             at_secs: 0.0,
             moved_secs: 0.0,

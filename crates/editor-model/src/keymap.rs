@@ -30,6 +30,8 @@ pub enum Action {
     ImportMesh,
     /// Opens the sheet that renders frames.
     Render,
+    /// Opens the sheet that renders frames, for a movie of them.
+    ExportMovie,
     /// Takes the last entry of the history back.
     Undo,
     /// Does again what was taken back last.

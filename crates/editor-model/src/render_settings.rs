@@ -182,7 +182,14 @@ impl RenderSettings {
         let frames = FrameList::parse(&list).map_err(fault(Field::Frames))?;
         check_size(self.size_px).map_err(fault(Field::Size))?;
         let output = output_file(&self.output, document.folder()).map_err(fault(Field::Output))?;
-        let pattern = Pattern::parse(&output.to_string_lossy(), frames.count());
+        let kind = self.kind.fitting(&self.output);
+        if kind == FileKind::Movie && self.transparent && !is_clear(&output) {
+            let words = "this kind of movie holds no transparency: let the name end in .mov or .webm";
+            return Err(fault(Field::Output)(words.to_owned()));
+        }
+        // A movie is one file, whatever stands in its name.
+        let count = if kind == FileKind::Movie { 1 } else { frames.count() };
+        let pattern = Pattern::parse(&output.to_string_lossy(), count);
         Ok(RenderPlan {
             loaded: Arc::clone(document.loaded()),
             frames,
@@ -190,7 +197,7 @@ impl RenderSettings {
             driver: self.driver,
             transparent: self.transparent,
             existing: Existing::Replace,
-            kind: self.kind.fitting(&self.output),
+            kind,
             aovs: self.aovs,
             pattern,
             output,
@@ -205,9 +212,13 @@ impl RenderPlan {
         Self { existing: Existing::Keep, ..self }
     }
 
-    /// The file of a frame; a frame that becomes two files has them under this name with either ending.
+    /// The file of a frame; a frame that becomes two files has them under this name with either ending. A movie is the file of all its
+    /// frames.
     pub fn path(&self, frame: i64) -> PathBuf {
-        self.pattern.path(frame)
+        match self.kind {
+            FileKind::Movie => self.output.clone(),
+            _ => self.pattern.path(frame),
+        }
     }
 
     /// What EXR files hold beside the colour; `None` where none are written.
@@ -238,7 +249,7 @@ impl RenderPlan {
         let Ok(entries) = std::fs::read_dir(self.folder()) else { return 0 };
         let there: HashSet<OsString> = entries.flatten().map(|entry| entry.file_name()).collect();
         let is_named = |path: PathBuf| path.file_name().is_some_and(|name| there.contains(name));
-        let is_there = |frame: &i64| self.kind.files(&self.path(*frame)).any(is_named);
+        let is_there = |frame: &i64| self.kind.files(&self.path(*frame)).into_iter().any(is_named);
         self.frames.iter().filter(is_there).count()
     }
 
@@ -250,7 +261,7 @@ impl RenderPlan {
         ready_folder(&self.output)?;
         let inputs = self.loaded.inputs();
         // Frames are pictures, so only a picture that the scene reads can be one of them.
-        let files = |frame: i64| self.kind.files(&self.path(frame)).collect::<Vec<_>>();
+        let files = |frame: i64| self.kind.files(&self.path(frame));
         let ours: HashSet<PathBuf> = self.frames.iter().flat_map(files).collect();
         let is_ours = |input: &&PathBuf| {
             let input = std::path::absolute(input).unwrap_or_else(|_| (*input).clone());
@@ -303,6 +314,12 @@ fn check_size(size_px: [u32; 2]) -> Result<(), String> {
     Ok(())
 }
 
+/// Whether a movie of this name can be transparent.
+fn is_clear(movie: &Path) -> bool {
+    let ending = movie.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    ["mov", "webm"].contains(&ending.as_str())
+}
+
 /// The pattern that was typed, as an absolute path.
 fn output_file(typed: &str, folder: &Path) -> Result<PathBuf, String> {
     let typed = typed.trim();
@@ -314,7 +331,7 @@ fn output_file(typed: &str, folder: &Path) -> Result<PathBuf, String> {
         return Err("a name cannot hold this character".to_owned());
     }
     if FileEnding::of(&name).is_none() {
-        let words = "let the name end in .png or .exr; movies are made by impasto render -o film.mp4";
+        let words = "let the name end in .png or .exr, or in .mp4, .mov or .webm for a movie";
         return Err(words.to_owned());
     }
     let path = folder.join(typed);

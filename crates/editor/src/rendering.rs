@@ -19,6 +19,7 @@ use impasto_editor_model::render_settings::{
 use impasto_gl_render::context::{self, Driver, OpenOptions};
 use impasto_gl_render::{Picture, Renderer, ShaderTexts};
 use impasto_painting::{FrameOptions, PrepareError, PrepareOptions, Preparer};
+use impasto_sequence::movie::{Depth, Encoding, FrameFormat, Kind, Movie, MovieError};
 use impasto_sequence::{Ending, FileOutcome, FrameFiles, PngDepth, Sequence, Wanted, fits_in_memory};
 
 #[cfg(test)]
@@ -170,6 +171,8 @@ fn run(
     wake: &dyn Fn(),
 ) -> Result<Outcome, String> {
     plan.ready().map_err(|error| error.to_string())?;
+    // Said before anything is painted: ffmpeg may be missing, or lack what this kind of movie needs.
+    let encoding = encoding(plan).map_err(|error| error.to_string())?;
     let driver = match plan.driver {
         RenderDriver::Automatic => Driver::Auto,
         RenderDriver::Egl => Driver::Egl,
@@ -210,6 +213,9 @@ fn run(
         timed: false,
         counted: false,
     };
+    if let Some(encoding) = encoding {
+        return film(shared, plan, (&sequence, &mut renderer), encoding, wake);
+    }
     let files = FrameFiles {
         frames: &plan.frames,
         path: &|frame_number| plan.path(frame_number),
@@ -245,12 +251,61 @@ fn run(
     }
 }
 
+/// How the movie of a plan is encoded; `None` where it makes none.
+fn encoding(plan: &RenderPlan) -> Result<Option<&'static Encoding>, MovieError> {
+    let Some(kind) = Kind::of(plan.output()).filter(|_| plan.kind == FileKind::Movie) else {
+        return Ok(None);
+    };
+    let encoding = kind.encoding(plan.transparent)?;
+    encoding.ready(plan.output())?;
+    Ok(Some(encoding))
+}
+
+/// Renders all frames into one movie, which is there only once it is whole.
+fn film(
+    shared: &Shared,
+    plan: &RenderPlan,
+    (sequence, renderer): (&Sequence, &mut Renderer),
+    encoding: &Encoding,
+    wake: &dyn Fn(),
+) -> Result<Outcome, String> {
+    let format = FrameFormat {
+        size_px: plan.size_px,
+        depth: Depth::Eight,
+        fps: sequence.painting.scene().timeline.fps,
+    };
+    let said = |error: MovieError| error.to_string();
+    let mut movie = Movie::start(plan.output(), encoding, format).map_err(said)?;
+    let began = Instant::now();
+    let ending = sequence.render(renderer, &plan.frames, &|| shared.is_stopped(), |drawn| {
+        if let Some(picture) = &drawn.picture {
+            movie.add(&picture.rgba8)?;
+            shared.note(|board| {
+                let progress = &mut board.progress;
+                progress.written += 1;
+                progress.drawing_s = began.elapsed().as_secs_f64();
+                progress.strokes = drawn.strokes;
+                board.picture = Some(small_copy(picture));
+            });
+            wake();
+        }
+        Ok::<(), MovieError>(())
+    });
+    let fault = match ending.map_err(said)? {
+        Ending::Stopped => return Ok(Outcome::Stopped),
+        Ending::Done(fault) => fault,
+    };
+    movie.finish().map_err(said)?;
+    shared.note(|board| board.progress.last = Some(plan.output().to_owned()));
+    fault.map_or(Ok(Outcome::Done), |fault| Err(format!("The movie is written, but {fault}")))
+}
+
 /// The files of each frame, and its pixels, of which the window shows a small copy.
 fn wanted(plan: &RenderPlan) -> Wanted {
     let png = match plan.kind {
         FileKind::Png8 | FileKind::PngAndExr => Some(PngDepth::Eight),
         FileKind::Png16 => Some(PngDepth::Sixteen),
-        FileKind::Exr => None,
+        FileKind::Exr | FileKind::Movie => None,
     };
     Wanted { picture: true, png, exr: plan.aovs(), ..Wanted::default() }
 }

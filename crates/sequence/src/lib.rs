@@ -11,6 +11,7 @@
 mod exr;
 mod in_order;
 mod memory;
+pub mod movie;
 mod painter;
 mod shot;
 mod state;

@@ -14,6 +14,7 @@ use impasto_scene::motion::{self, CameraPose};
 use impasto_scene::new_scene::{self, Placing};
 
 use super::keys::KeyedValue;
+use super::material::set_material;
 use super::region::in_file;
 use super::time::Time;
 use super::{Command, Done, counted, finite, moved_by_shot, object_mut, posable_object, unlocked_object};
@@ -175,18 +176,7 @@ impl Arrange {
                 carry_along(scene, name, DMat3::from_diagonal(DVec3::splat(factor)));
                 Ok(Done::new(format!("Scale {name}")))
             }
-            Self::SetMaterial(name, material) => {
-                let material = material.clone().map(|mut material| {
-                    material.color = material.color.map(in_file);
-                    let surface = material.noise_displace.as_mut().and_then(|noise| noise.surface.as_mut());
-                    if let Some(surface) = surface {
-                        surface.tint = in_file(surface.tint);
-                    }
-                    material
-                });
-                unlocked_object(scene, name)?.material = material;
-                Ok(Done::new(format!("Material of {name}")))
-            }
+            Self::SetMaterial(name, material) => set_material(scene, name, material.clone()),
             Self::SetParticles(name, count) => {
                 unlocked_object(scene, name)?.particles = *count;
                 Ok(Done::new(format!("Particles of {name}")))

@@ -5,7 +5,7 @@ use impasto_scene::motion;
 use super::{Busy, Editor, Request, reference_frame};
 use crate::camera_rig::{AxisView, Looking};
 use crate::command::{Command, Directions, Edit};
-use crate::keymap::Action;
+use crate::keymap::{Action, Preset};
 use crate::picking::View;
 use crate::refusal::Refusal;
 use crate::selection::{Item, Selection};
@@ -127,6 +127,7 @@ impl Editor {
             Action::CameraFromView => self.bring_shot_to_view(),
             Action::SetKey => self.set_key(),
             Action::Render => self.requests.push(Request::Render),
+            Action::ExportMovie => self.requests.push(Request::ExportMovie),
             Action::Play => self.play_or_stop(),
             _ => {}
         }
@@ -152,14 +153,15 @@ impl Editor {
                 };
                 // With Blender's keys, a key that is pressed over the viewport starts the transform at once. In all
                 // other cases the key takes the tool up.
-                match self.pointer_px.filter(|_| self.keymap.preset == crate::keymap::Preset::Blender) {
+                let by_key = self.keymap.preset == Preset::Blender && self.session.mode != Mode::Paint;
+                match self.pointer_px.filter(|_| by_key) {
                     Some(_) if matches!(self.busy, Busy::Idle) && self.has_camera_selected() => {
                         self.begin_shot_view(operation, view);
                     }
                     Some(at_px) if matches!(self.busy, Busy::Idle) => {
                         self.begin_transform(operation, None, at_px, false, view);
                     }
-                    _ => self.session.set_tool(tool),
+                    _ => self.take_up(tool, view),
                 }
                 return true;
             }
@@ -207,9 +209,14 @@ impl Editor {
         true
     }
 
-    /// Takes a tool up; cancels the interaction under way.
+    /// Takes a tool up, and goes to its mode if it is one of another mode; cancels the interaction under way.
     pub fn take_up(&mut self, tool: Tool, view: &View) {
         self.cancel(view);
+        match (tool.is_for_paint(), self.session.mode) {
+            (true, Mode::Arrange | Mode::Animate) => self.set_mode(Mode::Paint, view),
+            (false, Mode::Paint) => self.set_mode(self.session.mode_before, view),
+            _ => {}
+        }
         self.session.set_tool(tool);
         if self.session.mode == Mode::Paint {
             self.hover_again(view);

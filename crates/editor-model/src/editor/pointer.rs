@@ -11,7 +11,7 @@ use crate::picking::View;
 use crate::selection::{Item, Selection};
 use crate::session::{Mode, Tool};
 use crate::timeline::KeysEvent;
-use crate::tools::{REST_SECS, Surroundings, ToolEvent, ToolOutput};
+use crate::tools::{Painted as _, REST_SECS, Surroundings, ToolEvent, ToolOutput};
 use crate::transform::{Operation, Snap, TransformEvent};
 
 /// A drag of an object begins after this many pixels.
@@ -155,6 +155,7 @@ impl Editor {
             return;
         }
         if button != Button::Left {
+            self.right_px = (button == Button::Right).then_some(event.at_px);
             return;
         }
         match (self.session.mode, self.session.tool()) {
@@ -179,12 +180,7 @@ impl Editor {
             self.begin_transform(operation, constraint, event.at_px, true, view);
             return;
         }
-        let object = || {
-            let hit = self.hit(event.at_px, view)?;
-            Some(Item::Object(self.document.shown().scene.objects[hit.object].name.clone()))
-        };
-        // The icons of lights lie over everything.
-        let Some(item) = self.light_at(event.at_px, view).or_else(object) else {
+        let Some(item) = self.item_at(event.at_px, view) else {
             if !event.held.shift {
                 self.document.select(Selection::default());
             }
@@ -205,13 +201,52 @@ impl Editor {
         self.busy = if is_scenery { Busy::Idle } else { Busy::Pressed(event.at_px) };
     }
 
+    /// The light or object under the pointer.
+    fn item_at(&self, at_px: DVec2, view: &View) -> Option<Item> {
+        let object = || {
+            let hit = self.hit(at_px, view)?;
+            Some(Item::Object(self.document.shown().scene.objects[hit.object].name.clone()))
+        };
+        // The icons of lights lie over everything.
+        self.light_at(at_px, view).or_else(object)
+    }
+
+    /// The region under the pointer.
+    fn region_at(&self, at_px: DVec2, view: &View) -> Option<Item> {
+        let hit = self.hit(at_px, view)?;
+        let painted =
+            PaintedView { painting: self.painting.as_ref(), camera: &view.camera, frame: self.session.frame };
+        let region = painted.region_at(&hit)?;
+        Some(Item::Region(self.document.shown().scene.regions.get(region)?.name.clone()))
+    }
+
+    /// Asks for the menu of what is under the pointer, which is selected first: in Paint the region, else the light or
+    /// object.
+    fn ask_for_menu(&mut self, at_px: DVec2, view: &View) {
+        let region = || self.region_at(at_px, view).filter(|_| self.session.mode == Mode::Paint);
+        let item = region().or_else(|| self.item_at(at_px, view));
+        if let Some(item) = &item
+            && !self.document.selection().contains(item)
+        {
+            self.document.select(Selection::only(item.clone()));
+        }
+        self.requests.push(Request::Menu(item));
+    }
+
     /// Whether an object has a built-in mesh, as the floor and the wall of a new scene.
     fn is_scenery(&self, name: &str) -> bool {
         let object = self.document.scene().objects.iter().find(|object| object.name == name);
         object.is_some_and(|object| object.mesh.starts_with(impasto_scene::built_in_mesh::PREFIX))
     }
 
-    fn released(&mut self, button: Button, _event: &PointerEvent, view: &View) {
+    fn released(&mut self, button: Button, event: &PointerEvent, view: &View) {
+        if button == Button::Right
+            && let Some(from_px) = self.right_px.take()
+            && matches!(self.busy, Busy::Idle)
+            && from_px.distance(event.at_px) < DRAG_PX
+        {
+            return self.ask_for_menu(event.at_px, view);
+        }
         match &self.busy {
             Busy::Navigating(..) => self.busy = Busy::Idle,
             Busy::Pressed(_) if button == Button::Left => self.busy = Busy::Idle,

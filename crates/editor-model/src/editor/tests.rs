@@ -13,6 +13,7 @@ use crate::keymap::{Action, Button};
 use crate::session::Axes;
 
 mod lights;
+mod menus;
 mod time;
 
 const SIZE_PX: DVec2 = DVec2::new(960.0, 540.0);

@@ -92,6 +92,7 @@ pub(super) const BINDINGS: &[Binding] = &[
     both(Action::Quit, "Quit", EVERYWHERE, &[ctrl(Key::Letter('Q'))]),
     both(Action::ImportMesh, "Import a mesh", EVERYWHERE, &[ctrl(Key::Letter('I'))]),
     both(Action::Render, "Render", EVERYWHERE, &[plain(Key::Function(12))]),
+    both(Action::ExportMovie, "Export movie", EVERYWHERE, &[]),
     each(
         Action::Undo,
         "Undo",

@@ -24,7 +24,7 @@ impl RenderPlan {
         words.extend(["--size".to_owned(), format!("{width}x{height}")]);
         words.extend(["--output".to_owned(), self.output.to_string_lossy().into_owned()]);
         match self.kind {
-            FileKind::Png8 | FileKind::Exr => {}
+            FileKind::Png8 | FileKind::Exr | FileKind::Movie => {}
             FileKind::Png16 => words.extend(["--bits".to_owned(), "16".to_owned()]),
             FileKind::PngAndExr => words.push("--exr".to_owned()),
         }

@@ -17,11 +17,13 @@ pub enum FileKind {
     Exr,
     /// A PNG file of 8 bits, and an EXR file beside it.
     PngAndExr,
+    /// One movie of all frames; the ending of its name says which kind.
+    Movie,
 }
 
 impl FileKind {
     /// All kinds, in the order in which they are offered.
-    pub const ALL: [Self; 4] = [Self::Png8, Self::Png16, Self::Exr, Self::PngAndExr];
+    pub const ALL: [Self; 5] = [Self::Png8, Self::Png16, Self::Exr, Self::PngAndExr, Self::Movie];
 
     /// Its words in the sheet.
     pub fn label(self) -> &'static str {
@@ -30,6 +32,7 @@ impl FileKind {
             Self::Png16 => "PNG 16 bit",
             Self::Exr => "EXR",
             Self::PngAndExr => "PNG and EXR",
+            Self::Movie => "Movie",
         }
     }
 
@@ -44,15 +47,22 @@ impl FileKind {
             Self::Png8 | Self::Png16 => &["png"],
             Self::Exr => &["exr"],
             Self::PngAndExr => &["png", "exr"],
+            Self::Movie => MOVIES,
         }
     }
 
     /// The pattern of the files with the ending of this kind.
     pub(super) fn renamed(self, output: &str) -> String {
         let output = output.trim_end();
-        let stem = match FileEnding::of(output) {
-            Some(_) => &output[..output.len() - 4],
-            None => output,
+        let ending = FileEnding::of(output);
+        if self == Self::Movie && ending == Some(FileEnding::Movie) {
+            return output.to_owned();
+        }
+        let stem = ending.and_then(|_| output.rfind('.')).map_or(output, |at| &output[..at]);
+        // A movie has no number in its name.
+        let stem = match self {
+            Self::Movie => stem.trim_end_matches('#').trim_end_matches(['_', '-', '.']),
+            _ => stem,
         };
         // A name that is not there yet gets no ending.
         if stem.is_empty() || stem.ends_with(['/', '\\']) {
@@ -65,14 +75,18 @@ impl FileKind {
     pub(super) fn fitting(self, output: &str) -> Self {
         match (FileEnding::of(output), self) {
             (Some(FileEnding::Exr), _) => Self::Exr,
-            (Some(FileEnding::Png), Self::Exr) => Self::Png8,
+            (Some(FileEnding::Movie), _) => Self::Movie,
+            (Some(FileEnding::Png), Self::Exr | Self::Movie) => Self::Png8,
             _ => self,
         }
     }
 
     /// The files of a frame, of which `path` is the one that the pattern names.
-    pub(super) fn files(self, path: &Path) -> impl Iterator<Item = PathBuf> {
-        self.endings().iter().map(|ending| path.with_extension(ending))
+    pub(super) fn files(self, path: &Path) -> Vec<PathBuf> {
+        match self {
+            Self::Movie => vec![path.to_owned()],
+            _ => self.endings().iter().map(|ending| path.with_extension(ending)).collect(),
+        }
     }
 }
 
@@ -81,14 +95,22 @@ impl FileKind {
 pub(super) enum FileEnding {
     Png,
     Exr,
+    Movie,
 }
+
+/// The endings of movies; the first is the usual one.
+const MOVIES: &[&str] = &["mp4", "mov", "webm", "mkv"];
 
 impl FileEnding {
     /// How a name ends, whatever the case of its letters.
     pub(super) fn of(name: &str) -> Option<Self> {
         let name = name.trim_end().to_ascii_lowercase();
-        let has = |ending: &str| name.ends_with(ending);
-        has(".png").then_some(Self::Png).or(has(".exr").then_some(Self::Exr))
+        let (_, ending) = name.rsplit_once('.')?;
+        match ending {
+            "png" => Some(Self::Png),
+            "exr" => Some(Self::Exr),
+            ending => MOVIES.contains(&ending).then_some(Self::Movie),
+        }
     }
 }
 

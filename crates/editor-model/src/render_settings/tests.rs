@@ -45,7 +45,8 @@ fn faults_are_reported_at_their_fields() {
         (size([16_384, 16_384]), Field::Size, "in all"),
         (output(""), Field::Output, "name a file"),
         (output("out/"), Field::Output, "name a file"),
-        (output("film.mp4"), Field::Output, ".png"),
+        (output("film.avi"), Field::Output, ".png"),
+        (RenderSettings { transparent: true, ..output("film.mp4") }, Field::Output, ".webm"),
     ] {
         let fault = settings.plan(&document, 0.0).unwrap_err();
         assert!(fault.field == field && fault.words.contains(part), "{settings:?}: {fault:?}");
@@ -255,4 +256,30 @@ fn every_aov_is_in_one_group_under_words_of_its_own() {
         words.dedup();
         assert_eq!(words.len(), group.rows().count(), "{group:?}");
     }
+}
+
+#[test]
+fn a_movie_is_one_file_of_all_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut document = Document::empty(folder.path());
+    document.save_as(&folder.path().join("s.ron")).unwrap();
+    let mut settings = RenderSettings::of(document.scene());
+    settings.choose_kind(FileKind::Movie);
+    assert_eq!((settings.output.as_str(), settings.ending()), ("out/frame.mp4", "mp4"));
+    settings.choose_output("films/my film.mov".to_owned());
+    settings.choose_kind(FileKind::Movie);
+    assert_eq!(settings.output, "films/my film.mov", "a movie stays of its kind");
+    let plan = settings.plan(&document, 0.0).unwrap();
+    let path = std::path::absolute(folder.path().join("films/my film.mov")).unwrap();
+    assert_eq!((plan.path(0), plan.path(7), plan.kind), (path.clone(), path.clone(), FileKind::Movie));
+    assert_eq!(plan.existing_count(), 0);
+    plan.ready().unwrap();
+    std::fs::write(&path, "").unwrap();
+    assert!(plan.existing_count() > 0);
+    let command = plan.command(&document).unwrap();
+    assert!(command.contains(&path.to_string_lossy().into_owned()), "{command:?}");
+    // A transparent movie needs a kind that has transparency.
+    assert!(RenderSettings { transparent: true, ..settings.clone() }.plan(&document, 0.0).is_ok());
+    settings.choose_kind(FileKind::Png8);
+    assert_eq!(settings.output, "films/my film.png");
 }

@@ -2,51 +2,61 @@
 
 use std::path::Path;
 
-use impasto_editor_model::Item;
-use impasto_editor_model::command::{Arrange, Command, Regions, StrokeChange, StrokesOf};
-use impasto_editor_model::editor::Mend;
-use impasto_scene::document::BrushMix;
+use impasto_editor_model::PictureFor;
+use impasto_editor_model::editor::{Mend, Offer};
 
 use super::EditorApp;
-use crate::files::incoming::{adopt_picture, bring};
-use crate::panels::NoisePart;
+use crate::files::incoming::{adopt_picture, bring, name_of};
+use crate::panels::problems::TroubleOf;
 
 impl EditorApp {
-    /// Makes a picture the brush of the selected region, or of the scene.
-    pub(super) fn brush(&mut self, path: &Path) {
-        let folder = self.editor.document().folder().to_owned();
-        match adopt_picture(path, &folder) {
-            Ok(adopted) => {
-                let of = match self.editor.document().selection().active() {
-                    Some(Item::Region(name)) => StrokesOf::Region(name.clone()),
-                    _ => StrokesOf::Scene,
-                };
-                let brush = StrokeChange::Brush(Some(BrushMix(vec![adopted.name])));
-                self.editor.run(&Command::Regions(Regions::SetStroke(of, brush)));
-            }
-            Err(error) => self.toast(error.to_string(), None, true),
+    /// Takes a picture for this; where it lies elsewhere, a copy of it beside the scene.
+    pub(super) fn picture(&mut self, of: &PictureFor, path: &Path) {
+        self.forget_pictures(of);
+        let name = match adopt_picture(path, self.editor.document().folder(), of.folder()) {
+            Ok(adopted) => adopted.name,
+            Err(error) => return self.picture_trouble(of, path, error.to_string()),
+        };
+        if self.use_picture(of, path, Some(name)) {
+            let words = format!("{} is {} now", name_of(path), of.words());
+            self.toast(words, Some(Offer::Undo), false);
         }
     }
 
-    /// Makes a picture the noise that asked for one.
-    pub(super) fn noise_picture(&mut self, path: &Path) {
-        let Some((object, part)) = self.files.noise_of.take() else { return };
-        let adopted = match adopt_picture(path, self.editor.document().folder()) {
-            Ok(adopted) => adopted,
-            Err(error) => return self.toast(error.to_string(), None, true),
-        };
-        let known = self.editor.document().scene().objects.iter().find(|known| known.name == object);
-        let Some(mut material) = known.and_then(|known| known.material.clone()) else { return };
-        if let Some(noise) = &mut material.noise_displace {
-            let texture = match part {
-                NoisePart::Vertex => noise.vertex.as_mut().map(|vertex| &mut vertex.texture),
-                NoisePart::Surface => noise.surface.as_mut().map(|surface| &mut surface.texture),
-            };
-            if let Some(texture) = texture {
-                *texture = Some(adopted.name);
-            }
+    /// Takes the picture of this name, a path from the scene's folder; without a name, none.
+    pub(super) fn name_picture(&mut self, of: &PictureFor, name: Option<String>) {
+        self.forget_pictures(of);
+        let path = self.editor.document().folder().join(name.as_deref().unwrap_or_default());
+        if name.is_some() && path.is_file() {
+            return self.picture(of, &path);
         }
-        self.editor.run(&Command::Arrange(Arrange::SetMaterial(object, Some(material))));
+        self.use_picture(of, &path, name);
+    }
+
+    /// Names a picture in the document. A scene that would be refused stays as it is, and the list of problems says why.
+    fn use_picture(&mut self, of: &PictureFor, path: &Path, name: Option<String>) -> bool {
+        let document = self.editor.document();
+        let Some(command) = of.command(document.scene(), name) else {
+            self.toast(format!("{} is not there any more", of.words()), None, true);
+            return false;
+        };
+        if let Some(refusal) = document.would_refuse(&command) {
+            // The list is read by people who chose a picture: where the scene names it is no news to them.
+            let words = refusal.to_string();
+            let words = words.split_once(".texture: ").map_or(words.as_str(), |(_, words)| words).to_owned();
+            self.picture_trouble(of, path, words);
+            return false;
+        }
+        self.editor.run(&command)
+    }
+
+    fn picture_trouble(&mut self, of: &PictureFor, path: &Path, words: String) {
+        self.trouble(TroubleOf::Picture(of.clone(), path.to_owned()), words);
+    }
+
+    /// Takes off the list what went wrong with earlier pictures for the same.
+    fn forget_pictures(&mut self, of: &PictureFor) {
+        self.troubles.retain(|trouble| !matches!(&trouble.of, TroubleOf::Picture(other, _) if other == of));
     }
 
     /// Copies a file that was missing to where it is looked for, and reads it.

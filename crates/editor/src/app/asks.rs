@@ -42,11 +42,19 @@ impl EditorApp {
                 self.files.bring_to = Some(to);
                 self.files.dialogs.open(ctx, FileAsk::Missing, &start);
             }
-            Ask::ChooseNoise(object, part) => {
-                self.files.noise_of = Some((object, part));
+            Ask::ChoosePicture(of) => {
+                self.files.picture_for = Some(of);
                 let start = self.editor.document().folder().to_owned();
                 self.files.dialogs.open(ctx, FileAsk::ChoosePicture, &start);
             }
+            Ask::NamePicture(of, name) => self.name_picture(&of, name),
+            Ask::Menu(item) => panels::open_context_menu(ctx, item),
+            Ask::Reach(control) => {
+                (self.folds.column, self.folds.everything) = (false, false);
+                panels::reach(ctx, &control);
+            }
+            Ask::TakeUp(tool) => self.editor.take_up(tool, view),
+            Ask::Prefer(preference) => self.prefer(preference, ctx),
             Ask::Open(path) => self.open_asking(&path),
             Ask::Copy(words) => ctx.copy_text(words),
             Ask::ChooseMesh(object) => {
@@ -87,10 +95,12 @@ impl EditorApp {
                 Request::Shortcuts => self.sheets.shortcuts = true,
                 Request::Rename => drop(panels::rename(ctx, self.editor.document())),
                 Request::Add => panels::open_add_menu(ctx),
+                Request::Menu(item) => panels::open_context_menu(ctx, item),
                 Request::ToggleColumn => self.folds.column = !self.folds.column,
                 Request::MaximiseViewport => self.folds.everything = !self.folds.everything,
                 Request::NextArea => panels::next_area(ctx),
                 Request::Render => self.open_render_sheet(),
+                Request::ExportMovie => self.open_movie_sheet(),
                 Request::Recapture(frame) => self.sheets.recapture = Some(frame),
             }
         }

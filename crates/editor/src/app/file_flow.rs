@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use egui::{Context, Ui};
+use impasto_editor_model::PictureFor;
 use impasto_editor_model::document::{Document, SaveError};
 use impasto_editor_model::editor::Mend;
 use impasto_editor_model::keymap::Preset;
@@ -15,7 +16,6 @@ use crate::files::dialogs::{Answer, FileDialogs};
 use crate::files::file_ask::FileAsk;
 use crate::files::incoming::{self, Present, Step};
 use crate::files::preferences::{self, Keys, Preferences};
-use crate::panels::NoisePart;
 use crate::panels::ask_close::{self, Question};
 use crate::panels::problems::{self, TroubleOf};
 use crate::panels::welcome::{self, Choices, Left};
@@ -40,8 +40,8 @@ pub(super) struct FileFlow {
     asks: Option<Unsaved>,
     /// The object for which a mesh is being chosen.
     pub(super) mesh_of: Option<String>,
-    /// The object, and the part of its noise, for which a picture is being chosen.
-    pub(super) noise_of: Option<(String, NoisePart)>,
+    /// What a picture is being chosen for.
+    pub(super) picture_for: Option<PictureFor>,
     /// Where the missing file that is being located is looked for.
     pub(super) bring_to: Option<PathBuf>,
     /// When the first unsaved edit was noticed.
@@ -83,7 +83,7 @@ impl FileFlow {
             waiting: None,
             asks: None,
             mesh_of: None,
-            noise_of: None,
+            picture_for: None,
             bring_to: None,
             edited_since: None,
             save_elsewhere: None,
@@ -314,7 +314,11 @@ impl EditorApp {
             FileAsk::SaveCopy => self.save_copy(&path),
             FileAsk::LocateMesh => self.replace_mesh(&path),
             FileAsk::Missing => self.bring_file(&path),
-            FileAsk::ChoosePicture => self.noise_picture(&path),
+            FileAsk::ChoosePicture => {
+                if let Some(of) = self.files.picture_for.take() {
+                    self.picture(&of, &path);
+                }
+            }
             FileAsk::RenderOutput { .. } => self.render_to(&path),
         }
     }

@@ -7,10 +7,10 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::{Duration, Instant};
 
 use egui::Context;
-use impasto_editor_model::Document;
 use impasto_editor_model::command::{Arrange, Command};
 use impasto_editor_model::editor::{Mend, Mended, Took};
 use impasto_editor_model::watch::News;
+use impasto_editor_model::{Document, PictureFor};
 use impasto_scene::load::{LoadOptions, load_mesh};
 use impasto_scene::mesh_file::MeshFile;
 use impasto_scene::problem::Report;
@@ -71,7 +71,7 @@ impl LongWork {
 
     /// Drops the pictures that wait: they were to be brushes for a mesh that was not read.
     fn drop_brushes(&mut self) {
-        self.queue.retain(|step| !matches!(step, Step::Brush(_)));
+        self.queue.retain(|step| !matches!(step, Step::Picture(_)));
     }
 
     /// The entry in the status line; none while reading has taken less than [`SHOWN_AFTER`].
@@ -163,7 +163,10 @@ impl EditorApp {
             Step::Open(path) => self.open_asking(&path),
             Step::Begin(path) => self.open(&path),
             Step::Import(path) => self.import(&path),
-            Step::Brush(path) => self.brush(&path),
+            Step::Picture(path) => {
+                let of = PictureFor::dropped(self.editor.document().selection());
+                self.picture(&of, &path);
+            }
         }
     }
 

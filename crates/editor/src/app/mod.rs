@@ -18,6 +18,7 @@ mod marks;
 mod motion_marks;
 mod picture;
 mod picture_view;
+mod preferring;
 mod render_flow;
 mod safe_keeping;
 mod shader_flow;
@@ -283,6 +284,7 @@ impl EditorApp {
         }
         let palette_closed = self.sheets.palette && panels::palette::palette(ui.ctx(), &shown, &mut asks);
         let shortcuts_closed = self.sheets.shortcuts && panels::shortcuts::shortcuts(ui.ctx(), &shown);
+        panels::context_menu(ui, &shown, &mut asks);
         self.sheets.palette &= !palette_closed;
         self.sheets.shortcuts &= !shortcuts_closed;
         CentralPanel::default()

@@ -5,12 +5,13 @@ use std::time::Duration;
 
 use egui::{Context, TextureHandle, TextureOptions};
 use impasto_editor_model::render_settings::{
-    Outcome, RenderPlan, RenderProgress, RenderSettings, shell_words,
+    FileKind, Outcome, RenderPlan, RenderProgress, RenderSettings, shell_words,
 };
 use impasto_gl_render::ShaderTexts;
 
 use super::EditorApp;
 use crate::files::file_ask::FileAsk;
+use crate::files::incoming::name_of;
 use crate::files::show_folder::show_folder;
 use crate::panels::ask_close::{self, Answer, Question};
 use crate::panels::render_sheet::{RenderAsk, RenderShown, render_sheet};
@@ -120,6 +121,14 @@ impl EditorApp {
         }
     }
 
+    /// Opens the sheet for a movie.
+    pub(super) fn open_movie_sheet(&mut self) {
+        self.open_render_sheet();
+        if let Some(settings) = self.render.settings.as_mut().filter(|_| self.render.is_open) {
+            settings.choose_kind(FileKind::Movie);
+        }
+    }
+
     /// Shows the sheet and the questions of rendering.
     pub(super) fn render_sheets(&mut self, ctx: &Context) {
         self.follow_rendering(ctx);
@@ -216,12 +225,17 @@ impl EditorApp {
     fn ask_about_rendering(&mut self, ctx: &Context) {
         let question = match &self.render.asks {
             None => return,
+            Some(About::Existing(plan, _)) if plan.kind == FileKind::Movie => {
+                Question::MovieThere { name: name_of(plan.output()) }
+            }
             Some(About::Existing(plan, there)) => {
                 Question::FramesThere { there: *there, total: plan.frames.count() }
             }
             Some(About::Closing) => {
                 let progress = self.render.running.as_ref().map(Rendering::progress).unwrap_or_default();
-                Question::StopRendering { count: progress.count() }
+                let plan = self.render.running.as_ref().map(Rendering::plan);
+                let stays = plan.is_some_and(|plan| plan.kind != FileKind::Movie);
+                Question::StopRendering { count: progress.count(), stays }
             }
         };
         let Some(answer) = ask_close::ask(ctx, &question) else { return };

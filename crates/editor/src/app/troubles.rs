@@ -19,7 +19,7 @@ impl EditorApp {
                 "A crash would lose what is not saved",
                 &[Settle::SaveAs, Settle::Retry, Settle::Dismiss],
             ),
-            TroubleOf::Open(_) | TroubleOf::Import(_) => {
+            TroubleOf::Open(_) | TroubleOf::Import(_) | TroubleOf::Picture(..) => {
                 (words, "Nothing changed", &[Settle::Retry, Settle::Dismiss])
             }
         };
@@ -52,6 +52,7 @@ impl EditorApp {
             (Settle::Retry, TroubleOf::Copy) => self.keep_before_risk(),
             (Settle::Retry, TroubleOf::Open(path)) => self.open_asking(path),
             (Settle::Retry, TroubleOf::Import(path)) => self.read_mesh(path, MeshFor::Import),
+            (Settle::Retry, TroubleOf::Picture(of, path)) => self.picture(of, path),
         }
     }
 }

@@ -51,7 +51,7 @@ impl FileAsk {
             Self::SaveAs | Self::SaveCopy => &[Kind::Scene],
             Self::Missing => &[],
             Self::ChoosePicture => &[Kind::Picture],
-            Self::RenderOutput { .. } => &[Kind::Picture, Kind::Exr],
+            Self::RenderOutput { .. } => &[Kind::Picture, Kind::Exr, Kind::Movie],
         }
     }
 
@@ -77,7 +77,7 @@ impl FileAsk {
         match Kind::of(path) {
             _ if self.kinds().is_empty() => Ok(()),
             Some(kind) if self.kinds().contains(&kind) => Ok(()),
-            None | Some(Kind::Exr) => Err(refusal(path)),
+            None | Some(Kind::Exr | Kind::Movie) => Err(refusal(path)),
             Some(_) => Err(format!("{} is not what is asked for: {}", name_of(path), self.title())),
         }
     }

@@ -11,7 +11,7 @@ use impasto_scene::mesh_format;
 
 pub use adopt::{AdoptError, Adopted, adopt_mesh, adopt_picture, bring};
 
-/// File extensions of pictures that can serve as brushes.
+/// File extensions of pictures that can serve as textures and brushes.
 pub const PICTURES: &[&str] = &["png", "jpg", "jpeg", "bmp", "tga", "webp"];
 
 /// The kind of a file, by its extension.
@@ -25,6 +25,8 @@ pub enum Kind {
     Picture,
     /// A rendered picture that only other programs read, `.exr`.
     Exr,
+    /// A movie, which only other programs read.
+    Movie,
 }
 
 impl Kind {
@@ -34,6 +36,7 @@ impl Kind {
         match ending.as_str() {
             "ron" => Some(Self::Scene),
             "exr" => Some(Self::Exr),
+            "mp4" | "mov" | "webm" | "mkv" => Some(Self::Movie),
             _ if mesh_format::is_mesh(path) => Some(Self::Mesh),
             ending => PICTURES.contains(&ending).then_some(Self::Picture),
         }
@@ -72,8 +75,8 @@ pub enum Step {
     Begin(PathBuf),
     /// Bring the mesh into the document ([`adopt_mesh`]).
     Import(PathBuf),
-    /// Bring the picture in as a brush ([`adopt_picture`]).
-    Brush(PathBuf),
+    /// Bring the picture in as the texture of the selected object, or as a brush ([`adopt_picture`]).
+    Picture(PathBuf),
 }
 
 /// What to do with files that came together.
@@ -90,7 +93,7 @@ pub struct Plan {
 /// What to do with files that are dropped or opened together.
 ///
 /// A scene is opened alone. A mesh starts a new scene if the document is empty, and is imported otherwise. Pictures
-/// become brushes, if there is a scene.
+/// become textures or brushes, if there is a scene.
 pub fn plan(paths: &[PathBuf], present: Present) -> Plan {
     let mut plan = Plan::default();
     let mut known = Vec::new();
@@ -119,10 +122,10 @@ pub fn plan(paths: &[PathBuf], present: Present) -> Plan {
     }
     for (_, picture) in known.iter().filter(|(kind, _)| *kind == Kind::Picture) {
         if is_there {
-            plan.steps.push(Step::Brush((*picture).clone()));
+            plan.steps.push(Step::Picture((*picture).clone()));
         } else {
             let words = format!(
-                "{} could be a brush, and there is nothing to paint yet: open a mesh first",
+                "{} could be a texture or a brush, and there is nothing to paint yet: open a mesh first",
                 name_of(picture)
             );
             plan.refused.push(words);
@@ -146,7 +149,7 @@ pub fn taken(path: &Path) -> Result<Kind, String> {
     if !path.is_file() {
         return Err(format!("{name} is a device or a pipe, not a file"));
     }
-    Kind::of(path).filter(|kind| *kind != Kind::Exr).ok_or_else(|| refusal(path))
+    Kind::of(path).filter(|kind| !matches!(kind, Kind::Exr | Kind::Movie)).ok_or_else(|| refusal(path))
 }
 
 /// Why a file that Impasto does not read is not taken.
@@ -159,6 +162,9 @@ pub(super) fn refusal(path: &Path) -> String {
             format!("{name} is a model that Impasto does not read: export it as glTF or OBJ")
         }
         "exr" => format!("{name} is a rendered picture: Impasto writes EXR files and does not read them"),
+        "mp4" | "mov" | "webm" | "mkv" => {
+            format!("{name} is a movie: Impasto writes movies and does not read them")
+        }
         "mtl" => format!("{name} holds materials only: open the OBJ file that names it"),
         _ => format!("{name} is no scene (.ron), mesh (.obj, .glb) or picture (.png, .jpg)"),
     }

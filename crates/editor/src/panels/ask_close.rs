@@ -63,10 +63,17 @@ pub enum Question {
         /// How many frames are to be rendered.
         total: u64,
     },
+    /// The movie to be rendered would replace a file.
+    MovieThere {
+        /// The file's name.
+        name: String,
+    },
     /// The window is closing while frames are being rendered.
     StopRendering {
         /// How many are finished: *47 of 120*.
         count: String,
+        /// Whether these stay; those of a movie do not.
+        stays: bool,
     },
     /// Parts of the file could not be read; saving over it would lose them for good.
     Problems {
@@ -190,9 +197,17 @@ pub fn ask(ctx: &egui::Context, question: &Question) -> Option<Answer> {
                 ("Keep them, render the rest", Answer::KeepFrames),
             ],
         ),
-        Question::StopRendering { count } => (
+        Question::MovieThere { name } => (
+            format!("{name} is there already"),
+            "What is replaced cannot be had back.".to_owned(),
+            &[("Replace it", Answer::ReplaceFrames), ("Cancel", Answer::Cancel)],
+        ),
+        Question::StopRendering { count, stays } => (
             "Stop rendering and close?".to_owned(),
-            format!("{count} frames are finished and stay. The rest would not be rendered."),
+            match stays {
+                true => format!("{count} frames are finished and stay. The rest would not be rendered."),
+                false => format!("{count} frames are finished. A movie that is not whole is not kept."),
+            },
             &[("Stop and close", Answer::StopRendering), ("Keep rendering", Answer::Cancel)],
         ),
         Question::Problems { count, line } => (

@@ -39,6 +39,13 @@ pub fn thumbnail(ctx: &Context, name: &str, loaded: &LoadedScene) -> Option<Text
     Some(handle)
 }
 
+/// Lets another context, in which nothing is painted, know the thumbnails of this one.
+pub(super) fn share(from: &Context, with: &Context) {
+    if let Some(known) = from.data(|data| data.get_temp::<Arc<Known>>(key())) {
+        with.data_mut(|data| data.insert_temp(key(), known));
+    }
+}
+
 fn key() -> Id {
     Id::unique("brush thumbnails")
 }

@@ -12,6 +12,8 @@ use impasto_scene::document::StrokeSettings;
 pub(super) struct ColumnState {
     /// Sections that were opened or folded by hand.
     pub(super) sections: BTreeMap<String, bool>,
+    /// Whether all sections are open, whatever was done by hand: in a column that only lists its controls.
+    pub(super) all_open: bool,
     /// Objects whose rows were opened or folded, by name.
     pub(super) rows: BTreeMap<String, bool>,
     /// The text that is searched for in the tree; none while the search is closed.
@@ -32,6 +34,12 @@ impl ColumnState {
     /// Lets `act` read or change the state.
     pub(super) fn with<R>(ctx: &Context, act: impl FnOnce(&mut Self) -> R) -> R {
         ctx.data_mut(|data| act(data.get_temp_mut_or_default(Id::unique("right column"))))
+    }
+
+    /// The key of a section in `sections`, by its name: *Pose at frame 37* is one section for all frames, so that it stays open or
+    /// folded when the frame changes.
+    pub(super) fn key_of(section: &str) -> &str {
+        section.split(" at ").next().unwrap_or(section)
     }
 }
 

@@ -2,26 +2,35 @@
 
 use egui::containers::menu::{MenuBar, SubMenu, menu_style};
 use egui::{Align2, Popup, RichText, Ui};
+use impasto_editor_model::Item;
 use impasto_editor_model::keymap::Action;
 use impasto_editor_model::session::{DirectionLines, Mode};
 
-use super::{Ask, PanelInput, file_name, row, text_width, within};
+use super::{Ask, PanelInput, file_name, row, text_width, tree, within};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::MenuRow;
 
 /// One line of a menu.
 #[derive(Clone, Copy)]
-enum Line {
+pub(super) enum Line {
+    /// A command that may have a key.
     Do(Action),
+    /// A line between groups.
     Separator,
+    /// The recent files.
     Recent,
+    /// What can be added to the scene.
+    Add,
+    /// Puts the command that renders the scene on the clipboard.
     CopyRenderCommand,
+    /// Shows the first-run sheet.
     FirstRun,
+    /// A menu of its own.
     Sub(&'static str, &'static [Line]),
 }
 
-use Line::{CopyRenderCommand, Do, FirstRun, Recent, Separator, Sub};
+use Line::{Add, CopyRenderCommand, Do, FirstRun, Recent, Separator, Sub};
 
 const MENUS: [(&str, &[Line]); 4] = [
     (
@@ -38,6 +47,7 @@ const MENUS: [(&str, &[Line]); 4] = [
             Do(Action::Revert),
             Separator,
             Do(Action::Render),
+            Do(Action::ExportMovie),
             CopyRenderCommand,
             Separator,
             Do(Action::Quit),
@@ -168,7 +178,8 @@ pub(super) fn menus(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     });
 }
 
-fn list(ui: &mut Ui, lines: &[Line], shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
+/// Shows the lines of a menu, as wide as the widest of them.
+pub(super) fn list(ui: &mut Ui, lines: &[Line], shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.y = 0.0;
     let names = lines.iter().map(|line| {
         let keys = if let Do(action) = line { shown.keys_of(*action) } else { String::new() };
@@ -194,11 +205,12 @@ fn list(ui: &mut Ui, lines: &[Line], shown: &PanelInput<'_>, asks: &mut Vec<Ask>
             }
             Recent => sub(ui, words_of(*line), |ui| recent(ui, shown, asks)),
             Sub(name, lines) => sub(ui, name, |ui| list(ui, lines, shown, asks)),
+            Add => sub(ui, words_of(*line), |ui| tree::add_menu(ui, shown, asks)),
             CopyRenderCommand => {
-                let file = shown.document.file();
-                let reason = file.is_none().then_some("Save the scene first");
+                let command = copied_command(shown);
+                let reason = command.as_ref().err().copied();
                 if usable(ui, reason, MenuRow { words: words_of(*line), ..MenuRow::default() }) {
-                    asks.extend(file.map(|file| Ask::Copy(render_command(&file.to_string_lossy()))));
+                    asks.extend(command);
                 }
             }
             FirstRun => {
@@ -210,9 +222,21 @@ fn list(ui: &mut Ui, lines: &[Line], shown: &PanelInput<'_>, asks: &mut Vec<Ask>
     }
 }
 
+/// The request to copy the command that renders the scene, or why there is none.
+fn copied_command(shown: &PanelInput<'_>) -> Result<Ask, &'static str> {
+    let file = shown.document.file().ok_or("Save the scene first")?;
+    Ok(Ask::Copy(render_command(&file.to_string_lossy())))
+}
+
+/// What the menus hold beside actions: the words, and the request or why it cannot be made.
+pub(super) fn others(shown: &PanelInput<'_>) -> [(&'static str, Result<Ask, &'static str>); 2] {
+    [(words_of(CopyRenderCommand), copied_command(shown)), (words_of(FirstRun), Ok(Ask::Welcome))]
+}
+
 fn words_of(line: Line) -> &'static str {
     match line {
         Do(action) => action.name(),
+        Add => Action::Add.name(),
         Sub(name, _) => name,
         Recent => "Open recent",
         CopyRenderCommand => "Copy render command",
@@ -259,9 +283,23 @@ fn recent(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
 }
 
 /// Whether the thing that an action switches is on.
-fn is_on(shown: &PanelInput<'_>, action: Action) -> bool {
+pub(super) fn is_on(shown: &PanelInput<'_>, action: Action) -> bool {
     let session = shown.session;
+    let scene = shown.document.scene();
+    let hidden_and_locked = || match shown.document.selection().active()? {
+        Item::Object(name) => {
+            let object = scene.objects.iter().find(|object| object.name == *name)?;
+            Some([object.hidden, object.locked])
+        }
+        Item::Region(name) => {
+            let region = scene.regions.iter().find(|region| region.name == *name)?;
+            Some([region.hidden, region.locked])
+        }
+        Item::Camera | Item::Light(_) | Item::Guide(..) => None,
+    };
     match action {
+        Action::Hide => hidden_and_locked().is_some_and(|[hidden, _]| hidden),
+        Action::Lock => hidden_and_locked().is_some_and(|[_, locked]| locked),
         Action::Arrange => session.mode == Mode::Arrange,
         Action::Paint => session.mode == Mode::Paint,
         Action::Animate => session.mode == Mode::Animate,

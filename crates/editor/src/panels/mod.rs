@@ -6,10 +6,12 @@
 
 mod areas;
 pub mod ask_close;
+mod context_menu;
 pub mod empty;
 mod menus;
 pub mod options_bar;
 pub mod palette;
+mod preference;
 pub mod problems;
 pub mod rail;
 pub mod render_sheet;
@@ -33,14 +35,17 @@ mod tree;
 use impasto_editor_model::command::Command;
 use impasto_editor_model::editor::Mend;
 use impasto_editor_model::keymap::{Action, Keymap};
+use impasto_editor_model::session::Tool;
 use impasto_editor_model::timeline::{TimeHand, TimelineEvent};
-use impasto_editor_model::{Document, Selection, Session};
+use impasto_editor_model::{Document, Item, PictureFor, Selection, Session};
 use impasto_painting::Painting;
 
 pub use areas::{Area, area, next_area};
 pub use column::{column, column_fits};
 pub use column_state::{open_add_menu, rename};
-pub use inspector::{NoisePart, inspector};
+pub use context_menu::{context_menu, open_context_menu};
+pub use inspector::{Control, controls, inspector, reach};
+pub use preference::Preference;
 use problems::{Settle, Trouble};
 pub use tree::tree;
 
@@ -93,7 +98,7 @@ impl PanelInput<'_> {
             {
                 Some("Nothing is selected")
             }
-            Action::SelectAll | Action::FrameAll | Action::Render
+            Action::SelectAll | Action::FrameAll | Action::Render | Action::ExportMovie
                 if self.document.scene().objects.is_empty() =>
             {
                 Some("The scene is empty")
@@ -149,8 +154,18 @@ pub enum Ask {
     ShowProblems,
     /// Settle the trouble with this index.
     Settle(usize, Settle),
-    /// Let the user choose a picture for the noise of this object's vertices or of its surface.
-    ChooseNoise(String, NoisePart),
+    /// Let the user choose a picture for this.
+    ChoosePicture(PictureFor),
+    /// Use the picture of this name, a path from the scene's folder, for this; without a name, none.
+    NamePicture(PictureFor, Option<String>),
+    /// Show the menu of this thing, or of the view, at the pointer.
+    Menu(Option<Item>),
+    /// Give this control of the inspector the focus.
+    Reach(Control),
+    /// Take this tool up.
+    TakeUp(Tool),
+    /// Keep this as a preference.
+    Prefer(Preference),
     /// Let the user choose a file, and write a copy of the scene there.
     SaveCopy,
     /// Carry out this action, as its key would.

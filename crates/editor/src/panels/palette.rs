@@ -1,9 +1,13 @@
-//! The command search: finds any command by its name.
+//! The command search: finds any command, tool, setting and control of the inspector by its name.
+
+mod entries;
+
+use std::sync::Arc;
 
 use egui::{Id, Key, RichText, Role, ScrollArea, TextEdit, WidgetInfo};
-use impasto_editor_model::keymap::Action;
 
-use super::{Ask, PanelInput, menus};
+use self::entries::{Entry, entries};
+use super::{Ask, Control, PanelInput, controls};
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{MenuRow, sheet};
 
@@ -15,6 +19,8 @@ const ROWS: f32 = 11.0;
 struct Memory {
     typed: String,
     marked: usize,
+    /// The controls of the inspector, once they were listed.
+    controls: Option<Arc<Vec<Control>>>,
 }
 
 /// Shows the search over everything. True once it closes: a command was run, or `Esc` was pressed.
@@ -55,7 +61,8 @@ fn contents(ui: &mut egui::Ui, memory: &mut Memory, shown: &PanelInput<'_>, asks
     }
     field.request_focus();
     ui.add_space(measure::GAP);
-    let found = found(&memory.typed);
+    let controls = memory.controls.get_or_insert_with(|| Arc::new(controls(ui.ctx(), shown)));
+    let found = found(&memory.typed, entries(ui.ctx(), shown, controls));
     let last = found.len().saturating_sub(1);
     memory.marked = match (up, down) {
         (true, _) => memory.marked.saturating_sub(1),
@@ -74,37 +81,34 @@ fn contents(ui: &mut egui::Ui, memory: &mut Memory, shown: &PanelInput<'_>, asks
                 let words = RichText::new("No command has that name.").font(type_face::body());
                 ui.label(words.color(Tokens::of(ui).weak));
             }
-            for (index, action) in found.iter().enumerate() {
-                let keys = shown.keys_of(*action);
+            for (index, entry) in found.into_iter().enumerate() {
+                let Entry { words, keys, on, ask } = entry;
                 let marked = index == memory.marked;
-                let row = MenuRow { words: action.name(), keys: &keys, on: false, marked };
-                let reason = shown.why_not(*action);
-                let mut response = ui.add_enabled_ui(reason.is_none(), |ui| row.show(ui)).inner;
+                let row = MenuRow { words: &words, keys: &keys, on, marked };
+                let mut response = ui.add_enabled_ui(ask.is_ok(), |ui| row.show(ui)).inner;
                 if marked && (up || down || field.changed()) {
                     response.scroll_to_me(None);
                 }
-                if let Some(reason) = reason {
-                    response = response.on_disabled_hover_text(reason);
+                match ask {
+                    Err(reason) => response = response.on_disabled_hover_text(reason),
+                    Ok(ask) if response.clicked() || marked && enter => run = Some(ask),
+                    Ok(_) => {}
                 }
-                if reason.is_none() && (response.clicked() || marked && enter) {
-                    run = Some(*action);
-                }
+                drop(response);
             }
         },
     );
-    asks.extend(run.map(Ask::Act));
-    escape || run.is_some()
+    let runs = run.is_some();
+    asks.extend(run);
+    escape || runs
 }
 
-/// The commands that may be meant by what was typed, the most likely first.
-fn found(typed: &str) -> Vec<Action> {
-    let mut found: Vec<_> = menus::actions()
-        .into_iter()
-        .filter(|action| *action != Action::Palette)
-        .filter_map(|action| Some((distance(typed, action.name())?, action)))
-        .collect();
+/// What may be meant by what was typed, the most likely first.
+fn found(typed: &str, entries: Vec<Entry>) -> Vec<Entry> {
+    let mut found: Vec<_> =
+        entries.into_iter().filter_map(|entry| Some((distance(typed, &entry.words)?, entry))).collect();
     found.sort_by_key(|(distance, _)| *distance);
-    found.into_iter().map(|(_, action)| action).collect()
+    found.into_iter().map(|(_, entry)| entry).collect()
 }
 
 /// How far a name is from what was typed: 0 if the name begins with it, 1 if a word of the name does, 2 if it stands
@@ -129,17 +133,4 @@ fn distance(typed: &str, name: &str) -> Option<u8> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_most_likely_command_comes_first() {
-        assert_eq!(found("comb").first(), Some(&Action::Comb));
-        assert_eq!(found("sel").first(), Some(&Action::SelectAll), "menu order among equals");
-        assert_eq!(found("frame s").first(), Some(&Action::FrameSelected));
-        assert_eq!(found("camera").first(), Some(&Action::CameraFromView));
-        assert_eq!(found("gdcv").first(), Some(&Action::GuideCurve), "letters in order are enough");
-        assert_eq!(found("zzz"), []);
-        assert_eq!(found("").len() + 1, menus::actions().len(), "all but itself");
-    }
-}
+mod tests;

@@ -99,3 +99,33 @@ fn a_folder_that_cannot_be_made_is_reported_before_anything_is_drawn() {
     let Some(Outcome::Failed(words)) = rendering.progress().outcome else { panic!("it cannot go well") };
     assert!(words.contains("cannot write into"), "{words}");
 }
+
+#[test]
+fn a_movie_is_written_whole_or_ffmpeg_is_missed_before_anything_is_painted() {
+    let folder = tempfile::tempdir().unwrap();
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    let document = Document::open(&scenes.join("meshes/cube.obj"), &Default::default()).unwrap();
+    let mut settings = RenderSettings {
+        which: Which::Listed,
+        list: "0-2".to_owned(),
+        size_px: [64, 36],
+        driver: RenderDriver::Osmesa,
+        ..RenderSettings::of(document.scene())
+    };
+    settings.choose_output(folder.path().join("film.mp4").to_string_lossy().into_owned());
+    let plan = settings.plan(&document, 0.0).unwrap();
+    assert_eq!(plan.kind, FileKind::Movie);
+    let rendering = Rendering::start(plan, Default::default(), || ()).unwrap();
+    assert!(rendering.wait(LONG));
+    let progress = rendering.progress();
+    if std::process::Command::new("ffmpeg").arg("-version").output().is_ok() {
+        assert_eq!((&progress.outcome, progress.written), (&Some(Outcome::Done), 3));
+        assert_eq!(files(folder.path()), ["film.mp4"]);
+        assert!(std::fs::metadata(folder.path().join("film.mp4")).unwrap().len() > 100);
+    } else {
+        let Some(Outcome::Failed(words)) = &progress.outcome else { panic!("{:?}", progress.outcome) };
+        assert!(words.contains("film.mp4") && words.contains("ffmpeg, which is not installed"), "{words}");
+        assert_eq!((progress.written, rendering.take_picture().is_none()), (0, true));
+        assert!(files(folder.path()).is_empty());
+    }
+}

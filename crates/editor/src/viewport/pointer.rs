@@ -7,6 +7,7 @@ use impasto_editor_model::editor::{PointerEvent, PointerKind};
 use impasto_editor_model::keymap::{Button, Modifiers};
 
 use super::framing::Framing;
+use crate::widgets::press_closes_menu;
 
 /// A pinch by this factor counts as one step of the wheel.
 const PINCH_STEP: f64 = 1.1;
@@ -30,6 +31,7 @@ impl Pointer {
     ) -> Vec<PointerEvent> {
         let (raw, at_secs) = ui.input(|input| (input.raw.events.clone(), input.time));
         let mut held = ui.input(|input| plain(input.modifiers));
+        let closes_menu = press_closes_menu(ui.ctx());
         let mut events = Vec::new();
         for event in raw {
             let mut push = |kind, at_px, held| events.push(PointerEvent { kind, at_px, held, at_secs });
@@ -48,6 +50,10 @@ impl Pointer {
                     held = plain(modifiers);
                     self.last_px = framing.from_window(pos);
                     let Some(button) = plain_button(button) else { continue };
+                    // A press that closes a menu begins nothing; with the right button it opens another one.
+                    if pressed && closes_menu && button != Button::Right {
+                        continue;
+                    }
                     if pressed && over(pos) {
                         self.inside = true;
                         if !self.buttons.contains(&button) {

@@ -3,6 +3,7 @@
 use egui::{Align2, Color32, Popup, PopupCloseBehavior, Response, Role, Sense, Ui, vec2};
 
 use super::draw;
+use super::reach::reached;
 use crate::icons::{self, Icon};
 use crate::theme::{Tokens, measure, type_face};
 
@@ -64,6 +65,7 @@ fn face(ui: &mut Ui, name: &str, icon: Option<Icon>, shown: &str) -> Response {
     let down = rect.right_center() - vec2(padding + 5.0, 0.0);
     draw::icon(painter, down, icons::MENU_DOWN, measure::ICON, tokens.text);
     draw::focus_ring(ui, &response, rect, measure::CORNER);
+    reached(&response, name);
     response.widget_info(|| {
         let mut info = egui::WidgetInfo::labeled(Role::ComboBox, response.enabled(), name);
         info.current_text_value = Some(shown.to_owned());

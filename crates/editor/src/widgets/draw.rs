@@ -5,6 +5,7 @@ use egui::{
     WidgetInfo,
 };
 
+use super::reach::reached;
 use crate::icons::Icon;
 use crate::theme::{Tokens, measure, type_face};
 
@@ -85,13 +86,15 @@ pub(super) fn width(ui: &Ui, text: &str, font: FontId) -> f32 {
     ui.painter().layout_no_wrap(text.to_owned(), font, Color32::WHITE).size().x
 }
 
-/// Tells screen readers the role and the name of a control.
+/// Tells screen readers the role and the name of a control, by which it can be reached.
 pub(super) fn named(response: &Response, role: Role, name: &str) {
+    reached(response, name);
     response.widget_info(|| WidgetInfo::labeled(role, response.enabled(), name));
 }
 
 /// As [`named`], for a control that is on or off.
 pub(super) fn named_state(response: &Response, role: Role, name: &str, on: bool) {
+    reached(response, name);
     response.widget_info(|| WidgetInfo::selected(role, response.enabled(), on, name));
 }
 

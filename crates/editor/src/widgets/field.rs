@@ -11,6 +11,7 @@ use egui::{
 mod typed;
 
 use self::typed::number_of;
+use super::reach::reached;
 use super::{Tip, draw};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
@@ -382,6 +383,7 @@ impl<'a> NumberField<'a> {
             response.mark_changed();
         }
         let (value, name) = (*self.value, self.name);
+        reached(&response, name);
         response.widget_info(|| {
             let mut info = WidgetInfo::labeled(Role::SpinButton, response.enabled(), name);
             info.value = Some(value);

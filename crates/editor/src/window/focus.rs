@@ -2,6 +2,8 @@
 
 use egui::{Context, Event, Id, Key, Modifiers, Plugin, RawInput, Ui};
 
+use crate::widgets::note_open_menu;
+
 /// Keeps egui's keyboard focus from taking the editor's keys: add it to the context as a plugin.
 ///
 /// While nothing has the focus, `Tab` goes to the app ([`tab_pressed`]). While a control has the focus, `Tab` moves it
@@ -24,6 +26,7 @@ impl Plugin for FocusRules {
     }
 
     fn input_hook(&mut self, ctx: &Context, input: &mut RawInput) {
+        note_open_menu(ctx);
         let mut tab = None;
         if ctx.memory(|memory| memory.focused()).is_none() {
             input.events.retain(|event| match event {

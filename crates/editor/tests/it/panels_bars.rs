@@ -98,7 +98,7 @@ fn the_sheets_look_as_they_did() {
     let question = Question::SaveChanges { name: "still_life.ron".to_owned(), minutes: 12 };
     let page = Page { shows: Shows::Question(0), questions: vec![question], ..Page::new() };
     snapshot(&mut results, &mut harness(page, Theme::Dark, (520.0, 260.0)), "save_changes_dark");
-    let mut menu = harness(Page::new(), Theme::Dark, (520.0, 360.0));
+    let mut menu = harness(Page::new(), Theme::Dark, (520.0, 390.0));
     click(&mut menu, "File");
     snapshot(&mut results, &mut menu, "menu_file_dark");
 }

@@ -220,7 +220,7 @@ fn what_cannot_be_rendered_is_told_where_it_is_typed() {
     assert!(!is_enabled(&harness, "Start rendering") && !is_enabled(&harness, "Copy as command"));
     fill(&mut harness, "Frames", "3");
     assert!(is_enabled(&harness, "Start rendering") && is_enabled(&harness, "Copy as command"));
-    fill(&mut harness, "Output files", "film.mp4");
+    fill(&mut harness, "Output files", "film.avi");
     assert!(harness.query_by_label_contains("let the name end in .png").is_some());
     fill(&mut harness, "Output files", "/elsewhere/f_##.png");
     assert!(harness.query_by_label_contains("outside the scene").is_some());

@@ -199,6 +199,33 @@ fn a_press_on_a_chip_is_none_on_the_picture() {
 }
 
 #[test]
+fn a_press_beside_an_open_menu_only_closes_it() {
+    let mut harness = harness(Page::new(Badge::Reference(0.0)));
+    harness.get_by_role_and_label(Role::ComboBox, "Shading").click();
+    harness.run();
+    assert!(harness.query_by_label("Shaded").is_some());
+    harness.state_mut().pointer.clear();
+    let at = pos2(300.0, 380.0);
+    let pressed = |page: &Page| {
+        let pressed = page.pointer.iter().filter(|event| matches!(event.kind, PointerKind::Press(_)));
+        pressed.count()
+    };
+    harness.event(Event::PointerMoved(at));
+    for is_down in [true, false] {
+        harness.event(button(at, PointerButton::Primary, is_down));
+        harness.run();
+    }
+    assert!(harness.query_by_label("Shaded").is_none(), "it is closed");
+    let told = &harness.state().pointer;
+    assert!(told.iter().all(|event| event.kind == PointerKind::Move), "no drag begins: {told:?}");
+    for is_down in [true, false] {
+        harness.event(button(at, PointerButton::Primary, is_down));
+        harness.run();
+    }
+    assert_eq!(pressed(harness.state()), 1, "the next press is one on the picture");
+}
+
+#[test]
 fn chips_ask_for_what_they_say() {
     let mut harness = harness(Page::new(Badge::Reference(0.0)));
     harness.get_by_role_and_label(Role::Button, "Recapture reference").click();

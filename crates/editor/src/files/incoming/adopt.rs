@@ -6,7 +6,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use impasto_scene::assets::{self, AssetError, AssetFolders, AssetRequest};
-use impasto_scene::problem::Report;
+use impasto_scene::problem::{Problem, Report};
 use impasto_scene::whole_file::{WholeFile, failure_in_words};
 use impasto_scene::{mesh_format, texture};
 
@@ -33,6 +33,9 @@ pub enum AdoptError {
     /// The mesh has errors.
     #[error("{0}")]
     Mesh(#[from] Report),
+    /// The picture cannot be used.
+    #[error("{}", unusable(.0))]
+    Picture(Box<Problem>),
     /// One of the files cannot be read.
     #[error("{0}")]
     Unread(#[from] AssetError),
@@ -76,18 +79,27 @@ pub fn adopt_mesh(mesh: &Path, scene_folder: &Path) -> Result<Adopted, AdoptErro
     copy_into_scene(&files, &own_name, scene_folder, "meshes")
 }
 
-/// Makes a picture available to a scene, as [`adopt_mesh`] does; copies go to `brushes/NAME/`.
+/// Makes a picture available to a scene, as [`adopt_mesh`] does; copies go to `subfolder/NAME/`. A picture that cannot be used is
+/// not copied.
 ///
 /// # Errors
 /// [`AdoptError`], with the words to show.
-pub fn adopt_picture(picture: &Path, scene_folder: &Path) -> Result<Adopted, AdoptError> {
+pub fn adopt_picture(picture: &Path, scene_folder: &Path, subfolder: &str) -> Result<Adopted, AdoptError> {
+    let source = canonical(picture)?;
+    let bytes = assets::read_regular_file(&source, texture::MAX_FILE_BYTES)?;
+    texture::decode(&source, &bytes).map_err(|problem| AdoptError::Picture(Box::new(problem)))?;
     if let Some(name) = name_within(picture, scene_folder) {
         return Ok(Adopted { name, copied: Vec::new() });
     }
-    let source = canonical(picture)?;
     let own_name = PathBuf::from(format!("{}.{}", plain_stem(&source), ending(&source)));
     let files = BTreeMap::from([(own_name.clone(), (source, texture::MAX_FILE_BYTES))]);
-    copy_into_scene(&files, &own_name, scene_folder, "brushes")
+    copy_into_scene(&files, &own_name, scene_folder, subfolder)
+}
+
+/// Why a picture cannot be used, in one sentence.
+fn unusable(problem: &Problem) -> String {
+    let mend = problem.mend.replace("it is left out; ", "");
+    format!("{}: {}; {mend}", name_of(&problem.path), problem.message)
 }
 
 /// Copies a file to where another file looks for it. No existing file is overwritten.

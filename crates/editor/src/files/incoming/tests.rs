@@ -37,6 +37,13 @@ impl Home {
         fs::write(path, text).expect("written");
     }
 
+    /// A whole picture.
+    fn picture(&self, name: &str) -> PathBuf {
+        let path = self.at(name);
+        image::RgbaImage::from_pixel(4, 4, image::Rgba([200, 60, 40, 255])).save(&path).expect("written");
+        path
+    }
+
     /// The files under a folder, sorted.
     fn files(&self, folder: &str) -> Vec<String> {
         fn walk(folder: &Path, top: &Path, found: &mut Vec<String>) {
@@ -129,17 +136,43 @@ fn what_cannot_be_copied_leaves_nothing_behind() {
     assert_eq!(fs::read_dir(home.at("scene")).expect("a folder").count(), 0);
     home.write("scene/meshes", "a file in the way");
     assert!(matches!(
-        adopt_picture(&home.at("secret.png"), &home.at("nowhere/\0")),
+        adopt_picture(&home.picture("skin.png"), &home.at("nowhere/\0"), "textures"),
         Err(AdoptError::Unwritable { .. })
     ));
 }
 
 #[test]
-fn a_picture_comes_as_a_brush() {
+fn a_picture_comes_into_the_folder_of_its_use() {
     let home = Home::new();
-    let adopted = adopt_picture(&home.at("secret.png"), &home.at("scene")).expect("adopted");
-    assert_eq!(adopted.name, "brushes/secret/secret.png");
-    assert_eq!(home.files("scene"), ["brushes/secret/secret.png"]);
+    let skin = home.picture("skin.png");
+    let adopted = adopt_picture(&skin, &home.at("scene"), "textures").expect("adopted");
+    assert_eq!(adopted.name, "textures/skin/skin.png");
+    assert_eq!(home.files("scene"), ["textures/skin/skin.png"]);
+    let there = home.at("scene").join(&adopted.name);
+    let again = adopt_picture(&there, &home.at("scene"), "brushes").expect("adopted");
+    assert_eq!((again.name, again.copied.len()), (adopted.name, 0), "it is named where it is");
+}
+
+#[test]
+fn a_picture_that_cannot_be_used_is_refused_in_one_sentence_and_not_copied() {
+    let home = Home::new();
+    let refused = |name: &str| {
+        let error = adopt_picture(&home.at(name), &home.at("scene"), "textures").expect_err("refused");
+        assert!(home.files("scene").is_empty(), "{name} left something");
+        error.to_string()
+    };
+    let words = refused("secret.png");
+    assert!(words.starts_with("secret.png: the format of the picture is unknown; save it again"), "{words}");
+    home.write("empty.png", "");
+    assert!(refused("empty.png").contains("empty.png: the picture file is empty"));
+    let whole = fs::read(home.picture("skin.png")).expect("there");
+    fs::write(home.at("cut.png"), &whole[..whole.len() / 2]).expect("written");
+    let words = refused("cut.png");
+    assert!(
+        words.starts_with("cut.png: the picture can not be decoded") && !words.contains("left out"),
+        "{words}"
+    );
+    assert!(refused("nowhere.png").contains("nowhere.png"));
 }
 
 #[test]
@@ -152,7 +185,7 @@ fn dropped_files_are_opened_begun_or_imported() {
         ["models/apple.obj", "models/pear.OBJ", "a.ron", "b.ron", "secret.png"].map(|name| home.at(name));
     let both = [apple.clone(), pear.clone(), apple.clone(), picture.clone()];
     let steps = |present| plan(&both, present).steps;
-    let brush = Step::Brush(picture.clone());
+    let brush = Step::Picture(picture.clone());
     let begun = [Step::Begin(apple.clone()), Step::Import(pear.clone()), brush.clone()];
     assert_eq!(steps(Present::Nothing), begun, "each once, the first into a scene of its own");
     assert_eq!(steps(Present::Edited), [Step::Import(apple.clone()), Step::Import(pear), brush]);

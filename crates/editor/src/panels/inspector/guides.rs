@@ -102,6 +102,7 @@ fn guide_row(
         painter.rect_stroke(rect.shrink(2.0), 2.0, ring, egui::StrokeKind::Inside);
     }
     let spoken = format!("Guide {name}");
+    widgets::reached(&response, &spoken);
     response
         .widget_info(|| WidgetInfo::selected(egui::Role::ListItem, response.enabled(), selected, &spoken));
     if response.clicked() {
@@ -109,7 +110,14 @@ fn guide_row(
             if selected { Item::Region(region.to_owned()) } else { Item::Guide(region.to_owned(), index) };
         asker.asks.push(Ask::Select(Selection::only(item)));
     }
-    response.dnd_set_drag_payload(Item::Guide(region.to_owned(), index));
+    let item = Item::Guide(region.to_owned(), index);
+    if response.secondary_clicked() {
+        asker.asks.push(Ask::Select(Selection::only(item.clone())));
+        asker.asks.push(Ask::Menu(Some(item.clone())));
+    }
+    if response.drag_started_by(egui::PointerButton::Primary) {
+        response.dnd_set_drag_payload(item);
+    }
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(words));
     rect
 }

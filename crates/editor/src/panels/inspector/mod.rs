@@ -1,6 +1,7 @@
 //! The inspector: the settings of the active item, or of the scene where nothing is selected.
 
 mod camera;
+mod controls;
 mod edited_strokes;
 mod guides;
 mod ink;
@@ -11,6 +12,8 @@ mod object;
 mod over_time;
 mod paint_layers;
 mod parts;
+mod picture;
+mod pigments;
 mod pose;
 mod region;
 mod rotating_strokes;
@@ -23,7 +26,8 @@ use impasto_editor_model::command::Command;
 use impasto_scene::document::Scene;
 
 use super::{Ask, PanelInput};
-pub use noise::NoisePart;
+use crate::widgets;
+pub use controls::{Control, controls, reach};
 
 /// The settings of what is selected. It fills the width and height of `ui`, which has no margins.
 pub fn inspector(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
@@ -36,14 +40,14 @@ pub fn inspector(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
         other => other.clone(),
     };
     ScrollArea::vertical().id_salt(("inspector", salt)).auto_shrink(false).show(ui, |ui| {
-        match &active {
+        widgets::reachable(ui, |ui| match &active {
             Some(Item::Region(name)) => region::show(ui, &mut asker, name),
             Some(Item::Guide(name, _)) => region::show(ui, &mut asker, name),
             Some(Item::Object(name)) => object::show(ui, &mut asker, name),
             Some(Item::Light(name)) => light::show(ui, &mut asker, name),
             Some(Item::Camera) => camera::show(ui, &mut asker),
             None => scene::show(ui, &mut asker),
-        };
+        });
         ui.add_space(12.0);
     });
 }

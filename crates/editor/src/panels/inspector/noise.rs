@@ -2,6 +2,7 @@
 
 use egui::Ui;
 use impasto_editor_model::command::{Arrange, Command};
+use impasto_editor_model::{NoisePart, PictureFor};
 use impasto_scene::document::{
     MaterialOverride, NoiseAlong, NoiseAlpha, NoiseDisplace, NoiseForward, NoiseMix, NoiseNormals,
     NoiseSpace, Object, SurfaceNoise, VertexNoise,
@@ -10,30 +11,15 @@ use impasto_scene::limits::{MAX_NOISE_INTENSITY, MAX_STRENGTH, NOISE_LAYERS, NOI
 
 use super::Asker;
 use super::number::Number;
-use super::parts::{FieldStyle, pick, reset, row, seen, text};
-use crate::panels::Ask;
-use crate::widgets::{self, Button, Tip};
-
-/// The width of the button that opens a dialog for a picture, with its space.
-const BROWSE: f32 = 92.0;
-
-/// A part of the noise of an object's material.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NoisePart {
-    /// What moves the vertices.
-    Vertex,
-    /// What colours the surface.
-    Surface,
-}
+use super::parts::{pick, reset, row, seen};
+use super::picture::Picture;
+use crate::widgets::{self, Tip};
 
 /// A number of one part of the noise (vertex or surface): how it is shown, and access to its value.
 struct Setting<T> {
     number: Number<'static>,
     of: fn(&mut T) -> &mut f64,
 }
-
-/// Gives access to the file name of the picture that a part of the noise uses.
-type NameOf<T> = fn(&mut T) -> &mut Option<String>;
 
 /// A setting of one part of the noise that offers a few words: its label, name and effect, the words, which of them is
 /// chosen, and how to set it.
@@ -83,13 +69,7 @@ pub(super) fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]: [&O
     }
     if let (Some(now), Some(was)) = (&shown.vertex, &stored_noise.vertex) {
         let set = |vertex| set(NoiseDisplace { vertex: Some(vertex), ..stored_noise.clone() });
-        texture(
-            ui,
-            asker,
-            ("Vertex noise file", object, NoisePart::Vertex),
-            (now, was),
-            (|noise| &mut noise.texture, &set),
-        );
+        texture(ui, asker, "Vertex noise file", (object, NoisePart::Vertex), now.texture.as_deref());
         settings(ui, asker, &vertex_numbers(), [now, was], &set);
         choices(ui, asker, &VERTEX_CHOICES, [now, was], &set);
     }
@@ -99,13 +79,7 @@ pub(super) fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]: [&O
     }
     if let (Some(now), Some(was)) = (&shown.surface, &stored_noise.surface) {
         let set = |surface| set(NoiseDisplace { surface: Some(surface), ..stored_noise.clone() });
-        texture(
-            ui,
-            asker,
-            ("Surface noise file", object, NoisePart::Surface),
-            (now, was),
-            (|noise| &mut noise.texture, &set),
-        );
+        texture(ui, asker, "Surface noise file", (object, NoisePart::Surface), now.texture.as_deref());
         layers(ui, asker, [now, was], &set);
         settings(ui, asker, &surface_numbers(), [now, was], &set);
         tint(ui, asker, [now, was], &set);
@@ -115,31 +89,16 @@ pub(super) fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]: [&O
 }
 
 /// The picture used in place of the built-in noise; an empty name brings the built-in noise back.
-fn texture<T: Clone>(
+fn texture(
     ui: &mut Ui,
     asker: &mut Asker<'_, '_>,
-    (label, object, part): (&str, &Object, NoisePart),
-    (now, was): (&T, &T),
-    (of, set): (NameOf<T>, &dyn Fn(T) -> Command),
+    name: &str,
+    (object, part): (&Object, NoisePart),
+    file: Option<&str>,
 ) {
-    let key = egui::Id::unique((label, &object.name));
-    let name = of(&mut now.clone()).clone().unwrap_or_default();
-    let typed = row(ui, "Picture", |ui| {
-        let room = ui.available_width() - BROWSE;
-        let typed = ui.scope(|ui| {
-            ui.set_max_width(room);
-            text(ui, label, key, &name, FieldStyle::Field)
-        });
-        if Button::new("Browse\u{2026}").name(&format!("Browse for {label}")).show(ui).clicked() {
-            asker.asks.push(Ask::ChooseNoise(object.name.clone(), part));
-        }
-        typed.inner
-    });
-    if let Some(typed) = typed {
-        let mut next = was.clone();
-        *of(&mut next) = Some(typed.trim().to_owned()).filter(|name| !name.is_empty());
-        asker.ask(set(next));
-    }
+    let of = PictureFor::Noise(object.name.clone(), part);
+    let effect = "The noise is taken from this picture; without one it is the built-in noise.";
+    asker.picture(ui, &Picture { label: "Picture", name, effect, of, file });
 }
 
 fn settings<T: Clone>(

@@ -2,14 +2,15 @@
 
 use egui::Ui;
 use impasto_editor_model::command::{Arrange, Command, Edit};
-use impasto_editor_model::{Item, Selection};
-use impasto_scene::document::{MaterialOverride, Object, Scene};
+use impasto_editor_model::{Item, PictureFor, Selection};
+use impasto_scene::document::{Color, MaterialOverride, Object, Scene};
 use impasto_scene::limits::MAX_PARTICLES_OF_OBJECT;
 
 use super::number::Number;
 use super::parts::{
     FieldStyle, at_end, body, head, head_icon, head_note, note, pick, reset, row, section, seen, text,
 };
+use super::picture::Picture;
 use super::{Asker, noise, pose};
 use crate::icons;
 use crate::panels::Ask;
@@ -51,7 +52,7 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, name: &str) {
         if mesh.is_some() {
             section(ui, "Mesh", "", false, |ui| mesh_rows(ui, asker, [object, stored]));
         }
-        section(ui, "Material", "", false, |ui| material(ui, asker, [object, stored]));
+        section(ui, "Material", "", true, |ui| material(ui, asker, [object, stored]));
         let parent = object.parent.as_deref().unwrap_or("none");
         section(ui, "Parent", parent, false, |ui| parent_row(ui, asker, object));
     });
@@ -154,21 +155,34 @@ fn material(ui: &mut Ui, asker: &mut Asker<'_, '_>, of_object: [&Object; 2]) {
         let material = (material != MaterialOverride::default()).then_some(material);
         Command::Arrange(Arrange::SetMaterial(object.name.clone(), material))
     };
+    let file = asker.shown.document.shown().meshes.get(&object.mesh);
     row(ui, "Colour", |ui| {
-        let colour = seen(shown.color.unwrap_or(impasto_scene::document::Color::white()));
-        asker.colour(ui, "Material colour", colour, |color| {
+        // A mesh of several materials has no one colour to show.
+        let of_mesh = match file.map(|file| &file.materials[..]) {
+            Some([only]) if only.texture.is_none() && shown.texture.is_none() => Color(only.color),
+            _ => Color::white(),
+        };
+        let colour = seen(shown.color.unwrap_or(of_mesh));
+        let square = asker.colour(ui, "Material colour", colour, |color| {
             set(MaterialOverride { color: Some(color), ..stored.clone() })
         });
-        if shown.color.is_none() {
-            note(ui, "as the mesh");
-        } else if reset(ui, "Material colour") {
-            asker.ask(set(MaterialOverride { color: None, ..stored.clone() }));
+        let effect = "In place of the colours and pictures of the mesh. A texture is multiplied by it.";
+        Tip { name: "Colour", effect, ..Tip::default() }.on(square);
+        if shown.color.is_some() {
+            if reset(ui, "Material colour") {
+                asker.ask(set(MaterialOverride { color: None, ..stored.clone() }));
+            }
+        } else {
+            note(ui, if shown.texture.is_some() { "as the picture" } else { "as the mesh" });
         }
     });
-    if let Some(texture) = &shown.texture {
-        row(ui, "Texture", |ui| note(ui, texture));
+    let of = PictureFor::Texture(object.name.clone());
+    let effect = "A picture on its surface, in place of those of the mesh: PNG, JPEG, BMP, TGA or WebP.";
+    let texture = shown.texture.as_deref();
+    asker.picture(ui, &Picture { label: "Texture", name: "Texture file", effect, of, file: texture });
+    if texture.is_some() && file.is_some_and(|file| file.mesh.uvs.is_empty()) {
+        note(ui, "The mesh has no UV coordinates, so nothing says where the picture lies.");
     }
-    let file = asker.shown.document.shown().meshes.get(&object.mesh);
     let of_file =
         file.and_then(|file| file.materials.first()).map_or(0.0, |material| f64::from(material.gloss));
     let gloss = Number {

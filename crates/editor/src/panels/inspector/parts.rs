@@ -33,10 +33,11 @@ pub(super) fn section(
     open_at_first: bool,
     contents: impl FnOnce(&mut Ui),
 ) {
-    // *Pose at frame 37* is one section for all frames: it stays open or folded when the frame changes.
-    let key = name.split(" at ").next().unwrap_or(name);
-    let known = ColumnState::with(ui.ctx(), |state| state.sections.get(key).copied());
-    let mut open = known.unwrap_or(open_at_first);
+    let key = ColumnState::key_of(name);
+    let (known, all_open) =
+        ColumnState::with(ui.ctx(), |state| (state.sections.get(key).copied(), state.all_open));
+    let mut open = all_open || known.unwrap_or(open_at_first);
+    widgets::enter_part(ui.ctx(), name);
     if widgets::section(ui, name, note, &mut open).changed() {
         ColumnState::with(ui.ctx(), |state| state.sections.insert(key.to_owned(), open));
     }
@@ -157,6 +158,7 @@ pub(super) fn text(ui: &mut Ui, name: &str, key: Id, current: &str, look: FieldS
         .frame(frame.inner_margin(margin))
         .desired_width(wide);
     let response = ui.add(edit);
+    widgets::reached(&response, name);
     response.widget_info(|| {
         let mut info = WidgetInfo::labeled(Role::TextInput, true, name);
         info.current_text_value = Some(typed.clone());
@@ -192,6 +194,11 @@ pub(super) fn reset(ui: &mut Ui, name: &str) -> bool {
     let font = type_face::icon(14.0);
     ui.painter().text(rect.center(), egui::Align2::CENTER_CENTER, icons::UNDO.glyph(), font, colour);
     let name = format!("Reset {name}");
+    widgets::reached(&response, &name);
+    if response.has_focus() {
+        let ring = egui::Stroke::new(2.0, tokens.accent_text);
+        ui.painter().rect_stroke(rect, 4.0, ring, egui::StrokeKind::Inside);
+    }
     response.widget_info(|| WidgetInfo::labeled(Role::Button, response.enabled(), &name));
     response.clicked()
 }
@@ -274,6 +281,7 @@ fn small_toggle(ui: &mut Ui, icon: Icon, name: &str, on: bool) -> bool {
         let ring = egui::Stroke::new(2.0, tokens.accent_text);
         ui.painter().rect_stroke(rect, 4.0, ring, egui::StrokeKind::Inside);
     }
+    widgets::reached(&response, name);
     response.widget_info(|| WidgetInfo::selected(Role::Button, response.enabled(), on, name));
     response.clicked()
 }

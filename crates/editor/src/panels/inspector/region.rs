@@ -1,16 +1,18 @@
 //! The inspector's page for a region: its head, its base direction, its seam.
 
 use egui::Ui;
-use impasto_editor_model::Item;
 use impasto_editor_model::command::{Command, Directions, RegionTarget, Regions, StrokesOf};
+use impasto_editor_model::{Item, Selection};
 use impasto_scene::document::{Bend, Direction, Region, Seam, Sense};
 
 use super::Asker;
+use super::controls::Control;
 use super::number::{ANY, Number, decimals};
 use super::parts::{at_end, axes, body, head, head_note, note, pick, row, section};
 use super::{guides, over_time, strokes};
+use crate::panels::Ask;
 use crate::panels::tree::region_color;
-use crate::widgets::{self, Tip};
+use crate::widgets::{self, Button, Tip};
 
 /// Width of the label before three fields.
 const NARROW_LABEL: f32 = 54.0;
@@ -46,10 +48,26 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, name: &str) {
     ui.add_enabled_ui(locked.is_none(), |ui| {
         section(ui, "Direction", "", true, |ui| direction(ui, asker, [region, stored]));
         strokes::of_region(ui, asker, name);
+        if let Some(object) = region.on.object() {
+            body(ui, |ui| to_material(ui, asker, object));
+        }
         guides::section_of(ui, asker, [region, stored]);
         strokes::advanced(ui, asker, Some(name));
         over_time::of_strokes(ui, asker, &StrokesOf::Region(name.to_owned()));
     });
+}
+
+/// A button that goes to the material of the object: a region has strokes and pigments of its own, and the surface below them is
+/// its object's.
+fn to_material(ui: &mut Ui, asker: &mut Asker<'_, '_>, object: &str) {
+    let name = format!("Material of {object}");
+    let button = Button::new("Colour and texture\u{2026}").name(&name).show(ui);
+    let effect = "The surface below the strokes is that of the object: its colour, texture and gloss.";
+    if (Tip { name: &name, effect, ..Tip::default() }).on(button).clicked() {
+        asker.asks.push(Ask::Select(Selection::only(Item::Object(object.to_owned()))));
+        let section = "Material".to_owned();
+        asker.asks.push(Ask::Reach(Control { name: section.clone(), section }));
+    }
 }
 
 fn direction(ui: &mut Ui, asker: &mut Asker<'_, '_>, [region, stored]: [&Region; 2]) {

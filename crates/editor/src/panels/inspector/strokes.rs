@@ -11,7 +11,7 @@ use impasto_scene::presets;
 use super::edited_strokes::EditedStrokes;
 use super::number::Number;
 use super::parts::{note, pick, reset, row, section};
-use super::{Asker, paint_layers};
+use super::{Asker, paint_layers, pigments};
 use crate::panels::brush_thumbnails::thumbnail;
 use crate::panels::column_state::ColumnState;
 use crate::panels::status_line::grouped;
@@ -31,6 +31,7 @@ pub(super) fn contents(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<&s
     }
     brushes(ui, asker, &place);
     numbers(ui, asker, &place, false);
+    pigments::show(ui, asker, &place);
     let layers = place.resolved.each_ref().map(|resolved| f64::from(resolved.layer));
     let scene = asker.scene();
     let usual = if region.is_some() { scene.strokes.layer.unwrap_or(0) } else { 0 };

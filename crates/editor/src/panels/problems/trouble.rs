@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use impasto_editor_model::PictureFor;
+
 /// A failure that is listed until it is settled.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Trouble {
@@ -26,6 +28,8 @@ pub enum TroubleOf {
     Open(PathBuf),
     /// A mesh was not imported.
     Import(PathBuf),
+    /// A picture was not taken for this.
+    Picture(PictureFor, PathBuf),
 }
 
 /// What settles a trouble.

@@ -5,7 +5,7 @@ use impasto_editor_model::render_settings::{AovChoice, AovGroup, FileKind, Rende
 use impasto_scene::aovs::AovRow;
 use impasto_scene::document::Scene;
 
-use super::labelled;
+use super::{labelled, under};
 use crate::panels::{row, within};
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Tip};
@@ -30,6 +30,10 @@ pub(super) fn format(ui: &mut Ui, scene: &Scene, settings: &mut RenderSettings) 
             Tip { name: "AOVs", effect, ..Tip::default() }.on(control);
         }
     });
+    if settings.kind == FileKind::Movie {
+        let words = "H.264 in a .mp4, ProRes 4444 in a .mov, VP9 in a .webm; made by ffmpeg.";
+        under(ui, words, Tokens::of(ui).weak);
+    }
 }
 
 /// Three choices for all, and a box to tick for each.

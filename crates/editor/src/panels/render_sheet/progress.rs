@@ -66,7 +66,11 @@ fn bar(ui: &Ui, words: Rect, progress: &RenderProgress) {
 /// The current stage, or how rendering ended.
 fn state(ui: &Ui, at: egui::Pos2, right: f32, progress: &RenderProgress) {
     let tokens = Tokens::of(ui);
+    // A movie has no file before its end.
+    let no_file = progress.last.is_none() && progress.stage == Stage::Drawing && !progress.stopping;
+    let is_without = no_file && progress.outcome.is_none();
     let (icon, colour) = match (&progress.outcome, progress.stage) {
+        _ if is_without => (None, tokens.weak),
         (Some(Outcome::Failed(_)), _) => (Some(icons::ERROR), tokens.vermilion),
         (Some(Outcome::Stopped), _) => (Some(icons::DONE), tokens.text),
         (Some(Outcome::Done), _) => (Some(icons::DONE), tokens.viridian),
@@ -79,7 +83,7 @@ fn state(ui: &Ui, at: egui::Pos2, right: f32, progress: &RenderProgress) {
         ui.painter().text(at, Align2::LEFT_TOP, icon.glyph(), font, colour);
         at.x += measure::SMALL_ICON + 6.0;
     }
-    let words = progress.state_words();
+    let words = if is_without { "No file is there yet".to_owned() } else { progress.state_words() };
     let galley = ui.painter().layout(words.clone(), type_face::small(), colour, right - at.x);
     let rect = Rect::from_min_size(at, galley.size());
     ui.painter().galley(at, galley, colour);

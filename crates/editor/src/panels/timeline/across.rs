@@ -88,10 +88,11 @@ pub(in crate::panels) fn scrub(
     if let Some(to) = requested.filter(|value| value.is_finite()) {
         asks.push(Ask::Timeline(TimelineEvent::GoTo(to.clamp(across.first, across.last))));
     }
-    let held = response.is_pointer_button_down_on() || response.clicked();
+    let is_down = response.is_pointer_button_down_on() && ui.input(|input| input.pointer.primary_down());
+    let held = is_down || response.clicked();
     let was_held = ui.data_mut(|data| {
         let was_held = data.get_temp::<bool>(response.id).unwrap_or_default();
-        data.insert_temp(response.id, response.is_pointer_button_down_on());
+        data.insert_temp(response.id, is_down);
         was_held
     });
     if let Some(at) = response.interact_pointer_pos().filter(|_| held) {
@@ -100,7 +101,7 @@ pub(in crate::panels) fn scrub(
             asks.push(Ask::Timeline(TimelineEvent::Scrub(to)));
         }
     }
-    if (was_held || held) && !response.is_pointer_button_down_on() {
+    if (was_held || held) && !is_down {
         asks.push(Ask::Timeline(TimelineEvent::EndScrub));
     }
 }

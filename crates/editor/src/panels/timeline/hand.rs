@@ -1,16 +1,14 @@
 //! Selects and moves keys by the pointer over the timeline's lanes. Its events are handled one by one, so that none is
 //! lost when several come in one pass.
 
-use egui::{Event, Id, PointerButton, Popup, PopupAnchor, Pos2, Rect, Ui};
-use impasto_editor_model::command::ease_name;
-use impasto_editor_model::command::{Command, Time};
+use egui::{Event, PointerButton, Popup, Pos2, Rect, Ui};
 use impasto_editor_model::timeline::{KeyAt, KeysEvent, Lane, LanePosition, TimelineEvent};
-use impasto_scene::document::Ease;
 
 use super::across::FrameScale;
+use super::key_menu::KeyMenu;
 use crate::panels::{Ask, PanelInput};
 use crate::theme::measure;
-use crate::widgets::MenuRow;
+use crate::widgets::press_closes_menu;
 
 /// Where the lanes lie in the window.
 #[derive(Clone, Copy)]
@@ -49,9 +47,10 @@ impl LaneLayout<'_> {
 #[derive(Clone, Debug, Default)]
 struct Memory {
     down: bool,
-    /// The open menu: the keys that it changes, whether the pointer hit one of them (or only the space behind it), and
-    /// where it opens.
-    menu: Option<(Vec<KeyAt>, bool, Pos2)>,
+    /// What the menu is about that was opened last.
+    menu: Option<KeyMenu>,
+    /// The keys that were copied.
+    copied: Vec<KeyAt>,
 }
 
 /// Turns the pointer's events into events of the timeline.
@@ -63,13 +62,14 @@ pub(super) fn hand(ui: &mut Ui, layout: &LaneLayout<'_>, shown: &PanelInput<'_>,
     let mut memory = ui.data_mut(|data| data.get_temp::<Memory>(id)).unwrap_or_default();
     let mut tell = |event| asks.push(Ask::Timeline(TimelineEvent::Keys(event)));
     let follows = shown.time.keys.follows();
+    let closes_menu = press_closes_menu(&ctx);
     for event in ui.input(|input| input.events.clone()) {
         match event {
             Event::PointerMoved(at) if memory.down || follows && over(at) => {
                 tell(KeysEvent::Move(layout.place(at)));
             }
             Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers } => {
-                if pressed && over(pos) {
+                if pressed && over(pos) && !closes_menu {
                     memory.down = true;
                     let adds = modifiers.shift || modifiers.command;
                     tell(KeysEvent::Press { at: layout.place(pos), key: layout.key(pos), adds });
@@ -85,17 +85,13 @@ pub(super) fn hand(ui: &mut Ui, layout: &LaneLayout<'_>, shown: &PanelInput<'_>,
                     tell(KeysEvent::Cancel);
                     continue;
                 }
-                let keys = match layout.key(pos) {
-                    Some(key) if shown.time.keys.contains(&key.0, key.1) => {
-                        Some((shown.time.keys.selected().to_vec(), true))
-                    }
-                    Some(key) => Some((vec![key], true)),
-                    None => between(layout, pos).map(|key| (vec![key], false)),
-                };
-                memory.menu = keys.map(|(keys, hit)| (keys, hit, pos));
-                if memory.menu.is_some() {
-                    Popup::open_id(&ctx, id);
+                let key = layout.key(pos);
+                let is_selected = |key: &&KeyAt| shown.time.keys.contains(&key.0, key.1);
+                if let Some(key) = key.as_ref().filter(|key| !is_selected(key)) {
+                    tell(KeysEvent::Select(key.clone()));
                 }
+                memory.menu = Some(key_menu(layout, pos, key, shown));
+                Popup::open_id(&ctx, id);
             }
             Event::WindowFocused(false) if memory.down || follows => {
                 memory.down = false;
@@ -104,8 +100,10 @@ pub(super) fn hand(ui: &mut Ui, layout: &LaneLayout<'_>, shown: &PanelInput<'_>,
             _ => {}
         }
     }
-    if let Some((keys, hit, at)) = &memory.menu {
-        menu(ui, id, *at, keys, *hit, asks);
+    if let Some(menu) = &memory.menu
+        && let Some(copied) = menu.show(ui, id, &memory.copied, asks)
+    {
+        memory.copied = copied;
     }
     ui.data_mut(|data| data.insert_temp(id, memory));
 }
@@ -117,24 +115,15 @@ fn between(layout: &LaneLayout<'_>, at: Pos2) -> Option<KeyAt> {
     Some((lane.of.clone(), lane.left_of(place.frame)?.frame))
 }
 
-/// The menu of eases, with *Delete* where a key was hit.
-fn menu(ui: &Ui, id: Id, at: Pos2, keys: &[KeyAt], hit: bool, asks: &mut Vec<Ask>) {
-    let anchor = PopupAnchor::Position(at);
-    let popup = Popup::new(id, ui.ctx().clone(), anchor, ui.layer_id());
-    popup.kind(egui::PopupKind::Menu).open_memory(None).width(150.0).show(|ui| {
-        for ease in [Ease::Smooth, Ease::Linear, Ease::Step] {
-            let words = format!("Ease {}", ease_name(ease));
-            if (MenuRow { words: &words, ..MenuRow::default() }).show(ui).clicked() {
-                asks.push(Ask::Do(Command::Time(Time::SetEase(keys.to_vec(), ease))));
-                ui.close();
-            }
-        }
-        if hit {
-            let words = if keys.len() == 1 { "Delete key" } else { "Delete keys" };
-            if (MenuRow { words, keys: "Delete", ..MenuRow::default() }).show(ui).clicked() {
-                asks.push(Ask::Do(Command::Time(Time::DeleteKeys(keys.to_vec()))));
-                ui.close();
-            }
-        }
-    });
+/// What the menu at a place of the lanes is about.
+fn key_menu(layout: &LaneLayout<'_>, at: Pos2, key: Option<KeyAt>, shown: &PanelInput<'_>) -> KeyMenu {
+    let place = layout.place(at);
+    let lane = layout.lanes.get(place.lane).filter(|lane| !lane.locked && !lane.of_shot);
+    let frame = key.as_ref().map_or(place.frame.round(), |key| key.1);
+    let keys = match &key {
+        Some(key) if shown.time.keys.contains(&key.0, key.1) => shown.time.keys.selected().to_vec(),
+        Some(key) => vec![key.clone()],
+        None => between(layout, at).into_iter().collect(),
+    };
+    KeyMenu { keys, is_on_key: key.is_some(), at, frame, lane: lane.map(|lane| lane.of.clone()) }
 }

@@ -65,6 +65,13 @@ pub(super) fn name(ui: &mut Ui, row: LaneRow, lane: &Lane, shown: &PanelInput<'_
     if response.clicked() {
         asks.push(Ask::Select(item(&lane.of).map(Selection::only).unwrap_or_default()));
     }
+    if response.secondary_clicked() {
+        let item = item(&lane.of);
+        if !is_selected(shown.document.selection(), &lane.of) {
+            asks.push(Ask::Select(item.clone().map(Selection::only).unwrap_or_default()));
+        }
+        asks.push(Ask::Menu(item));
+    }
     if response.hovered() && !is_selected(shown.document.selection(), &lane.of) {
         ui.painter().rect_filled(rect, 0.0, tokens.hov);
     }

@@ -2,6 +2,7 @@
 
 pub(super) mod across;
 mod hand;
+mod key_menu;
 mod lanes;
 mod ruler;
 pub(super) mod transport;

@@ -18,41 +18,56 @@ pub(super) fn menu(button: &Response, shown: &PanelInput<'_>, asks: &mut Vec<Ask
     if asked {
         Popup::open_id(&button.ctx, Popup::default_response_id(button));
     }
-    Popup::menu(button).width(190.0).show(|ui| {
-        ui.spacing_mut().item_spacing.y = 0.0;
-        if entry(ui, icons::OBJECT, "Import mesh\u{2026}") {
-            asks.push(Ask::Act(Action::ImportMesh));
-        }
-        let kinds = [
-            ("Sun", LightKind::Sun),
-            ("Lamp", LightKind::Point),
-            ("Spot", LightKind::Spot),
-            ("Sky", LightKind::Ambient),
-        ];
-        for (words, kind) in kinds {
-            if entry(ui, icons::LIGHT, words) {
-                asks.push(Ask::Do(Command::Arrange(light(shown, kind))));
-            }
-        }
-        let object = object_of(shown.document.scene(), shown.document.selection().active());
-        for region in object.map(|object| regions(shown, object)).unwrap_or_default() {
-            let words = match &region.on {
-                Selector::Object(object) => format!("Region on {object}"),
-                _ => format!("Region {}", region.name),
-            };
-            if entry(ui, icons::REGION, &words) {
-                asks.push(Ask::Do(Command::Regions(Regions::Add(Box::new(region)))));
-            }
-        }
-    });
+    Popup::menu(button).width(190.0).show(|ui| entries(ui, shown, asks));
 }
 
-fn entry(ui: &mut Ui, icon: Icon, words: &str) -> bool {
-    let clicked = Button::new(words).icon(icon).plain().show(ui).clicked();
-    if clicked {
-        ui.close();
+/// The rows of the menu.
+pub(in crate::panels) fn entries(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
+    ui.spacing_mut().item_spacing.y = 0.0;
+    ui.set_min_width(190.0);
+    for Addition { icon, words, ask } in additions(shown) {
+        if Button::new(&words).icon(icon).plain().show(ui).clicked() {
+            asks.push(ask);
+            ui.close();
+        }
     }
-    clicked
+}
+
+/// Something that can be added to the scene.
+pub(in crate::panels) struct Addition {
+    icon: Icon,
+    /// What it is: *Lamp*.
+    pub(in crate::panels) words: String,
+    /// What adds it.
+    pub(in crate::panels) ask: Ask,
+}
+
+/// Everything that can be added to the scene as it is.
+pub(in crate::panels) fn additions(shown: &PanelInput<'_>) -> Vec<Addition> {
+    let words = "Import mesh\u{2026}".to_owned();
+    let mut all = vec![Addition { icon: icons::OBJECT, words, ask: Ask::Act(Action::ImportMesh) }];
+    let kinds = [
+        ("Sun", LightKind::Sun),
+        ("Lamp", LightKind::Point),
+        ("Spot", LightKind::Spot),
+        ("Sky", LightKind::Ambient),
+    ];
+    all.extend(kinds.into_iter().map(|(words, kind)| Addition {
+        icon: icons::LIGHT,
+        words: words.to_owned(),
+        ask: Ask::Do(Command::Arrange(light(shown, kind))),
+    }));
+    let object = object_of(shown.document.scene(), shown.document.selection().active());
+    let regions = object.map(|object| regions(shown, object)).unwrap_or_default();
+    all.extend(regions.into_iter().map(|region| Addition {
+        icon: icons::REGION,
+        words: match &region.on {
+            Selector::Object(object) => format!("Region on {object}"),
+            _ => format!("Region {}", region.name),
+        },
+        ask: Ask::Do(Command::Regions(Regions::Add(Box::new(region)))),
+    }));
+    all
 }
 
 /// A light up and to the left of the camera, which shines where the camera looks.

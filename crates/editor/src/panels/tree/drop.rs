@@ -1,6 +1,6 @@
 //! Dragging rows of the tree: an object dropped onto another becomes its child; a drop between rows changes the order.
 
-use egui::{DragAndDrop, Rect, Response, Stroke, StrokeKind, Ui};
+use egui::{DragAndDrop, PointerButton, Rect, Response, Stroke, StrokeKind, Ui};
 use impasto_editor_model::Item;
 use impasto_editor_model::command::{Command, Edit};
 use impasto_scene::document::Scene;
@@ -21,7 +21,7 @@ enum DropTarget<'a> {
 
 /// Begins to drag a row; the camera's row cannot be dragged.
 pub(super) fn begin(response: &Response, item: &Item) {
-    if *item != Item::Camera {
+    if *item != Item::Camera && response.drag_started_by(PointerButton::Primary) {
         response.dnd_set_drag_payload(item.clone());
     }
 }

@@ -16,6 +16,7 @@ use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Tip, TreeRow};
 use rows::TreeLine;
 
+pub(super) use add::{additions, entries as add_menu};
 pub(super) use rows::region_color;
 
 /// The scene tree. It fills the width and height of `ui`, which has no margins.
@@ -47,6 +48,13 @@ pub fn tree(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
             placed.push(rect);
         }
         words_below(ui, &rows, &state, loaded.scene.objects.is_empty());
+        let below = ui.available_rect_before_wrap();
+        if below.is_positive() {
+            let below = ui.interact(below, ui.scope_id().with("below the rows"), Sense::click());
+            if below.secondary_clicked() {
+                asks.push(Ask::Menu(None));
+            }
+        }
         placed
     });
     drop::drag_and_drop(ui, &loaded.scene, &rows, &output.inner, output.inner_rect, asks);
@@ -137,9 +145,17 @@ fn show_row(
     let Some(item) = &row.item else {
         if answer.response.clicked() {
             asks.push(Ask::Select(Selection::default()));
+        } else if answer.response.secondary_clicked() {
+            asks.push(Ask::Menu(None));
         }
         return rect;
     };
+    if answer.response.secondary_clicked() {
+        if !selection.contains(item) {
+            asks.push(Ask::Select(Selection::only(item.clone())));
+        }
+        asks.push(Ask::Menu(Some(item.clone())));
+    }
     if answer.toggled {
         let open = row.expanded != Some(true);
         ColumnState::with(ui.ctx(), |state| state.rows.insert(row.name.clone(), open));

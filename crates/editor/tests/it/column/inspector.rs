@@ -44,7 +44,9 @@ fn a_region_shows_all_that_can_be_set() {
             "Flatness",
             "Angle jitter",
             "Colour jitter",
+            "Add a pigment",
             "Layer",
+            "Material of apple",
             "Guides",
             "No guides. Comb over the region, or draw a curve (V).",
             "Advanced",
@@ -122,7 +124,7 @@ fn the_wheel_scrolls_the_column_and_steps_only_a_field_with_the_focus_or_with_ct
 #[test]
 fn an_object_shows_all_that_can_be_set() {
     let mut harness = harness("apple.ron", object("apple"));
-    for part in ["Mesh", "Material", "Parent", "Regions"] {
+    for part in ["Mesh", "Parent", "Regions"] {
         let section = harness.get_by_role_and_label(Role::DisclosureTriangle, part);
         section.click();
         harness.run();
@@ -149,6 +151,8 @@ fn an_object_shows_all_that_can_be_set() {
             "Particles own",
             "Particle count",
             "Material colour",
+            "Texture file",
+            "Browse for Texture file",
             "Gloss",
             "Without light or shadow",
             "Parent",
@@ -453,7 +457,6 @@ fn noise_of_a_material_is_set_and_reset() {
         apple.material.as_ref().and_then(|material| material.noise_displace.clone())
     };
     assert_eq!(noise(&harness), None);
-    click(&mut harness, "Material");
     click(&mut harness, "Noise");
     // Nothing moves and no texture is dropped before that is chosen.
     assert_eq!(noise(&harness).map(|noise| (noise.vertex, noise.surface)), Some((None, None)));
@@ -461,7 +464,7 @@ fn noise_of_a_material_is_set_and_reset() {
     click(&mut harness, "Noise colours the surface");
     assert_eq!(noise(&harness), Some(Default::default()));
     click(&mut harness, "Browse for Surface noise file");
-    assert_eq!(harness.state().log.last().map(String::as_str), Some("choose noise for apple: Surface"));
+    assert_eq!(harness.state().log.last().map(String::as_str), Some("choose the noise of apple"));
     type_in(&mut harness, "Noise scale", "0.3");
     type_in(&mut harness, "Noise rate Y", "0.75");
     type_in(&mut harness, "Noise layers", "9");

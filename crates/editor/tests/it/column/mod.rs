@@ -4,6 +4,8 @@ mod guides;
 mod ink;
 mod inspector;
 mod looks;
+mod material;
+mod menus;
 mod missing;
 mod tree;
 
@@ -13,7 +15,7 @@ use egui::accesskit::Toggled;
 use egui::{Key, Role, Vec2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, HarnessBuilder};
-use impasto_editor::panels::{self, Ask, Numbers, PanelInput};
+use impasto_editor::panels::{self, Ask, Control, Numbers, PanelInput};
 use impasto_editor::theme::{self, Theme};
 use impasto_editor_model::command::Command;
 use impasto_editor_model::keymap::{Action, Keymap};
@@ -32,6 +34,10 @@ pub struct Column {
     pub tree_height: f32,
     pub strokes_of: Vec<(String, usize)>,
     pub likely_meshes: Vec<(String, String)>,
+    /// The menu at the pointer that was asked for in this pass: what it is about.
+    pub menu: Option<Option<Item>>,
+    /// The control that was asked to have the focus.
+    pub reach: Option<Control>,
 }
 
 impl Column {
@@ -45,7 +51,18 @@ impl Column {
         let session = Session::default();
         let (log, acts, meshes) = (Vec::new(), Vec::new(), Vec::new());
         let (strokes_of, likely_meshes) = (Vec::new(), Vec::new());
-        Self { document, session, log, acts, meshes, tree_height: 252.0, strokes_of, likely_meshes }
+        Self {
+            document,
+            session,
+            log,
+            acts,
+            meshes,
+            tree_height: 252.0,
+            strokes_of,
+            likely_meshes,
+            menu: None,
+            reach: None,
+        }
     }
 
     pub fn ui(&mut self, ui: &mut egui::Ui) {
@@ -75,8 +92,15 @@ impl Column {
             },
         );
         egui::CentralPanel::default().frame(none).show(ui, |ui| panels::inspector(ui, &shown, &mut asks));
+        panels::context_menu(ui, &shown, &mut asks);
         for ask in asks {
             self.answer(ask);
+        }
+        if let Some(about) = self.menu.take() {
+            panels::open_context_menu(ui.ctx(), about);
+        }
+        if let Some(control) = self.reach.take() {
+            panels::reach(ui.ctx(), &control);
         }
     }
 
@@ -119,8 +143,23 @@ impl Column {
             | Ask::BringFile(_)
             | Ask::ShowProblems
             | Ask::Settle(..)
+            | Ask::TakeUp(_)
+            | Ask::Prefer(_)
             | Ask::StopWork(_) => "of another panel".to_owned(),
-            Ask::ChooseNoise(object, part) => format!("choose noise for {object}: {part:?}"),
+            Ask::ChoosePicture(of) => format!("choose {}", of.words()),
+            Ask::NamePicture(of, name) => {
+                let command = of.command(self.document.scene(), name).expect("it is there");
+                self.document.apply(&command).map_or_else(refused, words)
+            }
+            Ask::Menu(item) => {
+                self.menu = Some(item);
+                "menu".to_owned()
+            }
+            Ask::Reach(control) => {
+                let words = format!("reach {}", control.name);
+                self.reach = Some(control);
+                words
+            }
             Ask::Session(session) => {
                 self.session = *session;
                 "session".to_owned()
@@ -208,6 +247,17 @@ pub fn drag(harness: &mut Harness<'_, Column>, name: &str, by: f32) {
     }
     harness.drop_at(middle + vec2(by, 0.0));
     harness.run();
+}
+
+/// Presses and releases the right button in the middle of a control.
+pub fn right_click(harness: &mut Harness<'_, Column>, name: &str) {
+    let pos = harness.get_by_label(name).rect().center();
+    harness.event(egui::Event::PointerMoved(pos));
+    for pressed in [true, false] {
+        let (button, modifiers) = (egui::PointerButton::Secondary, egui::Modifiers::NONE);
+        harness.event(egui::Event::PointerButton { pos, button, pressed, modifiers });
+        harness.run();
+    }
 }
 
 pub fn type_in(harness: &mut Harness<'_, Column>, name: &str, text: &str) {

@@ -120,6 +120,11 @@ fn every_control_of_the_timeline_has_its_name() {
     assert!(!harness.state().session.auto_key && harness.state().session.lock_to_view);
     click(&mut harness, "Set key");
     assert_eq!(acts(harness.state()), [Action::SetKey]);
+    let name = harness.get_by_label("Select apple").rect().center();
+    right_click(&mut harness, name);
+    assert!(
+        matches!(harness.state().asked.last(), Some(Ask::Menu(Some(Item::Object(name)))) if name == "apple")
+    );
     click(&mut harness, "Select shot");
     assert!(
         matches!(harness.state().asked.last(), Some(Ask::Select(selection)) if selection.active() == Some(&Item::Camera))
@@ -165,27 +170,66 @@ fn a_click_between_keys_changes_the_ease_and_a_right_click_lists_them() {
     harness.run();
     assert_eq!(commands(harness.state()), [&Time::SetEase(vec![apple(37.0)], Ease::Linear)]);
     harness.state_mut().asked.clear();
-    let press = |harness: &mut Harness<'_, Page>, at: Pos2| {
-        for pressed in [true, false] {
-            let button = egui::PointerButton::Secondary;
-            harness.event(egui::Event::PointerMoved(at));
-            harness.event(egui::Event::PointerButton {
-                pos: at,
-                button,
-                pressed,
-                modifiers: Default::default(),
-            });
-            harness.run();
-        }
-    };
-    press(&mut harness, between);
+    right_click(&mut harness, between);
     assert!(harness.query_by_label("Delete key").is_none(), "no key is there");
     click(&mut harness, "Ease hold");
     assert_eq!(commands(harness.state()), [&Time::SetEase(vec![apple(37.0)], Ease::Step)]);
     harness.state_mut().asked.clear();
-    press(&mut harness, places[3].1);
+    right_click(&mut harness, places[3].1);
     click(&mut harness, "Delete key");
     assert_eq!(commands(harness.state()), [&Time::DeleteKeys(vec![apple(96.0)])]);
+}
+
+fn right_click(harness: &mut Harness<'_, Page>, at: Pos2) {
+    harness.event(egui::Event::PointerMoved(at));
+    for pressed in [true, false] {
+        let button = egui::PointerButton::Secondary;
+        harness.event(egui::Event::PointerButton { pos: at, button, pressed, modifiers: Default::default() });
+    }
+    harness.run();
+}
+
+#[test]
+fn keys_are_copied_and_pasted_at_another_frame_from_the_menu() {
+    let mut harness = lanes_of(animated());
+    let places = keys(&harness);
+    let per_frame = (places[3].1.x - places[0].1.x) / 96.0;
+    right_click(&mut harness, places[1].1);
+    assert_eq!(harness.state().time.keys.selected(), [apple(37.0)], "what it is about is selected");
+    click(&mut harness, "Copy key");
+    assert!(harness.query_by_label("Copy key").is_none(), "it closes");
+    let at = places[0].1 + vec2(80.0 * per_frame, 2.0);
+    right_click(&mut harness, at);
+    click(&mut harness, "Paste key at 80");
+    assert_eq!(commands(harness.state()), [&Time::CopyKeys(vec![apple(37.0)], 43.0)]);
+    harness.state_mut().asked.clear();
+    right_click(&mut harness, at);
+    click(&mut harness, "Key apple at 80");
+    assert_eq!(commands(harness.state()), [&Time::SetKey(apple(0.0).0, 80.0)]);
+    right_click(&mut harness, at);
+    click(&mut harness, "Go to frame 80");
+    assert_eq!(harness.state().session.frame, 80.0);
+}
+
+#[test]
+fn a_click_beside_the_menu_of_the_lanes_only_closes_it() {
+    let mut harness = lanes_of(animated());
+    let places = keys(&harness);
+    right_click(&mut harness, places[1].1);
+    assert!(harness.query_by_label("Delete key").is_some());
+    // Between two keys, where a click would change the ease.
+    let between = places[2].1.lerp(places[3].1, 0.8);
+    harness.drag_at(between);
+    harness.run();
+    harness.drop_at(between);
+    harness.run();
+    assert!(harness.query_by_label("Delete key").is_none());
+    assert_eq!(harness.state().asked.len(), 0, "{:?}", harness.state().asked);
+    assert_eq!(harness.state().time.keys.selected(), [apple(37.0)]);
+    right_click(&mut harness, places[1].1);
+    harness.key_press(Key::Escape);
+    harness.run();
+    assert!(harness.query_by_label("Delete key").is_none(), "Esc closes it too");
 }
 
 #[test]

@@ -196,7 +196,7 @@ fn transparency_is_refused_where_a_movie_has_none() {
     for name in ["a.mp4", "a.MKV"] {
         let kind = Kind::of(Path::new(name)).unwrap();
         assert!(!kind.holds_transparency() && kind.encoding(false).is_ok());
-        let words = kind.encoding(true).unwrap_err().words().unwrap();
+        let words = kind.encoding(true).unwrap_err().to_string();
         assert!(words.contains(".mov") && words.contains(".webm") && !words.contains('\n'), "{words}");
     }
     for name in ["a.mov", "a.webm"] {
@@ -219,13 +219,13 @@ fn an_encoder_that_is_missing_is_named_with_what_does_without_it() {
     };
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.mp4");
-    let words = none.ready(&path).unwrap_err().words().unwrap();
+    let words = none.ready(&path).unwrap_err().to_string();
     assert!(words.contains("a.mp4") && words.contains("no encoder libnothing (Nothing)"), "{words}");
     // What ffmpeg itself says as it fails is told too, and nothing is left.
     let format = FrameFormat { size_px: [512, 512], depth: Depth::Eight, fps: 24.0 };
     let mut movie = Movie::start(&path, &none, format).unwrap();
     let added = movie.add(&[0; 512 * 512 * 4]);
-    let words = added.and_then(|()| movie.finish()).unwrap_err().words().unwrap();
+    let words = added.and_then(|()| movie.finish()).unwrap_err().to_string();
     assert!(words.contains("libnothing") && words.contains("a.mp4 is not written"), "{words}");
     assert_eq!(words.lines().count(), 1, "{words}");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);

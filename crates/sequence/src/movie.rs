@@ -1,15 +1,16 @@
-//! Writes movies: pipes raw frames to ffmpeg, where that is installed.
+//! Writes movies: pipes raw frames to ffmpeg, where that is installed. For `impasto render`, `impasto movie` and the window alike.
 
 use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::thread::JoinHandle;
 
-use impasto_frame_files::frame_reader::Depth;
 use impasto_scene::whole_file::WholeFile;
 use impasto_system::{FOR_MOVIES, mend};
 
-use crate::failure::Failure;
+pub use impasto_frame_files::frame_reader::Depth;
+
+use crate::shot::FrameError;
 
 #[cfg(test)]
 mod tests;
@@ -26,9 +27,35 @@ const EVEN_SIDES_FILTER: &str = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=black,";
 /// The most that is kept of what ffmpeg says, in bytes.
 const MAX_WORDS_BYTES: u64 = 16 << 10;
 
+/// Why a movie cannot be made, in one sentence each.
+#[derive(Debug, thiserror::Error)]
+pub enum MovieError {
+    /// Transparency is wanted, and such a file has none.
+    #[error("{0}")]
+    NoTransparency(String),
+    /// ffmpeg is not installed.
+    #[error("{0}")]
+    NotInstalled(String),
+    /// The ffmpeg that is installed lacks the encoder.
+    #[error("{0}")]
+    NoEncoder(String),
+    /// ffmpeg does not work, or the file cannot be written.
+    #[error("{0}")]
+    Failed(String),
+    /// A frame was not drawn.
+    #[error(transparent)]
+    Frame(#[from] FrameError),
+}
+
+impl MovieError {
+    fn of_file(path: &Path, error: impl std::fmt::Display) -> Self {
+        Self::Failed(format!("{}: {error}", path.display()))
+    }
+}
+
 /// How a movie is encoded.
 #[derive(Debug, PartialEq, Eq)]
-pub(crate) struct Encoding {
+pub struct Encoding {
     /// ffmpeg's name of the encoder.
     encoder: &'static str,
     /// The name that people use.
@@ -40,7 +67,7 @@ pub(crate) struct Encoding {
     /// Whether both sides of the picture must be even.
     even_sides: bool,
     /// Whether more than eight bits a channel arrive in the file.
-    pub(crate) deep: bool,
+    pub deep: bool,
 }
 
 /// What every player takes, at a quality where strokes stay strokes.
@@ -70,7 +97,7 @@ const fn vp9(pixels: &'static str) -> Encoding {
 
 /// A kind of movie file.
 #[derive(Debug, PartialEq, Eq)]
-pub(crate) struct Kind {
+pub struct Kind {
     /// The ending of its name.
     ending: &'static str,
     opaque: Encoding,
@@ -96,13 +123,13 @@ static KINDS: [Kind; 4] = [
 
 impl Kind {
     /// The kind that a file's name asks for; `None` for a name that is not a movie's.
-    pub(crate) fn of(path: &Path) -> Option<&'static Self> {
+    pub fn of(path: &Path) -> Option<&'static Self> {
         let ending = path.extension()?.to_string_lossy().to_lowercase();
         KINDS.iter().find(|kind| kind.ending == ending)
     }
 
     /// Whether such a file can be transparent.
-    pub(crate) fn holds_transparency(&self) -> bool {
+    pub fn holds_transparency(&self) -> bool {
         self.transparent.is_some()
     }
 
@@ -110,13 +137,13 @@ impl Kind {
     ///
     /// # Errors
     /// Transparency is wanted, and such a file has none.
-    pub(crate) fn encoding(&'static self, transparent: bool) -> Result<&'static Encoding, Failure> {
+    pub fn encoding(&'static self, transparent: bool) -> Result<&'static Encoding, MovieError> {
         if !transparent {
             return Ok(&self.opaque);
         }
         self.transparent.as_ref().ok_or_else(|| {
-            Failure::Usage(format!(
-                "--alpha: a .{} movie holds no transparency; write a .mov (ProRes 4444) or a .webm (VP9), or PNG frames",
+            MovieError::NoTransparency(format!(
+                "a .{} movie holds no transparency; write a .mov (ProRes 4444) or a .webm (VP9), or PNG frames",
                 self.ending
             ))
         })
@@ -128,7 +155,7 @@ impl Encoding {
     ///
     /// # Errors
     /// What is missing.
-    pub(crate) fn ready(&self, path: &Path) -> Result<(), Failure> {
+    pub fn ready(&self, path: &Path) -> Result<(), MovieError> {
         let mut command = Command::new("ffmpeg");
         command.args(["-hide_banner", "-loglevel", "error", "-encoders"]).stdin(Stdio::null());
         let told = command.output().map_err(|error| not_started(path, &error))?;
@@ -139,7 +166,7 @@ impl Encoding {
                 path.display(),
                 told.status
             );
-            return Err(Failure::Other(words));
+            return Err(MovieError::Failed(words));
         }
         let told = String::from_utf8_lossy(&told.stdout);
         // Each line holds flags, the name and a description.
@@ -147,7 +174,7 @@ impl Encoding {
         if names.any(|name| name == self.encoder) {
             return Ok(());
         }
-        Err(Failure::Refused(format!(
+        Err(MovieError::NoEncoder(format!(
             "{}: the ffmpeg that is installed has no encoder {} ({}); this may bring one that has it: {}; or \
              let the name end in {}, which need others",
             path.display(),
@@ -171,31 +198,30 @@ fn one_line(words: &str) -> String {
     if lines.is_empty() { "it said nothing".to_owned() } else { lines.join("; ") }
 }
 
-fn not_started(path: &Path, error: &std::io::Error) -> Failure {
+fn not_started(path: &Path, error: &std::io::Error) -> MovieError {
     match error.kind() {
-        std::io::ErrorKind::NotFound => Failure::Refused(format!(
-            "{}: movies are made by ffmpeg, which is not installed; {}, or let impasto \
-             render write frames (-o out/frame_####.png) or one animated PNG (--apng)",
+        std::io::ErrorKind::NotFound => MovieError::NotInstalled(format!(
+            "{}: movies are made by ffmpeg, which is not installed; {}",
             path.display(),
             mend(FOR_MOVIES)
         )),
-        _ => Failure::Other(format!("ffmpeg cannot be started: {error}")),
+        _ => MovieError::Failed(format!("ffmpeg cannot be started: {error}")),
     }
 }
 
 /// The frames of a movie.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct FrameFormat {
+pub struct FrameFormat {
     /// Width and height in pixels.
-    pub(crate) size_px: [u32; 2],
+    pub size_px: [u32; 2],
     /// How many bits a channel has.
-    pub(crate) depth: Depth,
+    pub depth: Depth,
     /// Frames a second.
-    pub(crate) fps: f64,
+    pub fps: f64,
 }
 
 /// A movie that is being written. The file gets its name only once it is whole; dropped before that, it leaves nothing.
-pub(crate) struct Movie {
+pub struct Movie {
     encoder: Child,
     /// Collects what ffmpeg says.
     words: Option<JoinHandle<String>>,
@@ -205,8 +231,8 @@ pub(crate) struct Movie {
 
 impl Movie {
     /// Starts ffmpeg.
-    pub(crate) fn start(path: &Path, encoding: &Encoding, frames: FrameFormat) -> Result<Self, Failure> {
-        let file = WholeFile::create(path).map_err(|error| Failure::of_file(path, error))?;
+    pub fn start(path: &Path, encoding: &Encoding, frames: FrameFormat) -> Result<Self, MovieError> {
+        let file = WholeFile::create(path).map_err(|error| MovieError::of_file(path, error))?;
         let pixel_format = match frames.depth {
             Depth::Eight => "rgba",
             Depth::Sixteen => "rgba64be",
@@ -241,37 +267,36 @@ impl Movie {
     }
 
     /// Appends a frame: four channels a pixel.
-    pub(crate) fn add(&mut self, rgba: &[u8]) -> Result<(), Failure> {
+    pub fn add(&mut self, rgba: &[u8]) -> Result<(), MovieError> {
         let Some(pipe) = &mut self.encoder.stdin else { return Ok(()) };
         match pipe.write_all(rgba) {
             Ok(()) => Ok(()),
-            Err(error) => Err(self
-                .ended()
-                .err()
-                .unwrap_or_else(|| Failure::Other(format!("ffmpeg stopped before the last frame: {error}")))),
+            Err(error) => Err(self.ended().err().unwrap_or_else(|| {
+                MovieError::Failed(format!("ffmpeg stopped before the last frame: {error}"))
+            })),
         }
     }
 
     /// Waits for ffmpeg and gives the movie its name.
-    pub(crate) fn finish(mut self) -> Result<(), Failure> {
+    pub fn finish(mut self) -> Result<(), MovieError> {
         self.ended()?;
         let Some(file) = self.file.take() else { return Ok(()) };
-        file.finish().map_err(|error| Failure::of_file(&self.path, error))
+        file.finish().map_err(|error| MovieError::of_file(&self.path, error))
     }
 
     /// Waits for ffmpeg.
     ///
     /// # Errors
     /// In one line, what ffmpeg said as it failed.
-    fn ended(&mut self) -> Result<(), Failure> {
+    fn ended(&mut self) -> Result<(), MovieError> {
         drop(self.encoder.stdin.take());
-        let status = self.encoder.wait().map_err(|error| Failure::Other(format!("ffmpeg: {error}")))?;
+        let status = self.encoder.wait().map_err(|error| MovieError::Failed(format!("ffmpeg: {error}")))?;
         let words = self.words.take().and_then(|words| words.join().ok()).unwrap_or_default();
         if status.success() {
             return Ok(());
         }
         let why = one_line(&words);
-        Err(Failure::Other(format!(
+        Err(MovieError::Failed(format!(
             "{} is not written: ffmpeg ended with {status}: {why}",
             self.path.display()
         )))

@@ -1,0 +1,71 @@
+//! Tests of the right button over the viewport, and of tools that are taken up from menus.
+
+use super::*;
+
+/// Presses and releases the right button at a place.
+fn right_click(editor: &mut Editor, at_px: DVec2) -> Vec<Request> {
+    event(editor, PointerKind::Move, at_px, HERE);
+    event(editor, PointerKind::Press(Button::Right), at_px, HERE);
+    event(editor, PointerKind::Release(Button::Right), at_px, HERE);
+    editor.take_requests()
+}
+
+#[test]
+fn a_right_click_selects_what_is_there_and_asks_for_its_menu() {
+    let mut editor = with_apple();
+    let at = middle_of_the_apple(&editor);
+    let apple = Item::Object("apple".to_owned());
+    assert_eq!(right_click(&mut editor, at), [Request::Menu(Some(apple.clone()))]);
+    assert_eq!(editor.document().selection(), &Selection::only(apple.clone()));
+    // What is selected already stays so: the menu is for all of it.
+    let both: Selection = [apple.clone(), Item::Object("wall".to_owned())].into_iter().collect();
+    editor.select(both.clone());
+    assert_eq!(right_click(&mut editor, at), [Request::Menu(Some(apple))]);
+    assert_eq!(editor.document().selection(), &both);
+    assert_eq!((editor.document().undo_count(), editor.is_moving()), (0, false));
+}
+
+#[test]
+fn in_paint_the_menu_is_that_of_the_region() {
+    let mut editor = with_apple();
+    act(&mut editor, Action::Paint);
+    let at = middle_of_the_apple(&editor);
+    let requests = right_click(&mut editor, at);
+    let [Request::Menu(Some(Item::Region(region)))] = &requests[..] else { panic!("{requests:?}") };
+    assert_eq!(editor.document().selection(), &Selection::only(Item::Region(region.clone())));
+    assert_eq!(editor.document().undo_count(), 0, "nothing was combed");
+}
+
+#[test]
+fn a_right_press_that_cancels_or_drags_asks_for_no_menu() {
+    let mut editor = with_apple();
+    let at = middle_of_the_apple(&editor);
+    editor.select(Selection::only(Item::Object("apple".to_owned())));
+    event(&mut editor, PointerKind::Move, at, HERE);
+    key(&mut editor, Key::Letter('G'));
+    assert!(editor.is_moving());
+    assert_eq!(right_click(&mut editor, at), [], "it took the move back");
+    assert!(!editor.is_moving());
+    drag(&mut editor, Button::Right, [at, at + DVec2::new(60.0, 0.0)], HERE);
+    assert_eq!(editor.take_requests(), []);
+    // A comb under way is dropped, and its release paints nothing.
+    act(&mut editor, Action::Paint);
+    event(&mut editor, PointerKind::Press(Button::Left), at, HERE);
+    event(&mut editor, PointerKind::Move, at + DVec2::new(60.0, 0.0), HERE);
+    assert_eq!(right_click(&mut editor, at), []);
+    event(&mut editor, PointerKind::Release(Button::Left), at, HERE);
+    assert_eq!(editor.document().undo_count(), 0);
+}
+
+#[test]
+fn a_tool_of_another_mode_brings_its_mode() {
+    let mut editor = with_apple();
+    act(&mut editor, Action::Animate);
+    act(&mut editor, Action::Smooth);
+    assert_eq!((editor.session.mode, editor.session.tool()), (Mode::Paint, Tool::Smooth));
+    act(&mut editor, Action::Turn);
+    assert_eq!((editor.session.mode, editor.session.tool()), (Mode::Animate, Tool::Turn));
+    act(&mut editor, Action::Arrange);
+    act(&mut editor, Action::Scale);
+    assert_eq!((editor.session.mode, editor.session.tool()), (Mode::Arrange, Tool::Scale));
+}

@@ -1,0 +1,28 @@
+//! Carries out what the command search sets of the preferences.
+
+use egui::Context;
+use impasto_editor_model::keymap::{Digits, Preset};
+
+use super::EditorApp;
+use crate::files::preferences::Keys;
+use crate::panels::Preference;
+use crate::theme;
+
+impl EditorApp {
+    /// Takes a preference over, and keeps it.
+    pub(super) fn prefer(&mut self, preference: Preference, ctx: &Context) {
+        let preferences = &mut self.preferences;
+        match preference {
+            Preference::Theme(theme) => preferences.theme = theme,
+            Preference::Scale(scale) => preferences.scale = scale,
+            Preference::Keys(Preset::Blender) => preferences.keys = Keys::Blender,
+            Preference::Keys(Preset::Maya) => preferences.keys = Keys::Maya,
+            Preference::Digits(digits) => preferences.digits_as_numpad = digits == Digits::NumPad,
+            Preference::ForeseeStrokes(foresees) => preferences.foresee_strokes = foresees,
+            Preference::ReducedMotion(reduced) => preferences.reduced_motion = reduced,
+        }
+        self.keymap();
+        theme::apply(ctx, self.preferences.theme, self.preferences.scale);
+        self.keep_preferences();
+    }
+}

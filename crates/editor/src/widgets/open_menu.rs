@@ -1,0 +1,19 @@
+//! Tells a press that closes an open menu from one that does something.
+
+use egui::{Context, Id, Popup};
+
+fn id() -> Id {
+    Id::unique("whether a menu was open when this pass began")
+}
+
+/// To be called before each pass.
+pub(crate) fn note_open_menu(ctx: &Context) {
+    let is_open = Popup::is_any_open(ctx);
+    ctx.data_mut(|data| data.insert_temp(id(), is_open));
+}
+
+/// Whether a press in this pass only closes a menu that was open: it must begin no drag and no stroke. Press and release
+/// may come in one pass, after which the menu is closed already.
+pub(crate) fn press_closes_menu(ctx: &Context) -> bool {
+    ctx.data(|data| data.get_temp::<bool>(id())).unwrap_or_default() || Popup::is_any_open(ctx)
+}

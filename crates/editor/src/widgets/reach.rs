@@ -1,0 +1,67 @@
+//! Brings the keyboard's focus to a control that is known by its name: the command search does so.
+
+use std::sync::Arc;
+
+use egui::{Align, Context, Id, Response, Ui};
+
+/// A control that is not drawn within this many passes is not there.
+const PATIENCE: u8 = 4;
+
+/// The control that is to have the focus.
+#[derive(Clone)]
+struct Wanted {
+    name: Arc<str>,
+    /// The part that it is in, by its name; empty above all parts.
+    part: Arc<str>,
+    passes: u8,
+    /// Whether that part is being drawn.
+    is_here: bool,
+}
+
+fn id() -> Id {
+    Id::unique("control that is to have the focus")
+}
+
+/// Lets a control have the focus, and scrolls to it, the next time it is drawn within [`reachable`]. It is known by its name
+/// and that of the part that it is in.
+pub(crate) fn reach(ctx: &Context, part: &str, name: &str) {
+    let wanted = Wanted { name: name.into(), part: part.into(), passes: PATIENCE, is_here: false };
+    ctx.data_mut(|data| data.insert_temp(id(), wanted));
+    ctx.request_repaint();
+}
+
+/// Draws a part of the window whose controls can be reached by their names.
+pub(crate) fn reachable<R>(ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) -> R {
+    enter_part(ui.ctx(), "");
+    let shown = contents(ui);
+    ui.data_mut(|data| {
+        let Some(wanted) = data.get_temp::<Wanted>(id()) else { return };
+        let passes = wanted.passes.saturating_sub(1);
+        if passes == 0 {
+            data.remove::<Wanted>(id());
+        } else {
+            data.insert_temp(id(), Wanted { passes, is_here: false, ..wanted });
+        }
+    });
+    shown
+}
+
+/// To be called within [`reachable`] where a part begins that has a name; it ends where the next one begins.
+pub(crate) fn enter_part(ctx: &Context, part: &str) {
+    ctx.data_mut(|data| {
+        if let Some(wanted) = data.get_temp::<Wanted>(id()) {
+            let is_here = *wanted.part == *part;
+            data.insert_temp(id(), Wanted { is_here, ..wanted });
+        }
+    });
+}
+
+/// To be called by each control with its name: takes the focus if it is the one that is wanted.
+pub(crate) fn reached(response: &Response, name: &str) {
+    let wanted = response.ctx.data(|data| data.get_temp::<Wanted>(id()));
+    if wanted.is_some_and(|wanted| wanted.is_here && *wanted.name == *name) {
+        response.ctx.data_mut(|data| data.remove::<Wanted>(id()));
+        response.request_focus();
+        response.scroll_to_me(Some(Align::Center));
+    }
+}
