@@ -417,7 +417,7 @@ fn edit_says_what_is_missing() {
         (&["edit", "gone.ron"][..], 3, "gone.ron is not there"),
         (&["edit", "chair.fbx"], 3, "export it as glTF or OBJ"),
         (&["edit", "scene.ron", "--driver", "voodoo"], 2, "software"),
-        (&["edit"], 4, "For X11: "),
+        (&["edit"], 4, "neither DISPLAY nor WAYLAND_DISPLAY is set"),
         (&["edit", "scene.ron"], 4, "`impasto render` needs no display"),
     ] {
         let output = folder.run(arguments);

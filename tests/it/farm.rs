@@ -127,9 +127,25 @@ fn what_is_no_whole_pack_is_told_and_nothing_is_left() {
             .contains("is there already")
     );
     std::fs::write(here.join("pack/far/mats/o.mtl"), "newmtl b\n").unwrap();
-    assert!(refused(here, &["pack", "--check", "pack"]).contains("o.mtl is not as it was packed"));
-    std::fs::remove_file(here.join("pack/far/mats/o.mtl")).unwrap();
-    assert!(refused(here, &["pack", "--check", "pack"]).contains("o.mtl is not as it was packed"));
+    let said = refused(here, &["pack", "--check", "pack"]);
+    assert!(said.contains("far/mats/o.mtl (its content has changed)"), "{said}");
+    // All that is wrong is told, not the first alone.
+    std::fs::remove_file(here.join("pack/scene.ron")).unwrap();
+    let said = refused(here, &["pack", "--check", "pack"]);
+    assert!(said.contains("o.mtl (its content") && said.contains("scene.ron (it is not there)"), "{said}");
+    let list = std::fs::read_to_string(here.join("pack/pack.json")).unwrap();
+    let own = format!("\"impasto\": \"{}\"", env!("CARGO_PKG_VERSION"));
+    assert!(list.contains(&own), "{list}");
+    std::fs::write(here.join("pack/pack.json"), list.replace(&own, "\"impasto\": \"0.1.0\"")).unwrap();
+    assert!(
+        refused(here, &["pack", "--check", "pack"]).contains("was packed by impasto 0.1.0, and this is ")
+    );
+    assert!(refused(here, &["pack", "--check", "shot"]).contains("shot is no pack"));
+    assert!(
+        refused(here, &["pack", "shot/scene.ron", "--asset-dir", "library", "-o", "pack.zip"])
+            .contains("let the name end in .tar")
+    );
+    assert!(!here.join("pack.zip").exists());
     // Two files at one place: a name of the scene, and one beside a file of a further folder.
     std::fs::write(here.join("library/top.obj"), SHEET).unwrap();
     std::fs::write(here.join("library/sheet.mtl"), "newmtl a\nKd 1 0 0\n").unwrap();
@@ -202,6 +218,16 @@ fn the_tasks_of_a_slurm_script_paint_all_frames_once() {
     std::fs::remove_file(here.join("out/f_0002.png")).unwrap();
     assert!(task(here, "job.sh", 0).status.success());
     assert!(stamp() == before && files(&here.join("out")) == files(&here.join("whole")));
+    // A picture of someone else is left as it is, and told of.
+    let mut foreign = png::Encoder::new(std::fs::File::create(here.join("out/f_0001.png")).unwrap(), 1, 1);
+    foreign.set_color(png::ColorType::Grayscale);
+    foreign.write_header().unwrap().write_image_data(&[0]).unwrap();
+    let bytes = std::fs::read(here.join("out/f_0001.png")).unwrap();
+    let done = task(here, "job.sh", 0);
+    let words = String::from_utf8(done.stderr).unwrap();
+    assert!(done.status.success() && words.contains("f_0001.png was there and does not say"), "{words}");
+    assert_eq!(std::fs::read(here.join("out/f_0001.png")).unwrap(), bytes);
+    assert!(!task(here, "job.sh", 7).status.success());
     // Frames of another shot are not taken for this one's.
     std::fs::write(here.join("it's a pack/other.ron"), SCENE).unwrap();
     let words = refused(here, &["render", "it's a pack/other.ron", "-o", "out/f.png", "--skip-existing"]);

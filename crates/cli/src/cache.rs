@@ -100,7 +100,11 @@ impl Cache {
             Ok(()) => {}
             Err(error) => {
                 let folder = self.folder.path.display();
-                self.tell(&format!("{folder}: the prepared scene is not kept: {error}"));
+                let mend = match error.kind() {
+                    io::ErrorKind::NotFound => "; make the folder",
+                    _ => "",
+                };
+                self.tell(&format!("{folder}: the prepared scene is not kept: {error}{mend}"));
             }
         }
     }

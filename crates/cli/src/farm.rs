@@ -56,7 +56,13 @@ pub(crate) fn farm(command: &FarmCommand) -> Result<(), Failure> {
         file.write_all(text.as_bytes())?;
         file.finish()
     });
-    written.map_err(|error| Failure::of_file(path, error))?;
+    written.map_err(|error| {
+        let words = format!(
+            "the job cannot be written into {}: {error}; name another place with --job",
+            path.display()
+        );
+        Failure::Refused(words)
+    })?;
     eprintln!("the job is in {}", path.display());
     Ok(())
 }
@@ -88,6 +94,7 @@ fn job(arguments: &FarmArguments) -> Result<Job, Failure> {
     let loaded = read(&arguments.scene, &arguments.asset_dirs, false)?;
     let timeline = &loaded.scene.timeline;
     let list = list.unwrap_or_else(|| FrameList::whole(timeline.first, timeline.last));
+    tell_frames_beyond(&list, timeline.first, timeline.last);
     let is_of_frames =
         [".png", ".exr"].iter().any(|ending| arguments.output.to_lowercase().ends_with(ending));
     if !is_of_frames {
@@ -127,6 +134,17 @@ fn job(arguments: &FarmArguments) -> Result<Job, Failure> {
     })
 }
 
+/// Frames that the scene does not have are painted as its first or last one: a slip of the hand costs a night.
+fn tell_frames_beyond(list: &FrameList, first: i64, last: i64) {
+    let beyond = || list.iter().filter(|frame| !(first..=last).contains(frame));
+    if let (Some(low), Some(high)) = (beyond().min(), beyond().max()) {
+        let count = beyond().count();
+        eprintln!(
+            "warning: the scene has the frames {first} to {last}; {count} of the list lie outside (from {low} to {high}), and show what its first or last frame shows"
+        );
+    }
+}
+
 /// Further arguments are those of `impasto render`: what that would refuse is refused here, and not on a hundred machines.
 fn check_further(arguments: &FarmArguments) -> Result<(), Failure> {
     let own = ["impasto", "render", "-o", &arguments.output, "--"].map(OsString::from);
@@ -163,12 +181,16 @@ pub(crate) fn pack(arguments: &PackArguments) -> Result<(), Failure> {
         }
         None => (pack::check(scene).map_err(refused)?, scene),
     };
+    let is_good = if output.is_none() { "every file as it was packed: " } else { "" };
     if !quiet {
         let PackList { files, scene, impasto } = list;
         let bytes: u64 = files.iter().map(|file| file.bytes).sum();
         let mib = bytes as f64 / f64::from(1 << 20);
         let count = if files.len() == 1 { "1 file".to_owned() } else { format!("{} files", files.len()) };
-        eprintln!("{}: {scene}, {count}, {mib:.1} MiB, packed by impasto {impasto}", place.display());
+        eprintln!(
+            "{}: {is_good}{scene}, {count}, {mib:.1} MiB, packed by impasto {impasto}",
+            place.display()
+        );
     }
     Ok(())
 }

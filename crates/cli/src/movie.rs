@@ -60,7 +60,8 @@ pub(crate) fn run(arguments: &MovieArguments) -> Result<(), Failure> {
     let lies_over_black = poured?;
     movie.finish()?;
     if !arguments.quiet {
-        eprintln!("{} frames in {}", frames.paths.len(), output.display());
+        let count = frames.paths.len();
+        eprintln!("{count} {} in {}", if count == 1 { "frame" } else { "frames" }, output.display());
         if lies_over_black {
             eprintln!(
                 "what is transparent in the frames is black here; a .mov or a .webm keeps it transparent"
@@ -83,7 +84,14 @@ fn paths(arguments: &MovieArguments) -> Result<Vec<PathBuf>, Failure> {
     }
     let list = arguments.list.as_deref().map(FrameList::parse).transpose().map_err(Failure::Usage)?;
     let frames = match list {
-        Some(list) => list.iter().collect(),
+        Some(list) => {
+            let frames: Vec<i64> = list.iter().collect();
+            if let Some(gone) = frames.iter().map(|&frame| pattern.path(frame)).find(|path| !path.exists()) {
+                let words = format!("{} is not there: render it, or leave it out of -f", gone.display());
+                return Err(Failure::Refused(words));
+            }
+            frames
+        }
         None => frames_there(text, &pattern)?,
     };
     Ok(frames.into_iter().map(|frame| pattern.path(frame)).collect())

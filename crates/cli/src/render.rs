@@ -240,6 +240,8 @@ impl Plan {
         let bar = progress_bar(frames.count(), arguments.talk.quiet);
         let mut sheet = arguments.contact_sheet.then(|| Sheet::new(frames.count(), sequence.options.size_px));
         let (mut done, mut kept, mut failed, mut passed, start) = (0, 0, 0, 0, Instant::now());
+        // Frames that were there, and do not say which scene they show.
+        let mut foreign = Vec::new();
         let sheet_provenance = sequence.provenance("sheet", renderer);
         if arguments.json {
             let driver = renderer.report().to_string();
@@ -258,6 +260,9 @@ impl Plan {
                     FileOutcome::Kept => {
                         kept += 1;
                         of_this_scene(&path, &sequence.scene_name, &sequence.state)?;
+                        if state_of(&path).is_none() {
+                            foreign.push(path);
+                        }
                     }
                     // A folder that is full or away takes no further frame either.
                     FileOutcome::Failed(FrameError::Write(error)) => {
@@ -305,6 +310,13 @@ impl Plan {
             })?;
         let Ending::Done(fault) = ending else { return Err(Failure::Interrupted { done }) };
         bar.finish_and_clear();
+        if let [first, more @ ..] = &foreign[..] {
+            let more = if more.is_empty() { String::new() } else { format!(" and {} more", more.len()) };
+            eprintln!(
+                "warning: {}{more} was there and does not say from what it was painted: remove what is not yours, and render again",
+                first.display()
+            );
+        }
         if let Some(sheet) = sheet {
             let path = pattern.beside("sheet").with_extension("png");
             let picture = sheet.picture();
@@ -318,10 +330,11 @@ impl Plan {
         if !arguments.talk.quiet {
             let seconds = start.elapsed().as_secs_f64();
             let frames = if done == 1 { "frame" } else { "frames" };
-            let first = pattern.path(0);
+            let first = pattern.path(files.frames.iter().next().unwrap_or(0));
             let folder = first.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+            let into = if files.frames.count() == 1 { first.as_path() } else { folder };
             let kept = if kept > 0 { format!(" ({kept} were there)") } else { String::new() };
-            eprintln!("{done} {frames} in {seconds:.1} s, into {}{kept}", folder.display());
+            eprintln!("{done} {frames} in {seconds:.1} s, into {}{kept}", into.display());
         }
         Ok(fault)
     }
@@ -400,7 +413,8 @@ impl Plan {
 
     fn tell_done(&self, arguments: &RenderArguments, path: &Path) {
         if !arguments.talk.quiet {
-            eprintln!("{} frames in {}", self.frames.count(), path.display());
+            let count = self.frames.count();
+            eprintln!("{count} {} in {}", if count == 1 { "frame" } else { "frames" }, path.display());
         }
     }
 }

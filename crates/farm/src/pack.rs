@@ -39,16 +39,40 @@ pub enum PackError {
     /// Something is there already.
     #[error("{} is there already: name a new folder, or a .tar file", .0.display())]
     IsThere(PathBuf),
+    /// A name that promises another kind of archive.
+    #[error("{} is neither a folder nor a .tar file: let the name end in .tar, and press it afterwards if you like", .0.display())]
+    NoTar(PathBuf),
+    /// A folder without a list.
+    #[error("{} is no pack: it has no {LIST_NAME}. Name the folder that came out of the .tar file", .0.display())]
+    NoPack(PathBuf),
+    /// Another version packed it.
+    #[error("{} was packed by impasto {packed}, and this is {own}: only the same version paints the same frames. Install that one, or pack again with this", folder.display())]
+    OtherVersion {
+        /// The folder.
+        folder: PathBuf,
+        /// The version that packed it.
+        packed: String,
+        /// The version of this program.
+        own: &'static str,
+    },
     /// A file grew or shrank while it was packed.
     #[error("{} changed while it was packed: pack it again", .0.display())]
     Changed(PathBuf),
-    /// A file of a pack is not the one that the list has.
-    #[error("{} is not as it was packed: {what}", path.display())]
+    /// A list that cannot be read.
+    #[error("{} is not as it was packed: {what}; unpack it again", path.display())]
     NotAsPacked {
         /// The file.
         path: PathBuf,
         /// What is wrong.
         what: String,
+    },
+    /// Files of a pack that are not those that the list has, each with what is wrong.
+    #[error("{} is not as it was packed: {}; unpack it again, or pack the shot again if it was edited", folder.display(), some_of(wrong))]
+    FilesChanged {
+        /// The folder.
+        folder: PathBuf,
+        /// The files.
+        wrong: Vec<String>,
     },
     /// The system would not read or write.
     #[error("{}: {error}", path.display())]
@@ -59,6 +83,19 @@ pub enum PackError {
         error: io::Error,
     },
 }
+
+/// The first few of many.
+fn some_of(wrong: &[String]) -> String {
+    const SHOWN: usize = 5;
+    let mut words = wrong[..wrong.len().min(SHOWN)].join(", ");
+    if wrong.len() > SHOWN {
+        words += &format!(" and {} more", wrong.len() - SHOWN);
+    }
+    words
+}
+
+/// Endings of archives that are not made here.
+const OTHER_ARCHIVES: [&str; 8] = ["zip", "gz", "tgz", "xz", "zst", "bz2", "7z", "rar"];
 
 /// The list of a pack.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -88,6 +125,11 @@ pub struct PackedFile {
 /// [`PackError`]; then nothing is left behind.
 pub fn pack(loaded: &LoadedScene, to: &Path) -> Result<PackList, PackError> {
     let (scene, sources) = sources(loaded)?;
+    let is_other =
+        |ending: &std::ffi::OsStr| OTHER_ARCHIVES.iter().any(|other| ending.eq_ignore_ascii_case(other));
+    if to.extension().is_some_and(is_other) {
+        return Err(PackError::NoTar(to.to_owned()));
+    }
     let is_tar = to.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("tar"));
     let mut list = PackList { impasto: env!("CARGO_PKG_VERSION").to_owned(), scene, files: Vec::new() };
     let of_target = |error| PackError::File { path: to.to_owned(), error };
@@ -120,30 +162,49 @@ pub fn pack(loaded: &LoadedScene, to: &Path) -> Result<PackList, PackError> {
 /// Compares a folder with the list in it.
 ///
 /// # Errors
-/// The first file that is not as it was packed.
+/// Another version of the program, and files that are not as they were packed.
 pub fn check(folder: &Path) -> Result<PackList, PackError> {
     if folder.is_file() {
-        let what = "it is a file: unpack it (tar -xf) and name the folder that comes out".to_owned();
-        return Err(PackError::NotAsPacked { path: folder.to_owned(), what });
+        return Err(PackError::NoPack(folder.to_owned()));
     }
     let list_path = folder.join(LIST_NAME);
-    let text =
-        std::fs::read(&list_path).map_err(|error| PackError::File { path: list_path.clone(), error })?;
+    let text = std::fs::read(&list_path).map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => PackError::NoPack(folder.to_owned()),
+        _ => PackError::File { path: list_path.clone(), error },
+    })?;
     let list: PackList = serde_json::from_slice(&text)
         .map_err(|error| PackError::NotAsPacked { path: list_path, what: error.to_string() })?;
-    for known in &list.files {
-        let path = folder.join(&known.path);
-        let wrong = |what: String| PackError::NotAsPacked { path: path.clone(), what };
-        let file = File::open(&path).map_err(|error| wrong(error.to_string()))?;
-        // Whatever its length is now, no more is read than it had.
-        let mut summed = Summed::new(file.take(known.bytes + 1));
-        io::copy(&mut summed, &mut io::sink()).map_err(|error| wrong(error.to_string()))?;
-        let (bytes, sha256) = summed.finish();
-        if bytes != known.bytes || sha256 != known.sha256 {
-            return Err(wrong("its content has changed".to_owned()));
-        }
+    let own = env!("CARGO_PKG_VERSION");
+    if list.impasto != own {
+        return Err(PackError::OtherVersion { folder: folder.to_owned(), packed: list.impasto, own });
     }
-    Ok(list)
+    let wrong: Vec<String> = list
+        .files
+        .iter()
+        .filter_map(|known| Some(format!("{} ({})", known.path, what_changed(folder, known)?)))
+        .collect();
+    if wrong.is_empty() {
+        Ok(list)
+    } else {
+        Err(PackError::FilesChanged { folder: folder.to_owned(), wrong })
+    }
+}
+
+/// What is wrong with a file of a pack.
+fn what_changed(folder: &Path, known: &PackedFile) -> Option<String> {
+    let read = || -> io::Result<(u64, String)> {
+        let file = File::open(folder.join(&known.path))?;
+        // Whatever its length is now, no more is read than it had.
+        let mut summed = Summed::new(file.take(known.bytes.saturating_add(1)));
+        io::copy(&mut summed, &mut io::sink())?;
+        Ok(summed.finish())
+    };
+    match read() {
+        Ok((bytes, sha256)) if bytes == known.bytes && sha256 == known.sha256 => None,
+        Ok(_) => Some("its content has changed".to_owned()),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Some("it is not there".to_owned()),
+        Err(error) => Some(error.to_string()),
+    }
 }
 
 /// The name of the scene in the pack, and for each place in it the file that goes there.

@@ -50,7 +50,7 @@ pub fn script(job: &Job, frames_a_task: Option<usize>) -> Result<String, String>
     let last = chunks.len() - 1;
     Ok(format!(
         "#!/bin/sh\n\
-         # {count} frames in {} tasks. A frame that is there and whole is not painted again: submit the file a second time, and\n\
+         # {}. A frame that is there and whole is not painted again: submit the file a second time, and\n\
          # only what is missing is painted.\n\
          #   sbatch THIS_FILE    paints\n\
          {about_movie}\
@@ -61,8 +61,15 @@ pub fn script(job: &Job, frames_a_task: Option<usize>) -> Result<String, String>
          set -eu\n\n\
          {submit}\
          frames=$(sed -n \"$((SLURM_ARRAY_TASK_ID + 1))p\" <<'FRAMES'\n{}\nFRAMES\n)\n\
+         if [ -z \"$frames\" ]; then echo \"{log}: tasks are 0 to {last}, and this is $SLURM_ARRAY_TASK_ID\" >&2; exit 2; fi\n\
          exec impasto render {scene} -f \"$frames\" -o {output}{more} --skip-existing --quiet\n",
-        chunks.len(),
+        in_words(count, chunks.len()),
         chunks.join("\n"),
     ))
+}
+
+/// How many frames in how many tasks.
+fn in_words(frames: usize, tasks: usize) -> String {
+    let of = |count: usize, one: &str| format!("{count} {one}{}", if count == 1 { "" } else { "s" });
+    format!("{} in {}", of(frames, "frame"), of(tasks, "task"))
 }

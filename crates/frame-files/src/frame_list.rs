@@ -29,7 +29,7 @@ impl FrameList {
     /// A message that says how a list is written, or that it is too long.
     pub fn parse(text: &str) -> Result<Self, String> {
         let ranges: Result<Vec<Range>, String> =
-            text.split(',').map(|part| Range::parse(part.trim())).collect();
+            text.split(',').map(|part| Range::parse(part.trim(), text)).collect();
         let list = Self { ranges: ranges? };
         let mut count = 0u64;
         for range in &list.ranges {
@@ -53,11 +53,15 @@ impl FrameList {
 }
 
 impl Range {
-    fn parse(text: &str) -> Result<Self, String> {
+    /// Reads a part of a list.
+    fn parse(text: &str, list: &str) -> Result<Self, String> {
         let wrong = || {
-            format!(
-                "{text:?} is no frame list; write 0-119, 0..119, 0-119x2, 0-119:2 or 5, with commas between"
-            )
+            let what = match (text, list.trim()) {
+                ("", "") => "the frame list is empty".to_owned(),
+                ("", list) => format!("{list:?} has a comma without a frame beside it"),
+                _ => format!("{text:?} is no frame list"),
+            };
+            format!("{what}; write 0-119, 0..119, 0-119x2, 0-119:2 or 5, with commas between")
         };
         let (range, step) = match text.split_once(['x', ':']) {
             Some((range, step)) => {

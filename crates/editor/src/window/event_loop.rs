@@ -76,6 +76,12 @@ pub fn run<A: App>(options: Options, make: impl FnOnce(&Opened) -> A) -> Result<
 }
 
 fn build_event_loop() -> Result<EventLoop<Happening>, WindowError> {
+    let is_named = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    if cfg!(target_os = "linux")
+        && !["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"].into_iter().any(is_named)
+    {
+        return Err(WindowError::Unnamed);
+    }
     // The libraries that winit uses panic if libxkbcommon-x11 or libwayland-egl is missing. The panic's message goes
     // into the error, so it is not printed here.
     let hook = std::panic::take_hook();

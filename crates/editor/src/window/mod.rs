@@ -125,6 +125,12 @@ impl Waker {
 /// Why there is no window.
 #[derive(Debug, thiserror::Error)]
 pub enum WindowError {
+    /// The variables that name a display are not set.
+    #[error(
+        "there is no display: neither DISPLAY nor WAYLAND_DISPLAY is set. Open the editor from a desktop, or over `ssh -X`; \
+         `impasto render` needs no display."
+    )]
+    Unnamed,
     /// Neither X11 nor Wayland could be reached.
     #[error(
         "no display: {reason}\n\
