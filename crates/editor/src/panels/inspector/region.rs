@@ -8,7 +8,7 @@ use impasto_scene::document::{Bend, Direction, Region, Seam, Sense};
 use super::Asker;
 use super::number::{ANY, Number, decimals};
 use super::parts::{at_end, axes, body, head, head_note, note, pick, row, section};
-use super::{guides, over_time, strokes};
+use super::{amounts, guides, over_time, strokes};
 use crate::panels::tree::region_color;
 use crate::widgets::{self, Tip};
 
@@ -47,6 +47,7 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, name: &str) {
         section(ui, "Direction", "", true, |ui| direction(ui, asker, [region, stored]));
         strokes::of_region(ui, asker, name);
         guides::section_of(ui, asker, [region, stored]);
+        amounts::section_of(ui, asker, region);
         strokes::advanced(ui, asker, Some(name));
         over_time::of_strokes(ui, asker, &StrokesOf::Region(name.to_owned()));
     });
