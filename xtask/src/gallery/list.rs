@@ -81,7 +81,9 @@ const SHORT_AND_LONG: &str = "[(of: Length, dabs: [
 
 /// Less paint on its front, and more on its leaf.
 const THIN: &str = "[(of: Density, dabs: [
-    (at: (0.21, 0.3, 0.45), normal: (0.42, 0, 0.9), radius: 0.45, by: 0),
+    (at: (0.06, 0.45, 0.51), normal: (0.12, 0, 0.99), radius: 0.35, by: 0),
+    (at: (0.21, 0.35, 0.46), normal: (0.42, 0, 0.9), radius: 0.4, by: 0),
+    (at: (0.35, 0.25, 0.36), normal: (0.7, 0, 0.71), radius: 0.35, by: 0),
 ])]";
 const DENSE: &str = "[(of: Density, dabs: [
     (at: (0.27, 0.9, 0.07), normal: (0, 1, 0), radius: 0.5, by: 4),
@@ -94,7 +96,7 @@ pub(super) const PICTURES: &[Picture] = &[
     // An apple as it is stated, then with each amount painted onto it.
     Picture {
         name: "amounts",
-        view: View::Scene { scene: "apple", frame: 0, crop: Some([360, 70, 560, 560]) },
+        view: View::Scene { scene: "apple", frame: 0, crop: Some([440, 140, 410, 420]) },
         own_size: true,
         columns: 2,
         panels: &[

@@ -61,7 +61,7 @@ pub fn amount_tint(sheet: &Sheet<'_>, tint: &AmountTint) {
 }
 
 fn colour(level: f32) -> Color32 {
-    let colour = if level > 0.0 { OVER_PAINT.vermilion } else { OVER_PAINT.accent_text };
+    let colour = if level > 0.0 { OVER_PAINT.ochre } else { OVER_PAINT.accent_text };
     // From the first step on the colour is plainly seen.
     colour.gamma_multiply(FILL * (0.25 + 0.75 * level.abs()))
 }
