@@ -96,7 +96,7 @@ fn edits() -> Vec<Edit> {
         edit("density painted", move |scene| scene.regions[0].amounts.push(painted(Amount::Density, 3.0))),
         edit("flatness painted", move |scene| scene.regions[0].amounts.push(painted(Amount::Flatness, 0.2))),
         edit("painted elsewhere", |scene| scene.regions[0].amounts[2].dabs[0].at[0] += 0.1),
-        edit("amounts removed", |scene| scene.regions[0].amounts.clear()),
+        edit("amounts erased", |scene| scene.regions[0].amounts.retain(|one| one.of == Amount::Density)),
         edit("soft seam", |scene| scene.regions[2].seam = Seam::Soft(0.2)),
         edit("object moved later", |scene| scene.objects[1].keys.push(key(8.0, [1.0, 0.5, 0.3]))),
         edit("object moved", |scene| scene.objects[1].keys[0].translation = [1.05, 0.3, -0.3]),
