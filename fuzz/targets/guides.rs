@@ -1,4 +1,4 @@
-//! Guides on any mesh: however its faces lie and whatever a gesture looks like, directions are finite.
+//! Guides and painted amounts on any mesh: however its faces lie and whatever a gesture looks like, strokes are finite.
 
 #![no_main]
 
@@ -6,7 +6,9 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 
-use impasto_scene::document::{Direction, Falloff, Guide, GuideMode, GuidePoint, GuideView, Seam};
+use impasto_scene::document::{
+    Amount, AmountDab, Direction, Falloff, Guide, GuideMode, GuidePoint, GuideView, PaintedAmount, Seam,
+};
 use impasto_scene::load::{self, LoadOptions};
 use libfuzzer_sys::fuzz_target;
 
@@ -76,6 +78,17 @@ fn guide(numbers: &mut Numbers<'_>) -> Guide {
     }
 }
 
+fn amount(numbers: &mut Numbers<'_>) -> PaintedAmount {
+    let of = Amount::ALL[numbers.below(4)];
+    let dab = |numbers: &mut Numbers<'_>| AmountDab {
+        at: numbers.place(),
+        normal: numbers.place(),
+        radius: numbers.coordinate().abs(),
+        by: numbers.coordinate().abs(),
+    };
+    PaintedAmount { of, object: None, dabs: (0..1 + numbers.below(4)).map(|_| dab(numbers)).collect() }
+}
+
 fn direction(numbers: &mut Numbers<'_>) -> Direction {
     match numbers.below(6) {
         0 => Direction::Angle(numbers.coordinate() * 90.0),
@@ -97,6 +110,7 @@ fuzz_target!(|bytes: &[u8]| {
     region.direction = direction(&mut numbers);
     region.seam = if numbers.byte() & 1 > 0 { Seam::Soft(0.2) } else { Seam::Hard };
     region.guides = (0..1 + numbers.below(4)).map(|_| guide(&mut numbers)).collect();
+    region.amounts = (0..numbers.below(3)).map(|_| amount(&mut numbers)).collect();
     impasto_scene::save::write(&path, &scene).expect("written");
     let Ok(loaded) = load::load(&path, &LoadOptions::default()) else { return };
     let Ok(painting) = impasto_painting::prepare(Arc::new(loaded)) else { return };

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use impasto_scene::document::Scene;
+use impasto_scene::document::{Amount, Scene};
 use impasto_tests::command::{impasto, root};
 use impasto_tests::screen::{EditorWindow, Screen, wait_for};
 
@@ -215,4 +215,81 @@ fn a_broken_scene_is_mended() {
     editor.wait_for_title("apple.ron - Impasto");
     assert_eq!(editor.quit(), Some(0));
     assert_eq!(read(folder.path(), "apple.ron"), whole);
+}
+
+#[test]
+fn amounts_are_painted() {
+    let Some(screen) = Screen::open() else { return };
+    let folder = folder();
+    let before = read(folder.path(), "apple.ron");
+    let mut editor = EditorWindow::open(&screen, "amounts", folder.path(), "apple.ron");
+    let [x, y] = editor.control("Viewport").middle().map(|at| at.to_string());
+    screen.xdotool(&["mousemove", &x, &y]);
+    editor.keys(&["Tab"]);
+    editor.wait_for_value("Paint, comb, shot camera, frame 0, reference");
+    let mut shown = editor.rest().0;
+    editor.keys(&["p"]);
+    editor.wait_for_value("Paint, amount, shot camera, frame 0, reference");
+    for (from_px, to_px) in [([-90, -40], [-70, 60]), ([-60, -60], [-40, 70])] {
+        comb(&mut editor, from_px, to_px);
+        shown = editor.rest_after(shown);
+    }
+    editor.keep_picture("1_wide");
+    screen.xdotool(&["keydown", "ctrl"]);
+    comb(&mut editor, [40, -30], [60, 60]);
+    screen.xdotool(&["keyup", "ctrl"]);
+    shown = editor.rest_after(shown);
+    editor.keep_picture("2_narrow");
+    editor.click("Paint density");
+    editor.click("Lower");
+    comb(&mut editor, [-10, 40], [10, 90]);
+    shown = editor.rest_after(shown);
+    editor.keep_picture("3_thin");
+    editor.keys(&["ctrl+s"]);
+    editor.wait_for_title("apple.ron - Impasto");
+    let painted = read(folder.path(), "apple.ron");
+    std::fs::copy(folder.path().join("apple.ron"), folder.path().join("painted.ron")).unwrap();
+    // What is under the ring goes, and one step of the history brings it back.
+    screen.xdotool(&["keydown", "shift"]);
+    comb(&mut editor, [-10, 40], [10, 90]);
+    screen.xdotool(&["keyup", "shift"]);
+    editor.wait_for_title("apple.ron (edited) - Impasto");
+    shown = editor.rest_after(shown);
+    editor.keep_picture("4_erased");
+    editor.keys(&["ctrl+s"]);
+    editor.wait_for_title("apple.ron - Impasto");
+    let erased = read(folder.path(), "apple.ron");
+    editor.keys(&["ctrl+z"]);
+    editor.wait_for_title("apple.ron (edited) - Impasto");
+    shown = editor.rest_after(shown);
+    editor.keys(&["ctrl+s"]);
+    editor.wait_for_title("apple.ron - Impasto");
+    assert_eq!(read(folder.path(), "apple.ron"), painted);
+    editor.click("Clear width");
+    editor.rest_after(shown);
+    editor.keep_picture("5_cleared");
+    editor.keys(&["ctrl+s"]);
+    editor.wait_for_title("apple.ron - Impasto");
+    let cleared = read(folder.path(), "apple.ron");
+    assert_eq!(editor.quit(), Some(0));
+    checked(folder.path(), "painted.ron");
+
+    let of = |scene: &Scene| -> Vec<(Amount, usize)> {
+        let amounts = scene.regions.iter().flat_map(|region| &region.amounts);
+        amounts.map(|amount| (amount.of, amount.dabs.len())).collect()
+    };
+    let [(Amount::Width, width), (Amount::Density, density)] = of(&painted)[..] else {
+        panic!("{:?}", of(&painted))
+    };
+    assert!(width >= 10 && density >= 2, "{width} {density}");
+    let apple = |scene: &Scene| scene.regions.iter().position(|region| region.name == "apple").unwrap();
+    let dabs = &painted.regions[apple(&painted)].amounts[0].dabs;
+    assert!(dabs[0].by > 1.0 && dabs.last().unwrap().by < 1.0);
+    assert_eq!(of(&erased), [(Amount::Width, width)]);
+    assert_eq!(of(&cleared), [(Amount::Density, density)]);
+    let bare = |mut scene: Scene| {
+        scene.regions.iter_mut().for_each(|region| region.amounts.clear());
+        scene
+    };
+    assert_eq!(bare(painted), before, "nothing else changed");
 }

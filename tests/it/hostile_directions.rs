@@ -9,7 +9,7 @@ use impasto_scene::problem::Severity;
 use crate::hostile_scenes::{load_in_folder, scene_text};
 
 /// The case's name, the scene's fields from line 2 on, a part of the expected message, and whether there is a picture.
-const CASES: [(&str, &str, &str, bool); 24] = [
+const CASES: [(&str, &str, &str, bool); 33] = [
     (
         "contradicting regions",
         r#"regions: [(name: "first", on: Group("a", "default"), direction: Up), (name: "second", on: Object("a"))]"#,
@@ -105,6 +105,60 @@ const CASES: [(&str, &str, &str, bool); 24] = [
         r#"regions: [(name: "r", on: Object("a"), guides: [(mode: Smooth, points: [(at: (0, 0, 1), normal: (0, 0, 1))], radius: 0.2)])]"#,
         "scene.ron:2:72: error: a guide of one point is no gesture",
         false,
+    ),
+    (
+        "amount of nothing known",
+        r#"regions: [(name: "r", on: Object("a"), amounts: [(of: Widht, dabs: [(at: (0, 0, 1), normal: (0, 0, 1), radius: 0.2, by: 2)])])]"#,
+        "scene.ron:2:55: error: `regions[0].amounts[0].of` cannot be `Widht`; did you mean `Width`?",
+        false,
+    ),
+    (
+        "width by nothing",
+        r#"regions: [(name: "r", on: Object("a"), amounts: [(of: Width, dabs: [(at: (0, 0, 1), normal: (0, 0, 1), radius: 0.2, by: 0)])])]"#,
+        "scene.ron:2:121: error: 0 is out of range; give a number from 0.25 to 4",
+        false,
+    ),
+    (
+        "density below nothing",
+        r#"regions: [(name: "r", on: Object("a"), amounts: [(of: Density, dabs: [(at: (0, 0, 1), normal: (0, 0, 1), radius: 0.2, by: -0.5)])])]"#,
+        "scene.ron:2:123: error: -0.5 is out of range; give a number from 0 to 4",
+        false,
+    ),
+    (
+        "factor that is no number",
+        r#"regions: [(name: "r", on: Object("a"), amounts: [(of: Length, dabs: [(at: (0, 0, 1), normal: (0, 0, 1), radius: 0.2, by: NaN)])])]"#,
+        "scene.ron:2:122: error: NaN is out of range",
+        false,
+    ),
+    (
+        "dab of an amount without a radius",
+        r#"regions: [(name: "r", on: Object("a"), amounts: [(of: Length, dabs: [(at: (0, 0, 1), normal: (0, 0, 1), radius: 0, by: 2)])])]"#,
+        "scene.ron:2:113: error: a dab with a radius of 0 reaches nothing",
+        false,
+    ),
+    (
+        "dab of an amount that faces nowhere",
+        r#"regions: [(name: "r", on: Object("a"), amounts: [(of: Length, dabs: [(at: (0, 0, 1), normal: (0, 0, 0), radius: 0.1, by: 2)])])]"#,
+        "scene.ron:2:94: error: a direction cannot be zero",
+        false,
+    ),
+    (
+        "amount on an object that is not there",
+        r#"regions: [(name: "r", on: Object("a"), amounts: [(of: Width, object: "b", dabs: [(at: (0, 0, 1), normal: (0, 0, 1), radius: 0.2, by: 2)])])]"#,
+        "scene.ron:2:70: error: there is no object",
+        false,
+    ),
+    (
+        "amount without dabs",
+        r#"regions: [(name: "r", on: Object("a"), amounts: [(of: Width, dabs: [])])]"#,
+        "scene.ron:2:68: warning: the amount has no dabs and changes nothing",
+        true,
+    ),
+    (
+        "dab of an amount that touches nothing",
+        r#"regions: [(name: "r", on: Object("a"), amounts: [(of: Width, dabs: [(at: (0, 0, 9), normal: (0, 0, 1), radius: 0.2, by: 2)])])]"#,
+        "scene.ron:2:68: warning: 1 of 1 dabs touch nothing of \"a\"",
+        true,
     ),
     (
         "flood from nowhere",

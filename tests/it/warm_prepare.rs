@@ -5,8 +5,8 @@ use std::sync::{Arc, OnceLock};
 
 use impasto_painting::{Frame, FrameOptions, Painting, PrepareError, PrepareOptions, Preparer, prepare};
 use impasto_scene::document::{
-    Bend, Dab, Direction, Ease, Edges, Light, LightKind, ObjectKey, Region, Scale, Scene, Seam, Selector,
-    Solver, Style,
+    Amount, AmountDab, Bend, Dab, Direction, Ease, Edges, Light, LightKind, ObjectKey, PaintedAmount, Region,
+    Scale, Scene, Seam, Selector, Solver, Style,
 };
 use impasto_scene::loaded::LoadedScene;
 use impasto_tests::gestures::{camera, drag};
@@ -61,6 +61,10 @@ fn edits() -> Vec<Edit> {
         }
     };
     let dab = |x: f64| Dab { at: [x, 0.5, 0.45], normal: [0.0, 0.0, 1.0], radius: 0.2, take_away: false };
+    let painted = |of: Amount, by: f64| {
+        let dab = AmountDab { at: [0.1, 0.5, 0.45], normal: [0.0, 0.0, 1.0], radius: 0.3, by };
+        PaintedAmount { of, object: None, dabs: vec![dab] }
+    };
     vec![
         edit("guide added", comb(4)),
         edit("guide grown", comb(5)),
@@ -85,6 +89,14 @@ fn edits() -> Vec<Edit> {
         edit("dab added", move |scene| {
             scene.regions[2].on = Selector::Dabs("apple".into(), vec![dab(0.0), dab(0.15)]);
         }),
+        edit("width painted", move |scene| scene.regions[0].amounts.push(painted(Amount::Width, 2.0))),
+        edit("width painted over", move |scene| {
+            scene.regions[0].amounts[0].dabs.extend(painted(Amount::Width, 0.4).dabs);
+        }),
+        edit("density painted", move |scene| scene.regions[0].amounts.push(painted(Amount::Density, 3.0))),
+        edit("flatness painted", move |scene| scene.regions[0].amounts.push(painted(Amount::Flatness, 0.2))),
+        edit("painted elsewhere", |scene| scene.regions[0].amounts[2].dabs[0].at[0] += 0.1),
+        edit("amounts erased", |scene| scene.regions[0].amounts.retain(|one| one.of == Amount::Density)),
         edit("soft seam", |scene| scene.regions[2].seam = Seam::Soft(0.2)),
         edit("object moved later", |scene| scene.objects[1].keys.push(key(8.0, [1.0, 0.5, 0.3]))),
         edit("object moved", |scene| scene.objects[1].keys[0].translation = [1.05, 0.3, -0.3]),

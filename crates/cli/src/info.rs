@@ -92,6 +92,10 @@ fn region_words(region: &Region) -> String {
         1 => facts.push("1 guide".to_owned()),
         guides => facts.push(format!("{guides} guides")),
     }
+    if !region.amounts.is_empty() {
+        let words: Vec<&str> = region.amounts.iter().map(|amount| amount.of.word()).collect();
+        facts.push(format!("painted {}", words.join(", ")));
+    }
     if region.turn_deg != 0.0 {
         facts.push(format!("turned by {} degrees", region.turn_deg));
     }

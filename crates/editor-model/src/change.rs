@@ -1,6 +1,6 @@
 //! The difference between two versions of a scene, compact and applicable in both directions: an entry of the history.
 
-use impasto_scene::document::{Guide, Object, Region, Scene};
+use impasto_scene::document::{AmountDab, Guide, Object, PaintedAmount, Region, Scene};
 
 /// The difference between two scenes.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -16,6 +16,10 @@ enum Part {
     Regions(Splice<Region>),
     /// The guides of one region, where nothing else of any region differs.
     Guides(usize, Splice<Guide>),
+    /// The painted amounts of one region, likewise.
+    Amounts(usize, Splice<PaintedAmount>),
+    /// The dabs of one amount of one region, likewise.
+    Dabs([usize; 2], Splice<AmountDab>),
 }
 
 /// A run of a list and the run that replaces it.
@@ -67,6 +71,10 @@ impl SceneChange {
                 Part::Objects(splice) => splice.forward(&mut scene.objects),
                 Part::Regions(splice) => splice.forward(&mut scene.regions),
                 Part::Guides(region, splice) => splice.forward(&mut scene.regions[*region].guides),
+                Part::Amounts(region, splice) => splice.forward(&mut scene.regions[*region].amounts),
+                Part::Dabs([region, amount], splice) => {
+                    splice.forward(&mut scene.regions[*region].amounts[*amount].dabs);
+                }
             }
         }
     }
@@ -78,6 +86,10 @@ impl SceneChange {
                 Part::Objects(splice) => splice.backward(&mut scene.objects),
                 Part::Regions(splice) => splice.backward(&mut scene.regions),
                 Part::Guides(region, splice) => splice.backward(&mut scene.regions[*region].guides),
+                Part::Amounts(region, splice) => splice.backward(&mut scene.regions[*region].amounts),
+                Part::Dabs([region, amount], splice) => {
+                    splice.backward(&mut scene.regions[*region].amounts[*amount].dabs);
+                }
             }
         }
     }
@@ -86,8 +98,12 @@ impl SceneChange {
     pub(crate) fn bytes(&self) -> usize {
         let of_guides =
             |guides: &[Guide]| guides.iter().map(|guide| 96 + guide.points.len() * 56).sum::<usize>();
-        let of_regions =
-            |regions: &[Region]| regions.iter().map(|region| 512 + of_guides(&region.guides)).sum::<usize>();
+        let of_dabs = |dabs: &[AmountDab]| size_of_val(dabs);
+        let of_amounts = |amounts: &[PaintedAmount]| {
+            amounts.iter().map(|amount| 64 + of_dabs(&amount.dabs)).sum::<usize>()
+        };
+        let of_region = |region: &Region| 512 + of_guides(&region.guides) + of_amounts(&region.amounts);
+        let of_regions = |regions: &[Region]| regions.iter().map(of_region).sum::<usize>();
         let of_objects =
             |objects: &[Object]| objects.iter().map(|object| 256 + object.keys.len() * 80).sum::<usize>();
         let of_part = |part: &Part| match part {
@@ -95,6 +111,8 @@ impl SceneChange {
             Part::Objects(splice) => of_objects(&splice.before) + of_objects(&splice.after),
             Part::Regions(splice) => of_regions(&splice.before) + of_regions(&splice.after),
             Part::Guides(_, splice) => of_guides(&splice.before) + of_guides(&splice.after),
+            Part::Amounts(_, splice) => of_amounts(&splice.before) + of_amounts(&splice.after),
+            Part::Dabs(_, splice) => of_dabs(&splice.before) + of_dabs(&splice.after),
         };
         self.parts.iter().map(of_part).sum()
     }
@@ -132,10 +150,24 @@ fn put_head(scene: &mut Scene, head: &Scene) {
 fn regions(before: &[Region], after: &[Region]) -> Option<Part> {
     let splice = Splice::between(before, after)?;
     if let ([one], [other]) = (&splice.before[..], &splice.after[..]) {
-        let bare = |region: &Region| Region { guides: Vec::new(), ..region.clone() };
-        if bare(one) == bare(other) {
+        let bare = |region: &Region| Region { guides: Vec::new(), amounts: Vec::new(), ..region.clone() };
+        if bare(one) == bare(other) && one.amounts == other.amounts {
             return Splice::between(&one.guides, &other.guides).map(|guides| Part::Guides(splice.at, guides));
+        }
+        if bare(one) == bare(other) && one.guides == other.guides {
+            return amounts(splice.at, [&one.amounts, &other.amounts]);
         }
     }
     Some(Part::Regions(splice))
+}
+
+/// What differs in the amounts of a region: usually one list of dabs.
+fn amounts(region: usize, [before, after]: [&[PaintedAmount]; 2]) -> Option<Part> {
+    let splice = Splice::between(before, after)?;
+    if let ([one], [other]) = (&splice.before[..], &splice.after[..])
+        && (one.of, &one.object) == (other.of, &other.object)
+    {
+        return Splice::between(&one.dabs, &other.dabs).map(|dabs| Part::Dabs([region, splice.at], dabs));
+    }
+    Some(Part::Amounts(region, splice))
 }

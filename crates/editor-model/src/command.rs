@@ -1,5 +1,6 @@
 //! Commands: every change of a document, each with the text that the history shows for it.
 
+mod amounts;
 mod arrange;
 mod direction;
 mod edit;
@@ -12,6 +13,7 @@ mod time;
 use impasto_scene::document::{Object, Region, Scene};
 use impasto_scene::loaded::LoadedScene;
 
+pub use amounts::Amounts;
 pub use arrange::{Arrange, PoseField, Shift, set_light};
 pub use direction::{Directions, Gesture, GuideSettings, RegionTarget};
 pub use edit::Edit;
@@ -32,6 +34,8 @@ pub enum Command {
     Arrange(Arrange),
     /// Directions and guides.
     Directions(Directions),
+    /// Painted amounts.
+    Amounts(Amounts),
     /// Regions and their strokes.
     Regions(Regions),
     /// Keys and the timeline.
@@ -76,6 +80,7 @@ impl Command {
             Self::Edit(command) => command.edit(scene),
             Self::Arrange(command) => command.edit(scene, before),
             Self::Directions(command) => command.edit(scene),
+            Self::Amounts(command) => command.edit(scene),
             Self::Regions(command) => command.edit(scene),
             Self::Time(command) => command.edit(scene),
             Self::Scene(command) => command.edit(scene),

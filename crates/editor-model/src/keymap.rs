@@ -77,6 +77,8 @@ pub enum Action {
     /// Takes this tool of Paint.
     Region,
     /// Takes this tool of Paint.
+    Amount,
+    /// Takes this tool of Paint.
     Pick,
     /// The radius follows the pointer until a press.
     SizeRadius,

@@ -42,10 +42,10 @@ pub(crate) fn rename_object(scene: &mut Scene, old: &str, new: &str) {
     }
     for region in &mut scene.regions {
         rename_in(&mut region.on, old, new);
-        for guide in &mut region.guides {
-            if guide.object.as_deref() == Some(old) {
-                guide.object = Some(new.to_owned());
-            }
+        let of_guides = region.guides.iter_mut().map(|guide| &mut guide.object);
+        let of_amounts = region.amounts.iter_mut().map(|amount| &mut amount.object);
+        for object in of_guides.chain(of_amounts).filter(|object| object.as_deref() == Some(old)) {
+            *object = Some(new.to_owned());
         }
     }
 }

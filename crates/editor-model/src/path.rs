@@ -28,7 +28,7 @@ pub use view::ObjectView;
 /// Points of a path lie this far apart on the screen.
 const STEP_PX: f64 = 1.0;
 /// Stamps lie this share of the radius apart on the surface.
-const STAMP_SHARE: f64 = 0.25;
+pub(crate) const STAMP_SHARE: f64 = 0.25;
 /// Points that deviate from a path by at most this are dropped.
 const TOLERANCE_PX: f64 = 0.5;
 /// The same on a bent body, where what is straight in the picture is a curve on the surface at rest.
@@ -182,7 +182,12 @@ impl SurfacePath {
 
     /// The points where a brush touches: on the surface along the pieces, a quarter of the radius apart.
     pub fn stamps(&self) -> Vec<PathPoint> {
-        let spacing = self.radius * STAMP_SHARE;
+        self.stamps_apart(STAMP_SHARE)
+    }
+
+    /// As [`Self::stamps`], this share of the radius apart.
+    pub fn stamps_apart(&self, share: f64) -> Vec<PathPoint> {
+        let spacing = self.radius * share;
         let mut stamps = Vec::new();
         for piece in &self.pieces {
             stamps.extend(piece.first());

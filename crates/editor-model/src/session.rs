@@ -1,6 +1,6 @@
 //! The state of the editor that is not part of the document: mode, tools and their settings, shading, overlays, frame.
 
-use impasto_scene::document::LightKind;
+use impasto_scene::document::{Amount, LightKind};
 
 use crate::playback::Pacing;
 
@@ -45,6 +45,8 @@ pub enum Tool {
     Erase,
     /// Paint: chooses which faces belong to a region.
     Region,
+    /// Paint: makes strokes wider, longer, denser or flatter under the drag.
+    Amount,
     /// Paint: takes the direction under the cursor.
     Pick,
 }
@@ -179,6 +181,10 @@ pub struct ToolOptions {
     pub snap: bool,
     /// What kind of light Add light adds.
     pub light: LightKind,
+    /// Which amount is painted.
+    pub amount: Amount,
+    /// Whether a drag lowers the amount instead of raising it.
+    pub lowers: bool,
     /// Whether strokes inside the ring are shown as a comb would lay them, before the press.
     pub foresee: bool,
 }
@@ -260,6 +266,8 @@ impl Default for ToolOptions {
             axes: Axes::default(),
             snap: false,
             light: LightKind::Point,
+            amount: Amount::Width,
+            lowers: false,
             foresee: true,
         }
     }
@@ -322,6 +330,7 @@ impl Tool {
                 | Self::Smooth
                 | Self::Erase
                 | Self::Region
+                | Self::Amount
                 | Self::Pick
         )
     }

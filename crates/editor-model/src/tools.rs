@@ -7,7 +7,7 @@
 
 use glam::{DAffine3, DVec2, DVec3};
 use impasto_core::bending::CarriedPlace;
-use impasto_scene::document::{Object, Scene};
+use impasto_scene::document::{Amount, Object, Scene};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion;
 
@@ -19,6 +19,7 @@ use crate::refusal::Refusal;
 use crate::selection::{Item, Selection};
 use crate::session::{Tool, ToolOptions};
 
+mod amounts;
 mod brush;
 mod curve;
 mod erase;
@@ -65,6 +66,9 @@ pub trait Painted {
 
     /// How strokes show at a hit now.
     fn shown_at(&self, hit: &Hit) -> Option<PaintedDirection>;
+
+    /// The factor that is painted onto an amount at a hit.
+    fn factor_at(&self, hit: &Hit, of: Amount) -> Option<f64>;
 
     /// Where a hit is at a frame; `None` where its object is at rest then.
     fn carried(&self, hit: &Hit, frame: f64) -> Option<CarriedPlace>;
@@ -273,6 +277,7 @@ pub(crate) fn waiting_words(tool: Tool, options: &ToolOptions, region: &str) -> 
         Tool::Smooth => "[Drag] smooth  [F] radius  [Middle] orbit".to_owned(),
         Tool::Erase => "[Drag] erase to automatic  [F] radius  [Middle] orbit".to_owned(),
         Tool::Region => format!("[Drag] add to {region}  [Ctrl] take away"),
+        Tool::Amount => amounts::waiting_words(options),
         Tool::Pick => "[Click] take the direction  [Middle] orbit".to_owned(),
         _ => String::new(),
     }

@@ -34,6 +34,8 @@ icons! {
     SMOOTH = ICON_BLUR_ON;
     /// Erase to automatic.
     ERASE = ICON_INK_ERASER;
+    /// Paint amount.
+    AMOUNT = ICON_LINE_WEIGHT;
     /// Region brush.
     REGION = ICON_LASSO_SELECT;
     /// Pick direction.

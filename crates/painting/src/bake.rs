@@ -10,6 +10,7 @@ use impasto_core::solve::BakedParticles;
 use impasto_scene::document::Solver;
 use rayon::prelude::*;
 
+use crate::amounts::{CoatAmounts, painted_flatness};
 use crate::field::{BodyField, FieldInputs};
 use crate::references::{BodyReference, BodyReferences, RaisedPlace, SurfacePoint, Views};
 use crate::regions::RegionRule;
@@ -34,6 +35,8 @@ pub(crate) struct BakeInputs {
     pub(crate) trait_inputs: Arc<TraitInputs>,
     /// What chance and slow noise add to the base angle of each particle, radians.
     pub(crate) stray_rad: Arc<Vec<f64>>,
+    /// What is painted onto the particles; only flatness matters here.
+    pub(crate) amounts: Arc<CoatAmounts>,
     pub(crate) solver: Solver,
     /// The rules that particles of the body may have.
     pub(crate) used: Arc<Vec<u16>>,
@@ -65,6 +68,7 @@ impl PartialEq for BakeInputs {
         same_lists
             && same_combing
             && self.trait_inputs == other.trait_inputs
+            && self.amounts.flatness() == other.amounts.flatness()
             && sources.references == before.references
             && self.solver == other.solver
             && sources.extent == before.extent
@@ -155,11 +159,16 @@ impl BakeInputs {
                 }
             }
         });
-        let flatness = |rule: u16| sources.rules[usize::from(rule)].strokes.flatness;
+        let of_rule = |rule: u16| sources.rules[usize::from(rule)].strokes.flatness;
+        let painted = self.amounts.flatness();
+        let flatness = |index: usize| {
+            let of_rule = of_rule(sources.traits.region(index));
+            painted.get(index).map_or(of_rule, |&by| painted_flatness(of_rule, by))
+        };
         body.baked.flatness.clear();
-        let may_follow = self.used.iter().any(|&rule| flatness(rule) < 1.0);
-        if may_follow && (0..count).any(|index| flatness(sources.traits.region(index)) < 1.0) {
-            body.baked.flatness.extend((0..count).map(|index| flatness(sources.traits.region(index))));
+        let may_follow = !painted.is_empty() || self.used.iter().any(|&rule| of_rule(rule) < 1.0);
+        if may_follow && (0..count).any(|index| flatness(index) < 1.0) {
+            body.baked.flatness.extend((0..count).map(flatness));
         }
         Arc::new(body)
     }

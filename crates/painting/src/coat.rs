@@ -11,6 +11,7 @@ use impasto_core::solve::{BakedParticles, Bounds, ParticleView};
 use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
 
+use crate::amounts::CoatAmounts;
 use crate::bake::{BakedBody, LiftSources};
 use crate::bent::Bent;
 use crate::body::BodySurface;
@@ -33,6 +34,8 @@ pub(crate) struct Coat {
     /// Indices of the rules that apply to any of its particles.
     pub(crate) used: Arc<Vec<u16>>,
     pub(crate) traits: Arc<Traits>,
+    /// What is painted onto its particles.
+    pub(crate) amounts: Arc<CoatAmounts>,
     pub(crate) baked: Arc<BakedBody>,
     /// The particles in the order of their triangles; made when the body first bends.
     pub(crate) sorted: OnceLock<SortedParticles>,

@@ -7,6 +7,7 @@ use impasto_core::hash;
 use impasto_scene::document::{Scene, Solver};
 use impasto_scene::presets::LayerKind;
 
+use crate::amounts::BodyAmounts;
 use crate::body_shape::BodyShape;
 use crate::parts::Cap;
 use crate::references::BodyReferences;
@@ -46,6 +47,7 @@ pub(crate) struct ObjectInputs<'a> {
     /// The rules that may show on the object.
     pub(crate) used: &'a Arc<Vec<u16>>,
     pub(crate) guides: &'a Arc<Vec<BodyGuide>>,
+    pub(crate) amounts: &'a Arc<BodyAmounts>,
     pub(crate) references: &'a Arc<BodyReferences>,
     /// For each part, the largest strokes that it carries.
     pub(crate) caps: &'a [Cap],

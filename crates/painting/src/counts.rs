@@ -31,6 +31,8 @@ pub(crate) struct CountInputs {
     least: u32,
     /// The body layer's count, where the object states it.
     stated: Option<u64>,
+    /// How many times as many what is painted asks for.
+    more_wanted: f32,
     paper: bool,
 }
 
@@ -38,7 +40,7 @@ impl PartialEq for CountInputs {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.surface, &other.surface)
             && (self.left_out, self.least) == (other.left_out, other.least)
-            && (self.stated, self.paper) == (other.stated, other.paper)
+            && (self.stated, self.more_wanted, self.paper) == (other.stated, other.more_wanted, other.paper)
             && self.layers == other.layers
             && self.fits == other.fits
             && self.caps == other.caps
@@ -80,6 +82,7 @@ impl CountInputs {
             left_out,
             least: particle_count::least(context.scene.objects.len()),
             stated: context.scene.objects[object.index].particles,
+            more_wanted: object.amounts.more_wanted(),
             paper: context.paper,
         }
     }
@@ -119,6 +122,9 @@ impl CountInputs {
             _ if self.left_out[kind] => 0,
             // By the paper's rule a polygon without a particle stays bare.
             _ if self.paper => found[kind].max(surface.faces().count()),
+            _ if LayerKind::ALL[kind] != LayerKind::Underpainting => {
+                particle_count::times(found[kind], self.more_wanted)
+            }
             _ => found[kind],
         })
     }

@@ -7,6 +7,7 @@
 //! Painting + frame number + picture size ─▶ Frame
 //! ```
 
+mod amounts;
 mod at;
 mod bake;
 mod bent;

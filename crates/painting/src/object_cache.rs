@@ -10,6 +10,7 @@ use impasto_scene::document::Solver;
 use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
 
+use crate::amounts::{AmountInputs, CoatAmounts};
 use crate::bake::{BakeInputs, BakedBody, Combed, LiftSources};
 use crate::body::BodySurface;
 use crate::body_shape::{BodyNoise, BodyShape};
@@ -53,6 +54,7 @@ struct CoatCache {
     neighbours: Cached<Particles, Arc<Neighbours>>,
     stencils: Cached<StencilInputs, CoatStencils>,
     traits: Cached<Arc<TraitInputs>, CoatTraits>,
+    amounts: Cached<AmountInputs, Arc<CoatAmounts>>,
     baked: Cached<BakeInputs, Arc<BakedBody>>,
 }
 
@@ -268,6 +270,7 @@ impl ObjectCache {
             references: Arc::clone(object.references),
             regions: Arc::clone(object.regions),
             guides: Arc::clone(object.guides),
+            amounts: Arc::clone(object.amounts),
             rules: Arc::clone(context.rules),
             parts: Arc::clone(parts),
             extent: *extent,
@@ -378,7 +381,18 @@ impl CoatInputs<'_> {
         }
     }
 
-    fn coat(&self, sampled: &Arc<Sampled>, lift_sources: LiftSources, baked: Arc<BakedBody>) -> Coat {
+    fn amounts(&self, traits: &Arc<Traits>) -> AmountInputs {
+        let (amounts, traits) = (Arc::clone(self.object.amounts), Arc::clone(traits));
+        AmountInputs { kind: self.kind, amounts, traits }
+    }
+
+    fn coat(
+        &self,
+        sampled: &Arc<Sampled>,
+        lift_sources: LiftSources,
+        amounts: Arc<CoatAmounts>,
+        baked: Arc<BakedBody>,
+    ) -> Coat {
         let brushes = self.brushes;
         let of_rule = |rule: &RegionRule| brushes.first_marks(rule.strokes.layer_of(self.kind));
         Coat {
@@ -388,6 +402,7 @@ impl CoatInputs<'_> {
             used: Arc::clone(self.object.used),
             traits: Arc::clone(&lift_sources.traits),
             lift_sources,
+            amounts,
             baked,
             sorted: OnceLock::new(),
             surface: Arc::clone(&self.surface.body),
@@ -405,17 +420,20 @@ impl CoatCache {
         let trait_inputs = Arc::new(given.traits(self.sampled().particles.clone()));
         let CoatTraits { traits, stray_rad } =
             self.traits.resize(Arc::clone(&trait_inputs), |inputs, before| inputs.traits(before)).clone();
+        let amounts =
+            Arc::clone(self.amounts.update(given.amounts(&traits), |inputs, _| Arc::new(inputs.find())));
         let lift_sources = given.lift_sources(&traits, self.neighbours.output());
         let inputs = BakeInputs {
             sources: lift_sources.clone(),
             trait_inputs,
             stray_rad,
+            amounts: Arc::clone(&amounts),
             solver: given.context.solver,
             used: Arc::clone(given.object.used),
             combed,
         };
         let baked = Arc::clone(self.baked.resize(inputs, |inputs, before| inputs.bake(before)));
-        given.coat(self.sampled(), lift_sources, baked)
+        given.coat(self.sampled(), lift_sources, amounts, baked)
     }
 
     fn take_kept(&mut self, given: &CoatInputs<'_>, mut kept: KeptCoat) -> Coat {
@@ -426,7 +444,9 @@ impl CoatCache {
             self.neighbours.update(sampled.particles.clone(), |_, _| Arc::new(lists));
         }
         let traits = given.traits(sampled.particles.clone()).of_kept(kept.dabbed, kept.drift);
-        let lift_sources = given.lift_sources(&Arc::new(traits), self.neighbours.output());
-        given.coat(&sampled, lift_sources, Arc::new(kept.baked))
+        let traits = Arc::new(traits);
+        let amounts = Arc::new(given.amounts(&traits).find());
+        let lift_sources = given.lift_sources(&traits, self.neighbours.output());
+        given.coat(&sampled, lift_sources, amounts, Arc::new(kept.baked))
     }
 }

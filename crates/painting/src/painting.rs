@@ -7,10 +7,11 @@ use glam::{DVec3, Vec3};
 use impasto_core::bending::CarriedPlace;
 use impasto_core::direction::singularities::Singularity;
 use impasto_core::sampling::{PackedParticle, Particle};
-use impasto_scene::document::{Scene, Solver, Style};
+use impasto_scene::document::{Amount, Scene, Solver, Style};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::presets::LayerKind;
 
+use crate::amounts::BodyAmounts;
 use crate::bent::{Bent, BentMemo};
 use crate::body::BodySurface;
 use crate::body_shape::{BodyNoise, BodyShape, FrameNoise};
@@ -75,6 +76,8 @@ pub(crate) struct PreparedBody {
     pub(crate) counts: [usize; LayerKind::ALL.len()],
     /// Which region lies where.
     pub(crate) regions: Arc<BodyRegions>,
+    /// What is painted onto it.
+    pub(crate) amounts: Arc<BodyAmounts>,
 }
 
 impl Painting {
@@ -194,6 +197,15 @@ impl Painting {
     /// Index of the region that a place of an object's surface belongs to; `regions.len()` of the scene for none of them.
     pub fn region_at(&self, object: usize, place: &Particle) -> usize {
         usize::from(self.bodies[object].regions.of(place))
+    }
+
+    /// The factor that is painted onto an amount at a place of an object's surface; 1 where nothing is.
+    pub fn painted_at(&self, object: usize, place: &Particle, of: Amount) -> f32 {
+        let body = &self.bodies[object];
+        if body.amounts.is_empty() {
+            return 1.0;
+        }
+        body.amounts.at(of, body.regions.of(place), place.position, place.normal)
     }
 
     /// Where a place of an object is at a frame; `None` where the object is at rest.

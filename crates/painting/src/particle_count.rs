@@ -115,6 +115,12 @@ pub(crate) fn find<const LAYERS: usize>(
         .map(|needed| (needed * surface.area() * 1.25).clamp(f64::from(least), MOST).ceil() as usize)
 }
 
+/// A count that was found, and is wanted this many times as large: as far as the greatest number that is found.
+pub(crate) fn times(found: usize, by: f32) -> usize {
+    let most = found.max(MOST as usize);
+    ((found as f64 * f64::from(by)).ceil() as usize).min(most)
+}
+
 impl<const LAYERS: usize> CountedFace<LAYERS> {
     /// Its middle when the vertices are at these positions, and its normal, as long as its area now over that at rest.
     fn moved(&self, mesh: &TriangleMesh, positions: &[Vec3]) -> (DVec3, DVec3) {

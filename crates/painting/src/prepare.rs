@@ -12,6 +12,7 @@ use impasto_scene::presets::LayerKind;
 use impasto_scene::{motion, presets};
 use rayon::prelude::*;
 
+use crate::amounts::BodyAmounts;
 use crate::body::BodySurface;
 use crate::body_shape::{BodyNoise, BodyShape};
 use crate::brushes;
@@ -112,8 +113,11 @@ impl Preparer {
                 Arc::new(BodyRegions::new(scene, &object.name, inputs.file(), &body.surface.mesh))
             })
             .collect();
-        for (body, regions) in bodies.iter_mut().zip(&regions) {
+        let amounts: Vec<Arc<BodyAmounts>> =
+            scene.objects.iter().map(|object| Arc::new(BodyAmounts::new(scene, &object.name))).collect();
+        for ((body, regions), amounts) in bodies.iter_mut().zip(&regions).zip(&amounts) {
             body.regions = Arc::clone(regions);
+            body.amounts = Arc::clone(amounts);
         }
         let used: Vec<Arc<Vec<u16>>> = regions.iter().map(|regions| Arc::new(regions.all())).collect();
         let caps: Vec<Vec<Cap>> = bodies.iter().map(|body| body.caps.clone()).collect();
@@ -124,6 +128,7 @@ impl Preparer {
                 regions: &regions[index],
                 used: &used[index],
                 guides: &guides[index],
+                amounts: &amounts[index],
                 references: &of_body[index],
                 caps: &caps[index],
             })
@@ -375,6 +380,7 @@ fn plain(
         field: None,
         counts: [0; LayerKind::ALL.len()],
         regions: Arc::default(),
+        amounts: Arc::default(),
     });
     let bodies = bodies.collect();
     // A key may take a morph farther than the views see it go.

@@ -47,18 +47,19 @@ impl Painting {
             if is_hidden || layer.coverage <= 0.0 {
                 return None;
             }
+            let ([longer_painted, wider_painted], more_painted) = coat.amounts.most(index);
             let of_part = |cap: &Cap| {
                 let size_px = [layer.length_px, layer.width_px];
                 let [length, width] = cap.fitted(size_px, body.least_form, strokes.fit);
-                let wanted_per_px = f64::from(layer.coverage / (length * width));
+                let wanted_per_px = f64::from(layer.coverage / (length * width) * more_painted);
                 (wanted_per_px * coat.sampled.area * most * LEEWAY / f64::from(px_scale * px_scale)) as f32
             };
             let by_index = !by_polygon && strokes.size_follow <= 0.0;
             let [longer, wider] = most_size(strokes.size_jitter);
             let [longer_boiled, wider_boiled] = boil::most_size(strokes.boil);
             let [along, across] = boil::most_shift(strokes.boil);
-            let length_px = layer.length_px * longer * longer_boiled * px_scale;
-            let width_px = layer.width_px * wider * wider_boiled * px_scale;
+            let length_px = layer.length_px * longer * longer_boiled * longer_painted * px_scale;
+            let width_px = layer.width_px * wider * wider_boiled * wider_painted * px_scale;
             let shift_px = along * length_px + across * width_px;
             Some(PresenceBound {
                 reach_px: reach_px([1.0; 2], [length_px, width_px * (1.0 + strokes.taper.abs())]) + shift_px,

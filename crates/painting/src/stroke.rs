@@ -71,13 +71,15 @@ impl PaintingView<'_> {
         // A stroke that is smaller than its layer's carries less paint, mixed less boldly.
         let boldness = (size_px[1] / layer.width_px).clamp(0.2, 1.0).sqrt();
         let wanted = wanted_where_small(coat.kind, size_px[1] / layer.width_px);
-        let size_px = size_px.map(|side| side * grown);
+        let painted = coat.amounts.of(index);
+        let size_px = [size_px[0] * grown * painted.length, size_px[1] * grown * painted.width];
         let patches = if coat.kind == LayerKind::Scumble { patch(drift[1]) } else { 1.0 };
         let supply_ln = match (&coat_view.shown, &coat.sampled.polygons) {
             (Some(shown), Some(polygons)) if polygons.is_shown(shown, index) => WHOLE,
             (Some(_), _) => return None,
             _ => {
-                let wanted_per_px = layer.coverage * patches * wanted / (size_px[0] * size_px[1]);
+                let wanted_per_px =
+                    layer.coverage * patches * wanted * painted.density / (size_px[0] * size_px[1]);
                 self.supply_ln(coat_view, index, solved.area_px, wanted_per_px)
             }
         };

@@ -13,6 +13,7 @@ use crate::mesh_file::MeshFile;
 use crate::point_cache::PointCache;
 use crate::problem::Severity;
 
+mod amounts;
 mod mesh_names;
 mod noise_displace;
 mod objects;
@@ -80,6 +81,8 @@ pub(crate) struct Known {
     pub(crate) objects: HashSet<usize>,
     /// Guides that lie on their surface: indices of region and guide.
     pub(crate) guides: HashSet<(usize, usize)>,
+    /// Painted amounts whose dabs all touch their object: indices of region and amount.
+    pub(crate) amounts: HashSet<(usize, usize)>,
     /// Regions whose dabs all touch their object, by index.
     pub(crate) dabs: HashSet<usize>,
 }

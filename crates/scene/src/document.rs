@@ -29,8 +29,8 @@ pub use noise_displace::{
 pub use numbers::Number;
 pub use paint::{BrushMix, Edges, LayerNumber, LayerSettings, ResolvedLayer};
 pub use regions::{
-    Bend, Dab, Direction, Falloff, Guide, GuideMode, GuidePoint, GuideView, Patch, PatchRef, Region, Seam,
-    Seed, Selector, Sense,
+    Amount, AmountDab, Bend, Dab, Direction, Falloff, Guide, GuideMode, GuidePoint, GuideView, PaintedAmount,
+    Patch, PatchRef, Region, Seam, Seed, Selector, Sense,
 };
 pub use rotating_strokes::{Canvas, RotatingStrokes, SAMPLES};
 pub use stage::{Brought, Lost, Seen, Stage};

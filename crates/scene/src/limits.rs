@@ -93,8 +93,14 @@ pub const MAX_GUIDES: usize = 4096;
 /// Points of all guides of a scene.
 pub const MAX_GUIDE_POINTS: usize = 65_536;
 
-/// Dabs of a scene.
+/// Dabs of a scene that choose faces of regions.
 pub const MAX_DABS: usize = 65_536;
+
+/// Painted amounts of a scene: lists of dabs.
+pub const MAX_AMOUNTS: usize = 4096;
+
+/// Dabs of all painted amounts of a scene.
+pub const MAX_AMOUNT_DABS: usize = 32_768;
 
 /// Floods of a scene.
 pub const MAX_FLOODS: usize = 256;

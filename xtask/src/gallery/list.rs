@@ -69,10 +69,43 @@ const PAPER: &[(&str, &str)] = &[("strokes.preset", "paper")];
 
 const NO_GUIDES: (&str, &str) = ("regions.deer.guides", "[]");
 
+/// Amounts on the apple: on its left, and on its right.
+const WIDE_AND_NARROW: &str = "[(of: Width, dabs: [
+    (at: (-0.135, 0.45, 0.48), normal: (-0.27, 0, 0.96), radius: 0.6, by: 2.6),
+    (at: (0.455, 0.45, 0.207), normal: (0.91, 0, 0.41), radius: 0.5, by: 0.4),
+])]";
+const SHORT_AND_LONG: &str = "[(of: Length, dabs: [
+    (at: (-0.135, 0.45, 0.48), normal: (-0.27, 0, 0.96), radius: 0.6, by: 0.35),
+    (at: (0.455, 0.45, 0.207), normal: (0.91, 0, 0.41), radius: 0.5, by: 2.6),
+])]";
+
+/// Less paint on its front, and more on its leaf.
+const THIN: &str = "[(of: Density, dabs: [
+    (at: (0.06, 0.45, 0.51), normal: (0.12, 0, 0.99), radius: 0.35, by: 0),
+    (at: (0.21, 0.35, 0.46), normal: (0.42, 0, 0.9), radius: 0.4, by: 0),
+    (at: (0.35, 0.25, 0.36), normal: (0.7, 0, 0.71), radius: 0.35, by: 0),
+])]";
+const DENSE: &str = "[(of: Density, dabs: [
+    (at: (0.27, 0.9, 0.07), normal: (0, 1, 0), radius: 0.5, by: 4),
+]), (of: Width, dabs: [(at: (0.27, 0.9, 0.07), normal: (0, 1, 0), radius: 0.5, by: 0.5)])]";
+
 pub(super) const PICTURES: &[Picture] = &[
     whole("still_life", "still_life", 0),
     whole("still_life_rolled", "still_life", 90),
     sweep("still_life_crop", [560, 250, 420, 290], 1, &[&[]]),
+    // An apple as it is stated, then with each amount painted onto it.
+    Picture {
+        name: "amounts",
+        view: View::Scene { scene: "apple", frame: 0, crop: Some([440, 140, 410, 420]) },
+        own_size: true,
+        columns: 2,
+        panels: &[
+            &[],
+            &[("regions.apple.amounts", WIDE_AND_NARROW)],
+            &[("regions.apple.amounts", SHORT_AND_LONG)],
+            &[("regions.apple.amounts", THIN), ("regions.apple leaf.amounts", DENSE)],
+        ],
+    },
     whole("landscape", "landscape", 0),
     Picture { own_size: true, ..whole("portrait", "portrait", 0) },
     whole("simple_objects", "simple_objects", 0),

@@ -293,6 +293,14 @@ fn carry_along(scene: &mut Scene, object: &str, new_from_old: DMat3) {
                 _ => {}
             }
         }
+        for amount in &mut region.amounts {
+            let is_on_it = amount.object.as_deref() == Some(object) || amount.object.is_none() && is_its_own;
+            for dab in amount.dabs.iter_mut().filter(|_| is_on_it) {
+                point(&mut dab.at);
+                normal(&mut dab.normal);
+                dab.radius *= factor;
+            }
+        }
         for guide in &mut region.guides {
             if guide.object.as_deref() != Some(object) && !(guide.object.is_none() && is_its_own) {
                 continue;

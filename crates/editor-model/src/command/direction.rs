@@ -230,7 +230,7 @@ fn no_point() -> Refusal {
 }
 
 /// The name of the region that a gesture works on; the region is made if it does not exist yet.
-fn target(scene: &mut Scene, region: &RegionTarget) -> Result<String, Refusal> {
+pub(super) fn target(scene: &mut Scene, region: &RegionTarget) -> Result<String, Refusal> {
     match region {
         RegionTarget::Named(name) => Ok(name.clone()),
         RegionTarget::NewOn(object) => {

@@ -120,6 +120,7 @@ fn delete_object(scene: &mut Scene, name: &str) -> Result<(), Refusal> {
     scene.regions.retain(|region| region.on.object() != Some(name));
     for region in &mut scene.regions {
         region.guides.retain(|guide| guide.object.as_deref() != Some(name));
+        region.amounts.retain(|amount| amount.object.as_deref() != Some(name));
     }
     Ok(())
 }

@@ -144,6 +144,7 @@ impl Editor {
             Action::Smooth => Tool::Smooth,
             Action::Erase => Tool::Erase,
             Action::Region => Tool::Region,
+            Action::Amount => Tool::Amount,
             Action::Pick => Tool::Pick,
             Action::Move | Action::Turn | Action::Scale => {
                 let (operation, tool) = match action {

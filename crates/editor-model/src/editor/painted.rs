@@ -3,6 +3,7 @@
 use impasto_core::bending::CarriedPlace;
 use impasto_core::sampling::Particle;
 use impasto_painting::{Painting, SurfacePlace};
+use impasto_scene::document::Amount;
 use impasto_scene::motion::CameraPose;
 
 use super::Editor;
@@ -37,6 +38,11 @@ impl Painted for PaintedView<'_> {
         let is_there = (hit.object) < painting.scene().objects.len();
         let region = is_there.then(|| painting.region_at(hit.object, &place))?;
         (region < painting.scene().regions.len()).then_some(region)
+    }
+
+    fn factor_at(&self, hit: &Hit, of: Amount) -> Option<f64> {
+        let painting = self.painting.filter(|painting| hit.object < painting.scene().objects.len())?;
+        Some(f64::from(painting.painted_at(hit.object, &hit.particle(), of)))
     }
 
     fn carried(&self, hit: &Hit, frame: f64) -> Option<CarriedPlace> {

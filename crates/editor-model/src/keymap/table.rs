@@ -127,6 +127,7 @@ pub(super) const BINDINGS: &[Binding] = &[
     both(Action::Smooth, "Smooth", PAINT, &[plain(Key::Letter('S'))]),
     both(Action::Erase, "Erase to automatic", PAINT, &[plain(Key::Letter('E'))]),
     both(Action::Region, "Region", PAINT, &[plain(Key::Letter('M'))]),
+    both(Action::Amount, "Paint amount", PAINT, &[plain(Key::Letter('P'))]),
     both(Action::Pick, "Pick direction", PAINT, &[plain(Key::Letter('I'))]),
     each(Action::SizeRadius, "Brush radius", PAINT, &[plain(Key::Letter('F'))], &[plain(Key::Letter('B'))]),
     each(

@@ -1,14 +1,18 @@
 //! The brush tools (Comb, Smooth, Smear, Erase, region brush): a ring that is dragged over a surface.
 
 use glam::DVec2;
-use impasto_scene::document::{Dab, Falloff, Guide, GuideMode, Region, Selector};
+use impasto_scene::document::{Amount, Dab, Falloff, Guide, GuideMode, Region, Selector};
 
 use super::heading::Heading;
 use super::ring::{CombPreview, Needle, Ring, radius_in_model};
-use super::{NOTHING_HERE, Paintable, Surroundings, ToolEvent, ToolOutput, erase, smear, waiting_words};
-use crate::command::{Command, Directions, Gesture, RegionTarget, Regions};
+use super::{
+    NOTHING_HERE, Paintable, Surroundings, ToolEvent, ToolOutput, amounts, erase, smear, waiting_words,
+};
+use crate::command::{Amounts, Command, Directions, Gesture, RegionTarget, Regions};
 use crate::keymap::{Action, Modifiers};
-use crate::path::{Faces, GuideStyle, MirrorAxes, PathPoint, PathSense, PathSettings, SurfacePath, mirrored};
+use crate::path::{
+    Faces, GuideStyle, MirrorAxes, PathPoint, PathSense, PathSettings, STAMP_SHARE, SurfacePath, mirrored,
+};
 use crate::picking::Hit;
 use crate::refusal::Refusal;
 use crate::selection::Item;
@@ -46,6 +50,12 @@ enum Act {
     TakeAway,
     /// The region brush: makes a new region.
     AddNew,
+    /// Paints more of an amount.
+    Raise,
+    /// Paints less of it.
+    Lower,
+    /// Takes dabs of it away.
+    EraseAmount,
 }
 
 impl Brush {
@@ -111,6 +121,12 @@ impl Brush {
         let lying = shown.map(|shown| DVec2::from_angle(-shown.angle_rad));
         let along = if moving { self.heading.along().or(lying) } else { lying };
         self.previews_comb = moving || self.previews_comb && !self.heading.rests(at_secs);
+        if tool == Tool::Amount {
+            let of = around.options.amount;
+            let factor = around.painted.factor_at(&hit, of).filter(|_| self.heading.rests(at_secs));
+            output.label = factor.map(|factor| format!("{} ×{factor:.2}", of.word()));
+            return output;
+        }
         output.comb_preview = self.comb_preview(tool, &hit, around);
         output.needle = along.map(|along| Needle { at_px, along, headed: moving });
         if let Some(shown) = shown.filter(|_| self.heading.rests(at_secs)) {
@@ -175,14 +191,15 @@ impl Brush {
             format!(", {angle_deg}°")
         });
         let angle = angle.filter(|_| stroke.does == Act::Comb).unwrap_or_default();
-        let (verb, name) = (stroke.does.verb(), &stroke.on.name);
+        let (verb, name) = (stroke.does.words(around.options.amount), &stroke.on.name);
         let status = format!("{verb} {name}{angle}, radius {radius_px:.0} px   [Esc] take it back");
         let hit = around.hit(stroke.at_px).filter(|hit| hit.object == stroke.on.object);
         let rings = match &hit {
             Some(hit) => Ring::all_on(hit, around),
             None => vec![Ring::hollow(stroke.at_px, radius_px)],
         };
-        let needle = along.map(|along| Needle { at_px: stroke.at_px, along, headed: true });
+        let needle = along.filter(|_| !stroke.does.is_for_amounts());
+        let needle = needle.map(|along| Needle { at_px: stroke.at_px, along, headed: true });
         ToolOutput { rings, needle, ..ToolOutput::saying(status) }
     }
 }
@@ -203,26 +220,39 @@ impl Act {
             Tool::Region if held.ctrl || around.options.region_does == RegionDoes::TakeAway => Self::TakeAway,
             Tool::Region if around.options.region_does == RegionDoes::New => Self::AddNew,
             Tool::Region => Self::Add,
+            Tool::Amount if held.shift => Self::EraseAmount,
+            Tool::Amount if around.options.lowers != held.ctrl => Self::Lower,
+            Tool::Amount => Self::Raise,
             _ if held.shift => Self::Smooth,
             _ => Self::Comb,
         }
     }
 
-    fn verb(self) -> &'static str {
+    /// What it does with an amount, or with directions or regions.
+    fn words(self, of: Amount) -> String {
+        let of = of.word();
         match self {
-            Self::Comb => "Combing",
-            Self::Smooth => "Smoothing",
-            Self::Smear => "Smearing",
-            Self::Erase => "Erasing on",
-            Self::Add => "Adding to",
-            Self::TakeAway => "Taking from",
-            Self::AddNew => "Painting",
+            Self::Comb => "Combing".to_owned(),
+            Self::Smooth => "Smoothing".to_owned(),
+            Self::Smear => "Smearing".to_owned(),
+            Self::Erase => "Erasing on".to_owned(),
+            Self::Add => "Adding to".to_owned(),
+            Self::TakeAway => "Taking from".to_owned(),
+            Self::AddNew => "Painting".to_owned(),
+            Self::Raise => format!("Raising the {of} on"),
+            Self::Lower => format!("Lowering the {of} on"),
+            Self::EraseAmount => format!("Erasing the {of} on"),
         }
     }
 
     /// Whether it changes what a region covers. If so, a drag may cross other regions.
     fn is_for_regions(self) -> bool {
         matches!(self, Self::Add | Self::TakeAway | Self::AddNew)
+    }
+
+    /// Whether it changes what is painted onto strokes: then no direction matters.
+    fn is_for_amounts(self) -> bool {
+        matches!(self, Self::Raise | Self::Lower | Self::EraseAmount)
     }
 
     /// What a press acts on, and where it meets the surface.
@@ -302,6 +332,8 @@ impl Stroke {
             Act::Smear => directions(Gesture::Smear, self.guides(&path, GuideMode::Comb, around)),
             Act::Erase => self.erased(&path, around),
             Act::Add | Act::TakeAway | Act::AddNew => Some(self.dabbed(&path, around)),
+            Act::Raise | Act::Lower => self.raised(&path, around),
+            Act::EraseAmount => self.amounts_erased(&path, around),
         }
     }
 
@@ -340,9 +372,9 @@ impl Stroke {
         guides
     }
 
-    /// The points at which the brush touches the surface along a path, then their mirror images.
-    fn touched(&self, path: &SurfacePath, around: &Surroundings) -> Vec<PathPoint> {
-        let mut touched = path.stamps();
+    /// The points at which the brush touches the surface along a path, this share of its radius apart, then their mirror images.
+    fn touched(&self, path: &SurfacePath, share: f64, around: &Surroundings) -> Vec<PathPoint> {
+        let mut touched = path.stamps_apart(share);
         let own = touched.len();
         for flip in mirror_axes(around).flips() {
             for index in 0..own {
@@ -359,7 +391,7 @@ impl Stroke {
 
     fn erased(&self, path: &SurfacePath, around: &Surroundings) -> Option<Command> {
         let region = around.scene().regions.get(self.on.region?)?;
-        let touched = self.touched(path, around);
+        let touched = self.touched(path, STAMP_SHARE, around);
         let object = around.object(self.on.object)?.name.as_str();
         let guides: Vec<Guide> = region
             .guides
@@ -374,10 +406,35 @@ impl Stroke {
         (guides != region.guides).then(erase)
     }
 
+    /// The dabs of an amount that a drag leaves.
+    fn raised(&self, path: &SurfacePath, around: &Surroundings) -> Option<Command> {
+        let options = around.options;
+        let by = amounts::factor(options.amount, self.does == Act::Raise, options.strength);
+        let dabs = amounts::dabs(&self.touched(path, amounts::DAB_SHARE, around), path.radius(), by);
+        (!dabs.is_empty() && by != 1.0).then(|| {
+            Command::Amounts(Amounts::Paint {
+                region: self.on.target.clone(),
+                of: options.amount,
+                object: self.on.object_name.clone(),
+                dabs,
+            })
+        })
+    }
+
+    fn amounts_erased(&self, path: &SurfacePath, around: &Surroundings) -> Option<Command> {
+        let region = around.scene().regions.get(self.on.region?)?;
+        let object = around.object(self.on.object)?.name.as_str();
+        let of = around.options.amount;
+        let touched = self.touched(path, STAMP_SHARE, around);
+        let left = amounts::erased(region, (of, object), &touched, path.radius());
+        let region_name = region.name.clone();
+        (left != region.amounts).then_some(Command::Amounts(Amounts::Erase { region: region_name, of, left }))
+    }
+
     fn dabbed(&self, path: &SurfacePath, around: &Surroundings) -> Command {
         let take_away = self.does == Act::TakeAway;
         let dabs: Vec<Dab> = self
-            .touched(path, around)
+            .touched(path, STAMP_SHARE, around)
             .iter()
             .map(|stamp| Dab {
                 at: stamp.position.to_array(),

@@ -124,7 +124,9 @@ impl Hand {
 impl ToolState {
     fn of(tool: Tool) -> Self {
         match tool {
-            Tool::Comb | Tool::Smooth | Tool::Erase | Tool::Region => Self::Brush(Brush::default()),
+            Tool::Comb | Tool::Smooth | Tool::Erase | Tool::Region | Tool::Amount => {
+                Self::Brush(Brush::default())
+            }
             Tool::GuideCurve => Self::Curve(Curve::default()),
             Tool::Fill => Self::Fill(Fill::default()),
             Tool::TurnDirection => Self::Turn(Turn::default()),

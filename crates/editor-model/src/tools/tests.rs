@@ -14,6 +14,7 @@ use crate::command::Edit;
 use crate::document::Document;
 use crate::session::FillKind;
 
+mod amounts;
 mod clicks;
 mod curves;
 mod strokes;
@@ -87,6 +88,10 @@ struct Stub {
 impl Painted for Stub {
     fn carried(&self, _: &Hit, _: f64) -> Option<CarriedPlace> {
         None
+    }
+
+    fn factor_at(&self, _: &Hit, _: Amount) -> Option<f64> {
+        Some(1.25)
     }
 
     fn region_at(&self, hit: &Hit) -> Option<usize> {

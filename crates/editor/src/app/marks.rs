@@ -1,7 +1,7 @@
 //! The marks over the picture: rings, guides, direction lines, outlines. Costly ones are cached.
 
 use egui::{Color32, Ui};
-use glam::{DAffine3, DVec2, DVec3};
+use glam::{DAffine3, DVec2, DVec3, Vec3};
 use impasto_core::sampling::Particle;
 use impasto_editor_model::Item;
 use impasto_editor_model::editor::{Editor, LightPlace};
@@ -10,7 +10,7 @@ use impasto_editor_model::picking::View;
 use impasto_editor_model::session::{DirectionLines, Mode, Overlays, Tool};
 use impasto_editor_model::tools::{Needle, Ring};
 use impasto_painting::Painting;
-use impasto_scene::document::{Guide, LightKind, Scene};
+use impasto_scene::document::{Amount, Guide, LightKind, Scene};
 use impasto_scene::motion::CameraPose;
 use impasto_scene::new_scene::REGION_COLORS;
 
@@ -19,10 +19,10 @@ use super::motion_marks;
 use super::picture::PictureFlow;
 use super::picture_view::PictureView;
 use crate::viewport::overlay::{
-    CurvePart, DirectionMark, GuideCurve, MissingMesh, MotionPath, Outline, RegionTint, Sight, SingularPoint,
-    StandIn,
+    AmountTint, CurvePart, DirectionMark, GuideCurve, MissingMesh, MotionPath, Outline, RegionTint, Sight,
+    SingularPoint, StandIn,
 };
-use crate::viewport::surface_map::{Face, StandingBody, SurfaceMap};
+use crate::viewport::surface_map::{Face, FacePlace, StandingBody, SurfaceMap};
 use crate::viewport::{Framing, HairLook, Marks, direction_marks};
 
 /// Cells per point of the map of visible surfaces, at rest and while the view moves.
@@ -43,6 +43,7 @@ struct Half {
     map: Option<(MapKey, SurfaceMap)>,
     direction_lines: Vec<DirectionMark>,
     tints: Vec<RegionTint>,
+    amounts: Option<AmountTint>,
     outline: Option<Outline>,
     ghosts: Vec<Outline>,
     path: Option<MotionPath>,
@@ -57,6 +58,8 @@ struct Key {
     framing: Framing,
     overlays: Overlays,
     shows_regions: bool,
+    /// The amount that is shown: the one that the tool paints.
+    amount: Option<Amount>,
     mode: Mode,
     selected: Option<Item>,
     moving: bool,
@@ -104,11 +107,12 @@ impl MarkCache {
             overlays: session.overlays,
             // The tool that makes regions shows them.
             shows_regions: session.overlays.regions || session.tool() == Tool::Region,
+            amount: (session.tool() == Tool::Amount).then_some(session.options.amount),
             mode: session.mode,
             selected: editor.document().selection().active().cloned(),
             moving: editor.is_navigating(),
         };
-        let shows_regions = key.shows_regions;
+        let (shows_regions, amount) = (key.shows_regions, key.amount);
         let half = &mut self.halves[picture.index];
         if half.of.as_ref() == Some(&key) {
             return;
@@ -120,7 +124,7 @@ impl MarkCache {
         let outlines = session.mode != Mode::Paint && active.is_some();
         let old_map = half.map.take();
         *half = Half { of: Some(key), ..Half::default() };
-        if !(shows_lines || shows_regions || outlines) {
+        if !(shows_lines || shows_regions || outlines || amount.is_some()) {
             return;
         }
         let view = framing.view(picture.camera);
@@ -152,6 +156,8 @@ impl MarkCache {
                 .collect();
             half.tints = RegionTint::all(&map, &names, |face| region_of(painting, face));
         }
+        half.amounts =
+            amount.map(|of| AmountTint::of(&map, |face, place| factor_at(painting, face, place, of)));
         if outlines && let Some(active) = active {
             half.outline = Some(Outline::new(&map, |object| object == active));
             if session.mode == Mode::Animate && !editor.is_navigating() {
@@ -168,6 +174,7 @@ impl MarkCache {
         let marks = Marks {
             grid: editor.session.overlays.grid,
             regions: &half.tints,
+            amounts: half.amounts.as_ref(),
             selected: half.outline.as_ref(),
             ghosts: &half.ghosts,
             path: half.path.as_ref(),
@@ -251,6 +258,19 @@ fn region_of(painting: &Painting, face: Face) -> Option<usize> {
     };
     let region = painting.region_at(face.object as usize, &place);
     (region < painting.scene().regions.len()).then_some(region)
+}
+
+/// What is painted onto an amount at a place that is seen.
+fn factor_at(painting: &Painting, face: Face, seen: FacePlace, of: Amount) -> f32 {
+    let mesh = &painting.surface(face.object as usize).mesh;
+    let place = Particle {
+        triangle: face.triangle,
+        barycentric: seen.barycentric,
+        flipped: seen.flipped,
+        position: Vec3::ZERO,
+        normal: Vec3::Y,
+    };
+    painting.painted_at(face.object as usize, &place.on(mesh, &mesh.positions, &mesh.normals), of)
 }
 
 /// The colours of a scene's regions: their own, or the next of the default ones.

@@ -117,6 +117,7 @@ const TOOLS: &[Line] = &[
     Do(Action::TurnDirection),
     Do(Action::Smooth),
     Do(Action::Erase),
+    Do(Action::Amount),
     Do(Action::Region),
     Do(Action::Pick),
     Separator,

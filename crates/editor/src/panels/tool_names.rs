@@ -45,6 +45,11 @@ pub(super) fn face(tool: Tool) -> ToolFace {
         }
         Tool::Smooth => keyed(Action::Smooth, icons::SMOOTH, "Joins directions that lie side by side."),
         Tool::Erase => keyed(Action::Erase, icons::ERASE, "Brings the region's base direction back."),
+        Tool::Amount => keyed(
+            Action::Amount,
+            icons::AMOUNT,
+            "Makes strokes wider, longer, denser or flatter where it is dragged.",
+        ),
         Tool::Region => keyed(Action::Region, icons::REGION, "Says which faces belong to a region."),
         Tool::Pick => keyed(
             Action::Pick,

@@ -5,7 +5,7 @@ use impasto_editor_model::tools::{Needle, Ring};
 use impasto_editor_model::transform::Constraint;
 
 use super::overlay::{
-    self, Comb, CombPreviewStroke, DirectionMark, GuideCurve, MotionPath, Outline, RegionTint,
+    self, AmountTint, Comb, CombPreviewStroke, DirectionMark, GuideCurve, MotionPath, Outline, RegionTint,
 };
 use super::overlay::{MissingMesh, Sheet, Sight, SingularPoint, StandIn};
 
@@ -16,6 +16,8 @@ pub struct Marks<'a> {
     pub grid: bool,
     /// Regions in their colours.
     pub regions: &'a [RegionTint],
+    /// What is painted of the amount that the tool paints.
+    pub amounts: Option<&'a AmountTint>,
     /// The outline of the selected object.
     pub selected: Option<&'a Outline>,
     /// Outlines of the selected object at the keys before and after this frame.
@@ -55,6 +57,9 @@ impl Marks<'_> {
             overlay::floor_grid(sheet);
         }
         self.regions.iter().for_each(|tint| overlay::region_tint(sheet, tint));
+        if let Some(amounts) = self.amounts {
+            overlay::amount_tint(sheet, amounts);
+        }
         self.ghosts.iter().for_each(|ghost| overlay::outline(sheet, ghost, true));
         if let Some(selected) = self.selected {
             overlay::outline(sheet, selected, false);

@@ -5,6 +5,7 @@ use egui::{Painter, Pos2, Rect};
 use glam::{DVec2, DVec3};
 use impasto_editor_model::picking::View;
 
+mod amount_tint;
 mod comb_preview;
 mod direction_lines;
 mod floor_grid;
@@ -22,6 +23,7 @@ mod sight;
 mod singular_points;
 mod stand_ins;
 
+pub use amount_tint::{AmountTint, amount_tint};
 pub use comb_preview::{Comb, CombPreviewStroke, comb_preview};
 pub use direction_lines::{DirectionInk, DirectionMark, direction_lines, trust_legend};
 pub use floor_grid::floor_grid;

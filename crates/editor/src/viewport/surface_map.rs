@@ -24,6 +24,7 @@ pub struct SurfaceMap {
     /// Depth along the gaze per cell, world units; infinite if the cell is empty.
     depth: Vec<f32>,
     faces: Vec<Face>,
+    places: Vec<FacePlace>,
 }
 
 /// A face of an object.
@@ -33,6 +34,15 @@ pub struct Face {
     pub object: u32,
     /// Index of the triangle in its mesh.
     pub triangle: u32,
+}
+
+/// A place on a face, as it is seen.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FacePlace {
+    /// Weights of the triangle's second and third corner; the first has what is left of 1.
+    pub barycentric: [f32; 2],
+    /// Whether the triangle is seen from its back.
+    pub flipped: bool,
 }
 
 const NOTHING: Face = Face { object: u32::MAX, triangle: u32::MAX };
@@ -80,6 +90,8 @@ struct Corner {
     /// Numerators x and y of the place in pixels from the picture's centre, Y up, and their denominator w.
     place: [f64; 3],
     depth: f64,
+    /// Its weights of the second and the third corner of its triangle.
+    share: [f64; 2],
 }
 
 impl SurfaceMap {
@@ -88,8 +100,13 @@ impl SurfaceMap {
         let size = [view.size_px.x, view.size_px.y]
             .map(|side| ((side * cells_per_point).ceil() as usize).clamp(1, 4096));
         let cells = size[0] * size[1];
-        let mut map =
-            Self { size, cells_per_point, depth: vec![f32::INFINITY; cells], faces: vec![NOTHING; cells] };
+        let mut map = Self {
+            size,
+            cells_per_point,
+            depth: vec![f32::INFINITY; cells],
+            faces: vec![NOTHING; cells],
+            places: vec![FacePlace::default(); cells],
+        };
         let near = match view.camera.lens {
             Lens::Perspective { near, .. } | Lens::Orthographic { near, .. } => near,
         };
@@ -119,6 +136,11 @@ impl SurfaceMap {
         (face != NOTHING).then_some(face)
     }
 
+    /// The face in a cell and the place on it; `None` if the cell is empty.
+    pub fn place(&self, column: usize, row: usize) -> Option<(Face, FacePlace)> {
+        Some((self.face(column, row)?, self.places[column + row * self.size[0]]))
+    }
+
     /// Whether a point of an object is visible: no farther than the object's farthest visible face in its cell and the
     /// cells around it.
     pub fn shows(&self, at_px: DVec2, depth: f64, object: usize) -> bool {
@@ -139,7 +161,8 @@ impl SurfaceMap {
         depth as f32 <= farthest * (1.0 + LEEWAY)
     }
 
-    fn add(&mut self, corners: [Corner; 3], near: f64, size_px: DVec2, face: Face) {
+    fn add(&mut self, mut corners: [Corner; 3], near: f64, size_px: DVec2, face: Face) {
+        (corners[1].share, corners[2].share) = ([1.0, 0.0], [0.0, 1.0]);
         let kept = clip_at_near(corners, near);
         for index in 2..kept.len() {
             self.fill([kept[0], kept[index - 1], kept[index]], size_px, face);
@@ -177,6 +200,14 @@ impl SurfaceMap {
                 if depth < self.depth[index] {
                     self.depth[index] = depth;
                     self.faces[index] = face;
+                    // Linear on the surface, and so over w on the screen.
+                    let share = |of: usize| {
+                        let over_w = |corner: usize| corners[corner].share[of] / corners[corner].place[2];
+                        (0..3).map(|corner| weights[corner] * over_w(corner)).sum::<f64>() / mixed.y
+                    };
+                    let barycentric = [share(0) as f32, share(1) as f32];
+                    // Rows run downwards, so what runs round counter-clockwise has a negative area.
+                    self.places[index] = FacePlace { barycentric, flipped: area > 0.0 };
                 }
             }
         }
@@ -186,7 +217,11 @@ impl SurfaceMap {
 fn corners(body: &StandingBody, map: &ScreenMap) -> Vec<Corner> {
     let corner = |at: glam::Vec3| {
         let p: DVec4 = at.as_dvec3().extend(1.0);
-        Corner { place: [map.row_x.dot(p), map.row_y.dot(p), map.row_w.dot(p)], depth: map.row_depth.dot(p) }
+        Corner {
+            place: [map.row_x.dot(p), map.row_y.dot(p), map.row_w.dot(p)],
+            depth: map.row_depth.dot(p),
+            share: [0.0; 2],
+        }
     };
     body.surface.positions_at(&body.shape).into_iter().map(corner).collect()
 }
@@ -203,7 +238,8 @@ fn clip_at_near(corners: [Corner; 3], near: f64) -> Vec<Corner> {
             let share = (near - from.depth) / (to.depth - from.depth);
             let mix = |a: f64, b: f64| a + (b - a) * share;
             let place = std::array::from_fn(|part| mix(from.place[part], to.place[part]));
-            kept.push(Corner { place, depth: near });
+            let mixed = |of: usize| mix(from.share[of], to.share[of]);
+            kept.push(Corner { place, depth: near, share: [mixed(0), mixed(1)] });
         }
     }
     kept

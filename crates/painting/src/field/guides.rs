@@ -8,10 +8,11 @@ use impasto_core::direction::field::Constraint;
 use impasto_core::direction::guide::Influence;
 use impasto_core::direction::{Symmetry, tangent_axes};
 use impasto_core::screen_map::PixelLens;
-use impasto_scene::document::GuideMode;
+use impasto_scene::document::{Amount, GuideMode};
 use rayon::prelude::*;
 
 use super::inputs::{FieldInputs, SamplePoint};
+use crate::amounts::painted_flatness;
 use crate::references::{SurfacePoint, Views, shown_rad};
 use crate::regions::{BodyGuide, BodyGuideView};
 use crate::stated::symmetry;
@@ -85,7 +86,8 @@ impl FieldInputs {
         if !in_front || trust.is_nan() || trust <= 0.0 || !wanted.is_finite() {
             return on_surface;
         }
-        let flatness = f64::from(self.rules[rule].strokes.flatness);
+        let painted = self.amounts.at(Amount::Flatness, rule as u16, position.as_vec3(), normal.as_vec3());
+        let flatness = f64::from(painted_flatness(self.rules[rule].strokes.flatness, painted));
         // Newton's method: turns the tangent until its stroke shows at the wanted angle. Flat strokes turn as far as
         // their tangents; for others the ratio of the two turns, the slope, is measured.
         let mut tangent = views.tangent_at(wanted, jacobian);

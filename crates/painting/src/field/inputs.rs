@@ -9,6 +9,7 @@ use impasto_scene::document::{Direction, Seam};
 use rayon::prelude::*;
 
 use super::samples::FieldSamples;
+use crate::amounts::BodyAmounts;
 use crate::parts::BodyParts;
 use crate::references::{BodyReferences, SurfacePoint};
 use crate::regions::{BodyGuide, BodyRegions, RegionRule};
@@ -23,6 +24,8 @@ pub(crate) struct FieldInputs {
     /// The rules that may show on the body.
     pub(crate) used: Arc<Vec<u16>>,
     pub(crate) guides: Arc<Vec<BodyGuide>>,
+    /// What is painted; only flatness matters here.
+    pub(crate) amounts: Arc<BodyAmounts>,
     /// All rules. Only their directions, senses, seams and flatness matter here.
     pub(crate) rules: Arc<Vec<RegionRule>>,
     pub(crate) parts: Arc<BodyParts>,
@@ -49,6 +52,7 @@ impl PartialEq for FieldInputs {
             && self.references == other.references
             && self.regions == other.regions
             && self.guides == other.guides
+            && self.amounts.same_flatness(&other.amounts)
             && self.extent == other.extent
             && self.orthographic == other.orthographic
     }

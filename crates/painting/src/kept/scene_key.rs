@@ -194,8 +194,8 @@ fn of_shape(shape: &BodyShape, surface: &BodySurface, key: &mut KeyHasher) {
 }
 
 fn of_object(object: &ObjectInputs<'_>, key: &mut KeyHasher) {
-    // What the surface is made from shows in the surface.
-    let ObjectInputs { index, surface: _, regions, used, guides, references, caps } = *object;
+    // What the surface is made from shows in the surface; what is painted is as the scene states it.
+    let ObjectInputs { index, surface: _, regions, used, guides, amounts: _, references, caps } = *object;
     key.numbers(&[index as u64]);
     regions.feed_key(key);
     key.numbers(used);

@@ -8,7 +8,7 @@ use glam::{DMat3, DVec3};
 use impasto_core::nearest::nearest_point;
 
 use super::{Findings, Known, shown};
-use crate::document::{Dab, Guide, Object, PatchRef, Scene};
+use crate::document::{Guide, Object, PatchRef, Scene};
 use crate::mesh_file::MeshFile;
 use crate::morph;
 use crate::point_cache::PointCache;
@@ -53,8 +53,19 @@ pub(super) fn check(
                 if let PatchRef::Dabs(dabs) = patch
                     && !known.dabs.contains(&index)
                 {
-                    check_dabs(&field_path, dabs, (object, file), &mut left, findings);
+                    let places = dabs.iter().map(|dab| (dab.at, dab.radius));
+                    check_dabs(&field_path, places, (object, file), &mut left, findings);
                 }
+            }
+        }
+        for (amount_index, amount) in region.amounts.iter().enumerate() {
+            let name = amount.object.as_deref().or(region.on.object());
+            if let Some((object, file)) = name.and_then(mesh_of)
+                && !known.amounts.contains(&(index, amount_index))
+            {
+                let field_path = format!("regions[{index}].amounts[{amount_index}].dabs");
+                let places = amount.dabs.iter().map(|dab| (dab.at, dab.radius));
+                check_dabs(&field_path, places, (object, file), &mut left, findings);
             }
         }
         let is_new = |guide: usize| !known.guides.contains(&(index, guide));
@@ -218,25 +229,24 @@ fn check_guide(
     }
 }
 
-/// Warns of dabs that touch nothing.
+/// Warns of dabs that touch nothing. Each has a place and a radius.
 fn check_dabs(
     field_path: &str,
-    dabs: &[Dab],
+    dabs: impl ExactSizeIterator<Item = ([f64; 3], f64)>,
     (object, file): (&Object, &MeshFile),
     left: &mut usize,
     findings: &mut Findings,
 ) {
     let Some(mut reached) = Reached::of(object, file, 1.0) else { return };
-    let mut off = 0;
+    let (mut off, count) = (0, dabs.len());
     // A dab without a radius or a place is refused elsewhere.
-    let sound = dabs.iter().filter(|dab| dab.radius > 0.0 && DVec3::from(dab.at).is_finite());
-    for dab in sound {
+    for (at, radius) in dabs.filter(|&(at, radius)| radius > 0.0 && DVec3::from(at).is_finite()) {
         let Some(rest) = left.checked_sub(file.mesh.triangles.len()) else { return };
         *left = rest;
-        off += usize::from(!reached.is_near(DVec3::from(dab.at), dab.radius));
+        off += usize::from(!reached.is_near(DVec3::from(at), radius));
     }
     if off > 0 {
-        let (count, name) = (dabs.len(), shown(&object.name));
+        let name = shown(&object.name);
         let message = format!("{off} of {count} dabs touch nothing of \"{name}\"");
         findings.warning(field_path, message, "move them onto the surface, in the object's own space");
     }

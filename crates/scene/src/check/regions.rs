@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use glam::DVec3;
 
-use super::{Findings, did_you_mean, shown, strokes};
+use super::{Findings, amounts, did_you_mean, shown, strokes};
 use crate::document::{Dab, Direction, Guide, GuideMode, PatchRef, Region, Scene, Seam, Selector};
 use crate::limits;
 use crate::problem::Severity;
@@ -35,16 +35,18 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
         }
         for (guide_index, guide) in region.guides.iter().enumerate() {
             let guide_path = format!("{region_path}.guides[{guide_index}]");
-            check_guide_object(&guide_path, scene, region, guide, findings);
+            let of = guide.object.as_ref();
+            check_object_of(("guide", &guide_path), scene, region, of, findings);
             check_guide(&guide_path, guide, findings);
         }
+        amounts::check(&region_path, scene, region, findings);
         strokes::check_of_region(&format!("{region_path}.strokes"), scene, index, findings);
     }
     check_covered(scene, findings);
     check_counts(scene, findings);
 }
 
-fn unknown_object(field_path: &str, object: &str, scene: &Scene, findings: &mut Findings) {
+pub(super) fn unknown_object(field_path: &str, object: &str, scene: &Scene, findings: &mut Findings) {
     // What a shot does not bring any more may come back with its next export.
     let severity = if scene.shot.is_some() { Severity::Warning } else { Severity::Error };
     findings.add(severity, || {
@@ -108,7 +110,7 @@ fn check_dabs(field_path: &str, dabs: &[Dab], findings: &mut Findings) {
     }
 }
 
-fn check_radius(field_path: &str, what: &str, radius: f64, findings: &mut Findings) {
+pub(super) fn check_radius(field_path: &str, what: &str, radius: f64, findings: &mut Findings) {
     if radius <= 0.0 {
         let message = format!("{what} with a radius of {} reaches nothing", super::short(radius));
         findings.error(field_path, message, "give a radius above 0");
@@ -117,26 +119,28 @@ fn check_radius(field_path: &str, what: &str, radius: f64, findings: &mut Findin
     }
 }
 
-fn check_guide_object(
-    guide_path: &str,
+/// Checks the object that something of a region is stated on: a `what`, such as a guide.
+pub(super) fn check_object_of(
+    (what, its_path): (&str, &str),
     scene: &Scene,
     region: &Region,
-    guide: &Guide,
+    object: Option<&String>,
     findings: &mut Findings,
 ) {
-    let field_path = format!("{guide_path}.object");
-    match (&guide.object, region.on.object()) {
+    let field_path = format!("{its_path}.object");
+    match (object, region.on.object()) {
         (Some(object), _) if scene.objects.iter().all(|known| known.name != *object) => {
             unknown_object(&field_path, object, scene, findings);
         }
         (Some(object), Some(of_region)) if object != of_region => {
             let message = format!("the region lies on \"{}\"", shown(of_region));
-            let mend = "remove it, or put the guide into a region of its own";
+            let mend = format!("remove it, or put the {what} into a region of its own");
             findings.error(field_path, message, mend);
         }
         (None, None) => {
             let mend = "name its object, as in object: \"apple\"";
-            findings.error(guide_path, "the region covers every object; whose guide is this?", mend);
+            let message = format!("the region covers every object; whose {what} is this?");
+            findings.error(its_path, message, mend);
         }
         _ => {}
     }
@@ -229,11 +233,14 @@ fn check_counts(scene: &Scene, findings: &mut Findings) {
         PatchRef::Dabs(dabs) => dabs.len(),
         _ => 0,
     });
+    let amounts = || scene.regions.iter().flat_map(|region| &region.amounts);
     let floods = patches.iter().filter(|patch| matches!(patch, PatchRef::Flood(..))).count();
     for (what, count, most) in [
         ("guides", guides().count(), limits::MAX_GUIDES),
         ("points of guides", guides().map(|guide| guide.points.len()).sum(), limits::MAX_GUIDE_POINTS),
         ("dabs", dabs.sum(), limits::MAX_DABS),
+        ("painted amounts", amounts().count(), limits::MAX_AMOUNTS),
+        ("dabs of amounts", amounts().map(|amount| amount.dabs.len()).sum(), limits::MAX_AMOUNT_DABS),
         ("floods", floods, limits::MAX_FLOODS),
         ("patches", patches.len(), limits::MAX_PATCHES),
     ] {

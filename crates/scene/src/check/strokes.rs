@@ -85,13 +85,18 @@ pub(super) fn check_of_region(strokes_path: &str, scene: &Scene, index: usize, f
 fn check_flatness(strokes_path: &str, scene: &Scene, region: Option<usize>, findings: &mut Findings) {
     let stated = region.map_or(&scene.strokes, |index| &scene.regions[index].strokes).flatness;
     let Some(flatness) = stated.filter(|flatness| (0.0..1.0).contains(flatness)) else { return };
-    let needs = match scene.style.settings().preparation().solver {
-        _ if presets::is_paper(scene) => format!("the preset \"{PAPER_PRESET}\""),
-        solver @ (Solver::Horn | Solver::HornExact) => format!("the solver {solver:?}"),
-        Solver::Tangent => return,
-    };
+    let Some(needs) = needs_flat_strokes(scene) else { return };
     let message = format!("a flatness of {} does not go with {needs}", short(flatness));
     findings.error(format!("{strokes_path}.flatness"), message, "use the solver Tangent, or a flatness of 1");
+}
+
+/// What of a scene needs strokes that lie quite flat, in words; `None` where nothing does.
+pub(super) fn needs_flat_strokes(scene: &Scene) -> Option<String> {
+    match scene.style.settings().preparation().solver {
+        _ if presets::is_paper(scene) => Some(format!("the preset \"{PAPER_PRESET}\"")),
+        solver @ (Solver::Horn | Solver::HornExact) => Some(format!("the solver {solver:?}")),
+        Solver::Tangent => None,
+    }
 }
 
 fn check_settings(strokes_path: &str, settings: &StrokeSettings, findings: &mut Findings) {

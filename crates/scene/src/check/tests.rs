@@ -306,6 +306,37 @@ fn guides_and_dabs_that_cannot_work_are_errors() {
 }
 
 #[test]
+fn amounts_that_cannot_work_are_errors() {
+    let amount = |rest: &str| {
+        let dab = "at: (0, 0, 0), normal: (0, 1, 0), radius: 0.1";
+        format!("regions: [(name: \"r\", on: Object(\"a\"), amounts: [({rest})])]").replace("DAB", dab)
+    };
+    let at = |field: &str| format!("regions[0].amounts[0]{field}");
+    for (of, least) in [("Width", "0.25"), ("Length", "0.25"), ("Density", "0"), ("Flatness", "0")] {
+        for by in [least, "1", "4"] {
+            assert_finds(&amount(&format!("of: {of}, dabs: [(DAB, by: {by})]")), &[]);
+        }
+        for by in ["-0.1", "4.01", "NaN", "inf"] {
+            let bad = amount(&format!("of: {of}, dabs: [(DAB, by: 1), (DAB, by: {by})]"));
+            assert_finds(&bad, &[(Error, &at(".dabs[1].by"))]);
+        }
+    }
+    assert_finds(&amount("of: Width, dabs: []"), &[(Warning, &at(".dabs"))]);
+    assert_finds(&amount("of: Width, object: \"gone\", dabs: [(DAB, by: 2)]"), &[(Error, &at(".object"))]);
+    let everywhere = amount("of: Width, dabs: [(DAB, by: 2)]").replace("Object(\"a\")", "Everything");
+    assert_finds(&everywhere, &[(Error, &at(""))]);
+    let named = everywhere.replace("of: Width", "of: Width, object: \"a\"");
+    assert_finds(&named, &[]);
+    let by_horn = "style: RotatingStrokes(solver: Horn)";
+    let flat = |by: &str| format!("{}, {by_horn}", amount(&format!("of: Flatness, dabs: [(DAB, by: {by})]")));
+    assert_finds(&flat("0.5"), &[(Error, &at(".of"))]);
+    assert_finds(&flat("2"), &[]);
+    let many = "(DAB, by: 2), ".repeat(limits::MAX_AMOUNT_DABS / 2 + 1);
+    let list = format!("of: Width, dabs: [{many}]), (of: Width, dabs: [{many}]");
+    assert_finds(&amount(&list), &[(Limit, "regions")]);
+}
+
+#[test]
 fn regions_that_a_later_one_covers_are_told() {
     let regions = |on: [&str; 3]| {
         let list: String =

@@ -1,8 +1,12 @@
 //! Regions, their directions, and the guides that comb them, as a scene file states them.
 
+mod amounts;
+
 use serde::{Deserialize, Serialize};
 
 use super::{Color, Reference, Stage, StrokeSettings, is_default, is_one, one};
+
+pub use amounts::{Amount, AmountDab, PaintedAmount};
 
 /// A part of the scene with settings of its own.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
@@ -19,6 +23,9 @@ pub struct Region {
     /// whole region. A later one overrules an earlier one.
     #[serde(default, skip_serializing_if = "is_default")]
     pub guides: Vec<Guide>,
+    /// What was painted onto its strokes: where they are wider, longer, denser or flatter than the rest of it.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub amounts: Vec<PaintedAmount>,
     /// How its directions meet those of the regions that it lies on.
     #[serde(default, skip_serializing_if = "is_default")]
     pub seam: Seam,
@@ -253,6 +260,7 @@ impl Region {
             on,
             direction: Direction::default(),
             guides: Vec::new(),
+            amounts: Vec::new(),
             seam: Seam::default(),
             sense: Sense::default(),
             reference: None,

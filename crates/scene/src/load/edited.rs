@@ -114,6 +114,19 @@ impl LoadedScene {
             if is_kept && region.on == old_region.on && !doubted.contains(&&*is_doubted) {
                 known.dabs.insert(index);
             }
+            for (amount_index, amount) in region.amounts.iter().enumerate() {
+                let object = amount.object.as_deref().or(region.on.object());
+                let was_sound = |place: &usize| {
+                    old_region.amounts.get(*place) == Some(amount)
+                        && amount.object.as_deref().or(old_region.on.object()) == object
+                        && !doubted.contains(&&*format!("regions[{old_index}].amounts[{place}].dabs"))
+                };
+                let is_kept = object.is_some_and(|object| kept.contains(object));
+                let places = [amount_index, amount_index + 1, amount_index.wrapping_sub(1)];
+                if is_kept && places.iter().any(was_sound) {
+                    known.amounts.insert((index, amount_index));
+                }
+            }
             for (guide_index, guide) in region.guides.iter().enumerate() {
                 let object = guide.object.as_deref().or(region.on.object());
                 let old_object = guide.object.as_deref().or(old_region.on.object());

@@ -20,7 +20,8 @@ const SEED: &str = r##"#![enable(implicit_some)]
     strokes: (preset: "oil study", length_px: Some(30)),
     regions: [(name: "r", on: Group("leaf", "g"), direction: Around((0, 1, 0)), strokes: (layer: -1, flatness: 0.5)),
         (name: "s", turn_deg: 7, hidden: true, locked: true, color: "#008df9", on: Several("leaf", [Whole, Flood((at: (0, 0, 1), normal: (0, 0, 1)), 30), Dabs([(at: (0, 0, 1), normal: (0, 0, 1), radius: 1, take_away: true)])]),
-         guides: [(mode: Smooth, points: [(at: (0, 0, 1), normal: (0, 0, 1), turn_deg: 30), (at: (1, 0, 1), normal: (0, 0, 1))], radius: 1)])],
+         guides: [(mode: Smooth, points: [(at: (0, 0, 1), normal: (0, 0, 1), turn_deg: 30), (at: (1, 0, 1), normal: (0, 0, 1))], radius: 1)],
+         amounts: [(of: Width, object: Some("leaf"), dabs: [(at: (0, 0, 1), normal: (0, 0, 1), radius: 1, by: 1.5)])])],
     style: RotatingStrokes(solver: Tangent, underpainting: false),
 )
 "##;

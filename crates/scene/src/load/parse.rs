@@ -354,13 +354,16 @@ fn what_goes_into(field: &str) -> Option<&'static str> {
         "layer" => "a whole number, as in 1 or -1",
         "size" => "two whole numbers, as in (1280, 720)",
         "fps" | "frame" | "roll_deg" | "turn_deg" | "fov_y_deg" | "near" | "far" | "height" | "intensity"
-        | "gloss" | "radius" | "strength" | "period_secs" => A_NUMBER,
+        | "gloss" | "radius" | "strength" | "by" | "period_secs" => A_NUMBER,
         "eye" | "target" | "position" | "translation" | "rotation_deg" | "at" | "normal" => {
             "three numbers, as in (0, 1.5, -2)"
         }
         "reference" => "a frame or a view, as in Frame(0) or View(eye: (0, 1, 4), target: (0, 0, 0))",
         "further_references" => "a list, as in [Frame(60), View(eye: (0, 1, -4), target: (0, 0, 0))]",
         "guides" => "a list, as in [(points: [(at: (…), normal: (…)), …], radius: 0.2)]",
+        "amounts" => "a list, as in [(of: Width, dabs: [(at: (…), normal: (…), radius: 0.2, by: 1.5)])]",
+        "of" => "Width, Length, Density or Flatness",
+        "dabs" => "dabs, as in [(at: (0, 1, 0), normal: (0, 0, 1), radius: 0.2, by: 1.5)]",
         "points" => "at least two points, as in [(at: (0, 1, 0), normal: (0, 0, 1)), …]",
         "view" => "an eye and a target, as in (eye: (0, 1, 4), target: (0, 0, 0))",
         "seam" => "Hard or Soft(0.1)",

@@ -41,7 +41,15 @@ fn a_comb_aims_strokes_and_leaves_one_entry() {
 #[test]
 fn esc_and_a_lost_focus_leave_it_as_if_never_begun() {
     for event in [ToolEvent::Cancel, ToolEvent::FocusLost, ToolEvent::Key(Action::Cancel)] {
-        for tool in [Tool::Comb, Tool::Smooth, Tool::Erase, Tool::Region, Tool::Fill, Tool::TurnDirection] {
+        for tool in [
+            Tool::Comb,
+            Tool::Smooth,
+            Tool::Erase,
+            Tool::Region,
+            Tool::Fill,
+            Tool::TurnDirection,
+            Tool::Amount,
+        ] {
             let mut world = World::new();
             world.drag(Tool::Comb, &[LEFT, RIGHT], NONE);
             world.options.flip = false;

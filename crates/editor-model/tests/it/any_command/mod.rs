@@ -3,12 +3,12 @@
 use glam::{DAffine3, DQuat, DVec3};
 use impasto_editor_model::Item;
 use impasto_editor_model::command::{
-    Arrange, Command, Directions, Edit, Gesture, GuideSettings, KeyOf, Pose, PoseField, RegionTarget,
-    Regions, SceneEdit, Shift, StrokeChange, StrokesOf, Time,
+    Amounts, Arrange, Command, Directions, Edit, Gesture, GuideSettings, KeyOf, Pose, PoseField,
+    RegionTarget, Regions, SceneEdit, Shift, StrokeChange, StrokesOf, Time,
 };
 use impasto_scene::document::{
-    BrushMix, Color, Dab, Direction, Ease, Guide, GuidePoint, LightKind, MaterialOverride, ObjectKey, Region,
-    STROKE_NUMBERS, Scene, Seam, Selector, Sense, Style, SumiE,
+    Amount, AmountDab, BrushMix, Color, Dab, Direction, Ease, Guide, GuidePoint, LightKind, MaterialOverride,
+    ObjectKey, Region, STROKE_NUMBERS, Scene, Seam, Selector, Sense, Style, SumiE,
 };
 use impasto_scene::motion;
 
@@ -67,7 +67,7 @@ pub fn command(scene: &Scene, (kind, which, other, x, y): Dice) -> Command {
     let frame = f64::from(other % 24);
     let of = if other % 5 == 0 { StrokesOf::Scene } else { StrokesOf::Region(region.clone()) };
     let field = &STROKE_NUMBERS[usize::from(other) % STROKE_NUMBERS.len()];
-    match kind % 40 {
+    match kind % 41 {
         0 => Command::Edit(Edit::Delete(vec![item])),
         1 => Command::Edit(Edit::Duplicate(vec![item])),
         2 => Command::Edit(Edit::Rename(item, format!("name {}", other % 7))),
@@ -220,6 +220,17 @@ pub fn command(scene: &Scene, (kind, which, other, x, y): Dice) -> Command {
             3 => Time::DeleteKeys(vec![(key_of, frame)]),
             _ => Time::SetEase(vec![(key_of, frame)], Ease::Step),
         }),
+        39 => Command::Amounts(match other % 6 {
+            0 => Amounts::Clear(region, usize::from(which % 3)),
+            1 => Amounts::ClearAll(region),
+            2 => Amounts::Erase { region, of: Amount::Width, left: Vec::new() },
+            _ => Amounts::Paint {
+                region: target,
+                of: Amount::ALL[usize::from(which % 4)],
+                object: None,
+                dabs: vec![amount_dab(x, y), amount_dab(y, x)],
+            },
+        }),
         _ => Command::Several(
             "Both".to_owned(),
             vec![
@@ -233,4 +244,9 @@ pub fn command(scene: &Scene, (kind, which, other, x, y): Dice) -> Command {
 fn dab(x: f64, y: f64) -> Dab {
     let at = DVec3::new(x, 1.0, y).normalize() * 0.5;
     Dab { at: at.to_array(), normal: at.normalize().to_array(), radius: 0.1, take_away: x > 2.0 }
+}
+
+fn amount_dab(x: f64, y: f64) -> AmountDab {
+    let Dab { at, normal, .. } = dab(x, y);
+    AmountDab { at, normal, radius: 0.2 + x.abs() * 0.01, by: (1.0 + y * 0.1).clamp(0.5, 2.0) }
 }

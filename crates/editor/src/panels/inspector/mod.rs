@@ -1,5 +1,6 @@
 //! The inspector: the settings of the active item, or of the scene where nothing is selected.
 
+mod amounts;
 mod camera;
 mod controls;
 mod edited_strokes;

@@ -9,7 +9,7 @@ use super::Asker;
 use super::controls::Control;
 use super::number::{ANY, Number, decimals};
 use super::parts::{at_end, axes, body, head, head_note, note, pick, row, section};
-use super::{guides, over_time, strokes};
+use super::{amounts, guides, over_time, strokes};
 use crate::panels::Ask;
 use crate::panels::tree::region_color;
 use crate::widgets::{self, Button, Tip};
@@ -52,6 +52,7 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, name: &str) {
             body(ui, |ui| to_material(ui, asker, object));
         }
         guides::section_of(ui, asker, [region, stored]);
+        amounts::section_of(ui, asker, region);
         strokes::advanced(ui, asker, Some(name));
         over_time::of_strokes(ui, asker, &StrokesOf::Region(name.to_owned()));
     });

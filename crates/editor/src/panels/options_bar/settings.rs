@@ -1,7 +1,7 @@
 //! The settings of each tool: what the options bar shows of them, and where.
 
 use impasto_editor_model::session::{Axes, FillKind, RegionBy, RegionDoes, Tool, ToolOptions};
-use impasto_scene::document::LightKind;
+use impasto_scene::document::{Amount, LightKind};
 
 /// When a setting is on the bar. Otherwise, or where there is no room, it is in the menu at the bar's end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -231,10 +231,30 @@ pub(super) fn of(tool: Tool, options: &ToolOptions) -> Vec<Setting> {
             settings.extend([mirror(), front_only()]);
         }
         Tool::Erase => settings.extend([apart(radius()), falloff(), mirror(), front_only()]),
+        Tool::Amount => settings.extend(amount()),
         Tool::Region => region(&mut settings, options),
         Tool::Pick | Tool::ShotCamera => (),
     }
     settings
+}
+
+fn amount() -> Vec<Setting> {
+    let of = choice!(amount: [
+        Amount::Width => "Width", "Paint width";
+        Amount::Length => "Length", "Paint length";
+        Amount::Density => "Density", "Paint density";
+        Amount::Flatness => "Flatness", "Paint flatness";
+    ]);
+    let way = choice!(lowers: [false => "Raise", "Raise"; true => "Lower", "Lower";]);
+    vec![
+        at(BarPlace::Always, "", of),
+        apart(at(BarPlace::Always, "", way)),
+        apart(radius()),
+        strength(),
+        steady(),
+        mirror(),
+        front_only(),
+    ]
 }
 
 fn region(settings: &mut Vec<Setting>, options: &ToolOptions) {

@@ -96,6 +96,7 @@ fn sessions() -> Vec<Session> {
         Tool::TurnDirection,
         Tool::Smooth,
         Tool::Erase,
+        Tool::Amount,
         Tool::Region,
         Tool::Pick,
     ];

@@ -1,6 +1,8 @@
 //! Tests of the list of guides and of the other facts that a region's inspector shows.
 
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use impasto_editor_model::command::{Amounts, Command, RegionTarget};
+use impasto_scene::document::{Amount, AmountDab};
 
 use super::{Column, click, harness, region, type_in, with_guides};
 
@@ -81,4 +83,33 @@ fn a_number_out_of_range_is_marked_where_it_is_typed() {
     type_in(&mut harness, "Length", "90");
     assert!(harness.query_by_label_contains("to 4096").is_none());
     assert_eq!(harness.state().region("apple").strokes.length_px, Some(90.0));
+}
+
+#[test]
+fn painted_amounts_are_listed_and_cleared() {
+    let mut harness = harness("apple.ron", region("apple"));
+    assert!(harness.query_by_label("Clear width").is_none());
+    let dab = AmountDab { at: [0.0, 0.5, 0.5], normal: [0.0, 0.0, 1.0], radius: 0.2, by: 2.0 };
+    for (of, count) in [(Amount::Width, 3), (Amount::Density, 1)] {
+        harness.state_mut().apply(Command::Amounts(Amounts::Paint {
+            region: RegionTarget::Named("apple".to_owned()),
+            of,
+            object: None,
+            dabs: vec![dab.clone(); count],
+        }));
+    }
+    harness.run();
+    if harness.query_by_label("Clear width").is_none() {
+        click(&mut harness, "Painted amounts");
+    }
+    assert_eq!(description(&harness, "Painted amounts").as_deref(), Some("2"));
+    assert!(harness.query_by_label("3 dabs").is_some() && harness.query_by_label("1 dab").is_some());
+    click(&mut harness, "Clear width");
+    let left = &harness.state().region("apple").amounts;
+    assert_eq!(left.iter().map(|amount| amount.of).collect::<Vec<_>>(), [Amount::Density]);
+    assert!(harness.query_by_label("Clear all amounts").is_none(), "one is cleared by its own button");
+    harness.state_mut().document.undo().expect("one step");
+    harness.run();
+    click(&mut harness, "Clear all amounts");
+    assert!(harness.state().region("apple").amounts.is_empty());
 }

@@ -313,6 +313,18 @@ fn any_guide() -> impl Strategy<Value = Guide> {
     )
 }
 
+fn any_amount() -> impl Strategy<Value = PaintedAmount> {
+    let dab = (vector3(), vector3(), number(), number()).prop_map(|(at, normal, radius, by)| AmountDab {
+        at,
+        normal,
+        radius,
+        by,
+    });
+    let of = prop::sample::select(&Amount::ALL[..]);
+    (of, proptest::option::of(name()), prop::collection::vec(dab, 0..4))
+        .prop_map(|(of, object, dabs)| PaintedAmount { of, object, dabs })
+}
+
 fn any_reference() -> impl Strategy<Value = Reference> {
     let view = (vector3(), vector3(), number(), proptest::option::of(number()), any::<i64>()).prop_map(
         |(eye, target, roll_deg, fov_y_deg, frame)| Reference::View {
@@ -363,15 +375,23 @@ fn any_region() -> impl Strategy<Value = Region> {
     ];
     let seam = prop_oneof![Just(Seam::Hard), number().prop_map(Seam::Soft)];
     let sense = prop_oneof![Just(Sense::Lines), Just(Sense::Arrows)];
-    let field = (seam, sense, prop::collection::vec(any_guide(), 0..3), number());
+    let painted = (prop::collection::vec(any_guide(), 0..3), prop::collection::vec(any_amount(), 0..3));
+    let field = (seam, sense, painted, number());
     let of_editor = (any::<[bool; 2]>(), proptest::option::of(any_color()));
     let head = (name(), on, of_editor);
     (head, direction, field, proptest::option::of(any_reference()), any_strokes()).prop_map(
-        |((name, on, of_editor), direction, (seam, sense, guides, turn_deg), reference, strokes)| Region {
+        |(
+            (name, on, of_editor),
+            direction,
+            (seam, sense, (guides, amounts), turn_deg),
+            reference,
+            strokes,
+        )| Region {
             name,
             on,
             direction,
             guides,
+            amounts,
             seam,
             sense,
             reference,

@@ -1,0 +1,114 @@
+//! The brush that paints amounts: what a drag over a surface leaves there, and what an eraser leaves of that.
+
+use impasto_scene::document::{Amount, AmountDab, PaintedAmount, Region};
+
+use crate::path::PathPoint;
+use crate::session::ToolOptions;
+
+/// Dabs of a drag lie this share of the radius apart: together they are as even as one can see.
+pub(super) const DAB_SHARE: f64 = 0.5;
+
+/// So many dabs of a drag reach one place in its middle, by the strength that they have there: `1 + 2 (1 − ¼)²`.
+const OVERLAP: f64 = 2.125;
+
+/// The factor of one dab, so that a drag across the surface comes to 1 + strength where it raises; where it lowers, to the
+/// reciprocal, or, for what may go down to nothing, to 1 − strength.
+pub(super) fn factor(of: Amount, raises: bool, strength: f64) -> f64 {
+    let strength = strength.clamp(0.0, 1.0);
+    let drag = match (raises, *of.range().start() > 0.0) {
+        (true, _) => 1.0 + strength,
+        (false, true) => 1.0 / (1.0 + strength),
+        (false, false) => 1.0 - strength,
+    };
+    let by = drag.powf(1.0 / OVERLAP);
+    ((by * 1000.0).round() / 1000.0).clamp(*of.range().start(), *of.range().end())
+}
+
+/// The dabs of a drag that touched these points.
+pub(super) fn dabs(touched: &[PathPoint], radius: f64, by: f64) -> Vec<AmountDab> {
+    let dab = |stamp: &PathPoint| AmountDab {
+        at: stamp.position.to_array().map(|value| short(value, radius)),
+        normal: stamp.normal.to_array().map(|value| short(value, 1.0)),
+        radius: short(radius, radius),
+        by,
+    };
+    touched.iter().map(dab).collect()
+}
+
+/// A value with no more digits than tell a thousandth of a length: a file of dabs stays readable.
+fn short(value: f64, length: f64) -> f64 {
+    let digits = (3.0 - length.log10().floor()).clamp(0.0, 12.0) as i32;
+    let scale = 10f64.powi(digits);
+    let rounded = (value * scale).round() / scale;
+    if rounded == 0.0 { 0.0 } else { rounded }
+}
+
+/// What an eraser of this radius that touched these points leaves of the amounts of a region: dabs of this amount whose middles it
+/// went over are gone.
+pub(super) fn erased(
+    region: &Region,
+    (of, object): (Amount, &str),
+    touched: &[PathPoint],
+    radius: f64,
+) -> Vec<PaintedAmount> {
+    let is_touched = |dab: &AmountDab| {
+        let [at, normal] = [dab.at, dab.normal].map(glam::DVec3::from);
+        touched.iter().any(|stamp| stamp.position.distance(at) <= radius && stamp.normal.dot(normal) > 0.0)
+    };
+    let left = |amount: &PaintedAmount| {
+        let mut left = amount.clone();
+        if amount.of == of && amount.object.as_deref().or(region.on.object()) == Some(object) {
+            left.dabs.retain(|dab| !is_touched(dab));
+        }
+        left
+    };
+    region.amounts.iter().map(left).filter(|amount| !amount.dabs.is_empty()).collect()
+}
+
+/// The words of the status line while no drag is under way.
+pub(super) fn waiting_words(options: &ToolOptions) -> String {
+    let verbs = if options.lowers { ["lower", "raise"] } else { ["raise", "lower"] };
+    let [drag, ctrl] = verbs;
+    format!(
+        "[Drag] {drag} the {}  [Ctrl] {ctrl}  [Shift] erase  [F] radius  [Middle] orbit",
+        options.amount.word()
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_drag_comes_to_what_its_strength_says() {
+        // The factors along the middle of a long drag, with the falloff of a dab.
+        let along = |by: f64, at: f64| {
+            let weight = |dab: i32| (1.0 - (at - f64::from(dab) * DAB_SHARE).powi(2)).max(0.0).powi(2);
+            (-6..=6).map(|dab| 1.0 + (by - 1.0) * weight(dab)).product::<f64>()
+        };
+        for (of, raises, wanted) in [
+            (Amount::Width, true, 2.0),
+            (Amount::Length, false, 0.5),
+            (Amount::Density, true, 2.0),
+            (Amount::Density, false, 0.0),
+            (Amount::Flatness, false, 0.0),
+        ] {
+            let by = factor(of, raises, 1.0);
+            assert!(of.range().contains(&by));
+            for step in 0..=10 {
+                let found = along(by, f64::from(step) * 0.05);
+                assert!((found - wanted).abs() < 0.07, "{of:?} {raises}: {found}, not {wanted}");
+            }
+        }
+        assert_eq!(factor(Amount::Width, true, 0.0), 1.0);
+    }
+
+    #[test]
+    fn numbers_have_no_more_digits_than_the_brush_needs() {
+        assert_eq!(short(0.123456789, 0.05), 0.12346);
+        assert_eq!(short(-12.3456789, 3.0), -12.346);
+        assert_eq!(short(1234.56789, 2e4), 1235.0);
+        assert_eq!(short(-1e-9, 0.1).to_bits(), 0);
+        assert_eq!(short(1e-9, 1e-8), 1e-9);
+    }
+}

@@ -1,0 +1,81 @@
+//! Draws how much of an amount is painted where: warm where there is more, cool where there is less.
+
+use egui::{Color32, Mesh, Rect, Shape};
+
+use super::Sheet;
+use super::ink::OVER_PAINT;
+use crate::viewport::surface_map::{Face, FacePlace, SurfaceMap};
+
+/// Steps of colour on either side of what is not painted.
+const LEVELS: f32 = 12.0;
+
+/// The factor at which the colour is fullest, and its reciprocal; as powers of 2.
+const FULL_LOG2: f32 = 2.0;
+
+/// Opacity of the fullest colour.
+const FILL: f32 = 0.72;
+
+/// The visible surfaces by what is painted there.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct AmountTint {
+    /// Runs of cells side by side: their level, from −1, least, to 1, most; row, first column, and the column after the last.
+    runs: Vec<(f32, [usize; 3])>,
+    cells_per_point: f64,
+}
+
+impl AmountTint {
+    /// `factor` tells what is painted at a place.
+    pub fn of(map: &SurfaceMap, factor: impl Fn(Face, FacePlace) -> f32) -> Self {
+        let [columns, rows] = map.size();
+        let mut runs = Vec::new();
+        for row in 0..rows {
+            let levels: Vec<i32> = (0..columns)
+                .map(|column| map.place(column, row).map_or(0, |(face, place)| level(factor(face, place))))
+                .collect();
+            let mut first = 0;
+            for run in levels.chunk_by(|one, next| one == next) {
+                if run[0] != 0 {
+                    runs.push((run[0] as f32 / LEVELS, [row, first, first + run.len()]));
+                }
+                first += run.len();
+            }
+        }
+        Self { runs, cells_per_point: map.cells_per_point() }
+    }
+}
+
+/// The step of colour of a factor: 0 for none.
+fn level(factor: f32) -> i32 {
+    ((factor.max(1e-6).log2() / FULL_LOG2).clamp(-1.0, 1.0) * LEVELS).round() as i32
+}
+
+/// Draws what is painted.
+pub fn amount_tint(sheet: &Sheet<'_>, tint: &AmountTint) {
+    let side = 1.0 / tint.cells_per_point as f32;
+    let mut mesh = Mesh::default();
+    for &(level, [row, first, end]) in &tint.runs {
+        let at = |column: usize, row: usize| sheet.rect.min + egui::vec2(column as f32, row as f32) * side;
+        mesh.add_colored_rect(Rect::from_min_max(at(first, row), at(end, row + 1)), colour(level));
+    }
+    sheet.painter.add(Shape::mesh(mesh));
+}
+
+fn colour(level: f32) -> Color32 {
+    let colour = if level > 0.0 { OVER_PAINT.ochre } else { OVER_PAINT.accent_text };
+    // From the first step on the colour is plainly seen.
+    colour.gamma_multiply(FILL * (0.25 + 0.75 * level.abs()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_painted_has_no_colour_and_more_and_less_are_told_apart() {
+        assert_eq!([level(1.0), level(1.02), level(0.98)], [0; 3]);
+        assert_eq!([level(4.0), level(400.0), level(0.25), level(0.0)], [12, 12, -12, -12]);
+        assert_eq!([level(2.0), level(0.5)], [6, -6]);
+        assert_ne!(colour(0.5), colour(-0.5));
+        assert!(colour(1.0).a() > colour(0.1).a());
+    }
+}
