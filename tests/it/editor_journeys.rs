@@ -265,6 +265,9 @@ fn amounts_are_painted() {
     editor.keys(&["ctrl+s"]);
     editor.wait_for_title("apple.ron - Impasto");
     assert_eq!(read(folder.path(), "apple.ron"), painted);
+    // The list is below the window's edge while the section above it is open.
+    editor.click("Strokes");
+    editor.wait_until_gone("Brush flat");
     editor.click("Clear width");
     editor.rest_after(shown);
     editor.keep_picture("5_cleared");

@@ -5,15 +5,10 @@
 //! with the normal n, where m is the dab's own; s rises smoothly from 0 at 90° to 1 at 60°. So it has no seam, and is 1 outside.
 
 use std::collections::HashMap;
-use std::sync::Arc;
 
 use glam::{DVec3, IVec3, Vec3};
 use impasto_core::presence::smoothstep;
 use impasto_scene::document::{Amount, AmountDab, Scene};
-use impasto_scene::presets::LayerKind;
-use rayon::prelude::*;
-
-use crate::traits::Traits;
 
 /// Cosine between the normals from which on a dab touches with its whole strength.
 const WHOLLY_FACING: f32 = 0.5;
@@ -77,6 +72,22 @@ impl BodyAmounts {
     pub(crate) fn at(&self, of: Amount, rule: u16, position: Vec3, normal: Vec3) -> f32 {
         let painted = self.of_rule.iter().find(|painted| painted.rule == rule);
         painted.map_or(1.0, |painted| painted.at(of, position, normal))
+    }
+
+    /// What is painted onto the size and the number of strokes at a point of the surface that belongs to a rule.
+    pub(crate) fn painted(&self, rule: u16, position: Vec3, normal: Vec3) -> Painted {
+        let painted = self.of_rule.iter().find(|painted| painted.rule == rule);
+        painted.map_or(Painted::NOTHING, |painted| painted.painted(position, normal))
+    }
+
+    /// The rules onto which anything is painted.
+    pub(crate) fn rules(&self) -> impl Iterator<Item = u16> + '_ {
+        self.of_rule.iter().map(|painted| painted.rule)
+    }
+
+    /// Whether any of these is painted.
+    pub(crate) fn has(&self, any: &[Amount]) -> bool {
+        self.of_rule.iter().any(|painted| any.iter().any(|&of| !painted.of(of).dabs.is_empty()))
     }
 
     /// Whether flatness is painted alike in both: then directions combed by guides are alike.
@@ -181,7 +192,7 @@ pub(crate) struct Painted {
 }
 
 impl Painted {
-    const NOTHING: Self = Self { length: 1.0, width: 1.0, density: 1.0 };
+    pub(crate) const NOTHING: Self = Self { length: 1.0, width: 1.0, density: 1.0 };
 
     /// The factor on how many strokes are wanted: those that keep the coverage at their new size, times the density.
     pub(crate) fn wanted(self) -> f32 {
@@ -189,97 +200,12 @@ impl Painted {
     }
 
     /// The greatest of each; of `density`, the greatest number wanted.
-    fn most(self, other: Self) -> Self {
+    pub(crate) fn most(self, other: Self) -> Self {
         Self {
             length: self.length.max(other.length),
             width: self.width.max(other.width),
             density: self.density.max(other.density),
         }
-    }
-}
-
-/// What is painted onto the particles of a coat, in progressive order.
-#[derive(Debug, Default)]
-pub(crate) struct CoatAmounts {
-    /// Empty where no size and no density is painted.
-    painted: Vec<Painted>,
-    /// Factors on the flatness; empty where none is painted.
-    flatness: Vec<f32>,
-    /// For each rule that has any, the greatest factors on length and width, and on the number wanted in place of the density.
-    most: Vec<(u16, Painted)>,
-}
-
-/// What the amounts of a coat are made from.
-pub(crate) struct AmountInputs {
-    pub(crate) kind: LayerKind,
-    pub(crate) amounts: Arc<BodyAmounts>,
-    pub(crate) traits: Arc<Traits>,
-}
-
-impl PartialEq for AmountInputs {
-    fn eq(&self, other: &Self) -> bool {
-        self.kind == other.kind && Arc::ptr_eq(&self.traits, &other.traits) && self.amounts == other.amounts
-    }
-}
-
-impl AmountInputs {
-    /// The amounts of all particles. The underpainting is there to cover: it keeps its size and its number.
-    pub(crate) fn find(&self) -> CoatAmounts {
-        let Self { kind, amounts, traits } = self;
-        let has = |of: &[Amount]| {
-            amounts.of_rule.iter().any(|painted| of.iter().any(|&of| !painted.of(of).dabs.is_empty()))
-        };
-        let count = traits.particles.len();
-        let at = |index: usize| {
-            let (particle, rule) = (traits.particles.at(index), traits.region(index));
-            (particle.position, particle.normal, rule)
-        };
-        let sized =
-            *kind != LayerKind::Underpainting && has(&[Amount::Width, Amount::Length, Amount::Density]);
-        let mut of_coat = CoatAmounts::default();
-        if sized {
-            let painted = (0..count).into_par_iter().map(|index| {
-                let (position, normal, rule) = at(index);
-                let painted = amounts.of_rule.iter().find(|painted| painted.rule == rule);
-                painted.map_or(Painted::NOTHING, |painted| painted.painted(position, normal))
-            });
-            of_coat.painted = painted.collect();
-            of_coat.most = amounts.of_rule.iter().map(|painted| (painted.rule, Painted::NOTHING)).collect();
-            for (index, painted) in of_coat.painted.iter().enumerate() {
-                let rule = traits.region(index);
-                if let Some((_, most)) = of_coat.most.iter_mut().find(|(known, _)| *known == rule) {
-                    *most = most.most(Painted { density: painted.wanted(), ..*painted });
-                }
-            }
-        }
-        if has(&[Amount::Flatness]) {
-            let flatness = (0..count).into_par_iter().map(|index| {
-                let (position, normal, rule) = at(index);
-                amounts.at(Amount::Flatness, rule, position, normal)
-            });
-            of_coat.flatness = flatness.collect();
-        }
-        of_coat
-    }
-}
-
-impl CoatAmounts {
-    /// What is painted onto the size and the number of a particle's strokes.
-    #[inline]
-    pub(crate) fn of(&self, particle: usize) -> Painted {
-        self.painted.get(particle).copied().unwrap_or(Painted::NOTHING)
-    }
-
-    /// The greatest factors on the length and the width of a rule's strokes, and on how many are wanted.
-    pub(crate) fn most(&self, rule: usize) -> ([f32; 2], f32) {
-        let found = self.most.iter().find(|(known, _)| usize::from(*known) == rule);
-        let Painted { length, width, density } = found.map_or(Painted::NOTHING, |(_, most)| *most);
-        ([length, width], density)
-    }
-
-    /// The factors on the flatness of all particles; empty where none is painted.
-    pub(crate) fn flatness(&self) -> &[f32] {
-        &self.flatness
     }
 }
 

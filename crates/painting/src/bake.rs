@@ -10,7 +10,8 @@ use impasto_core::solve::BakedParticles;
 use impasto_scene::document::Solver;
 use rayon::prelude::*;
 
-use crate::amounts::{CoatAmounts, painted_flatness};
+use crate::amounts::painted_flatness;
+use crate::coat_amounts::CoatAmounts;
 use crate::field::{BodyField, FieldInputs};
 use crate::references::{BodyReference, BodyReferences, RaisedPlace, SurfacePoint, Views};
 use crate::regions::RegionRule;

@@ -11,10 +11,10 @@ use impasto_core::solve::{BakedParticles, Bounds, ParticleView};
 use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
 
-use crate::amounts::CoatAmounts;
 use crate::bake::{BakedBody, LiftSources};
 use crate::bent::Bent;
 use crate::body::BodySurface;
+use crate::coat_amounts::CoatAmounts;
 use crate::context::{Context, ObjectInputs};
 use crate::kept::KeptCoat;
 use crate::made_once::made_once;

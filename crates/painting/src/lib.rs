@@ -19,6 +19,7 @@ mod brushes;
 mod cached;
 mod candidates;
 mod coat;
+mod coat_amounts;
 mod context;
 mod counts;
 mod displaced;

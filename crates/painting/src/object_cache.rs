@@ -10,12 +10,12 @@ use impasto_scene::document::Solver;
 use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
 
-use crate::amounts::{AmountInputs, CoatAmounts};
 use crate::bake::{BakeInputs, BakedBody, Combed, LiftSources};
 use crate::body::BodySurface;
 use crate::body_shape::{BodyNoise, BodyShape};
 use crate::cached::Cached;
 use crate::coat::{Coat, SampleInputs, Sampled};
+use crate::coat_amounts::{AmountInputs, CoatAmounts};
 use crate::context::{Context, ObjectInputs};
 use crate::counts::CountInputs;
 use crate::field::{BodyField, FieldInputs, FieldSamples};

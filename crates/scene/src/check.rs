@@ -46,6 +46,7 @@ pub fn check(scene: &Scene) -> Vec<Finding> {
     objects::check(scene, &mut findings);
     strokes::check(scene, &mut findings);
     regions::check(scene, &mut findings);
+    amounts::check(scene, &mut findings);
     findings.done()
 }
 

@@ -2,12 +2,14 @@
 
 use super::regions::{check_object_of, check_radius};
 use super::{Findings, strokes};
-use crate::document::{Amount, PaintedAmount, Region, Scene};
+use crate::document::{Amount, PaintedAmount, Scene};
 
-/// The amounts of a region; `region_path` is its path.
-pub(super) fn check(region_path: &str, scene: &Scene, region: &Region, findings: &mut Findings) {
-    for (index, amount) in region.amounts.iter().enumerate() {
-        let path = format!("{region_path}.amounts[{index}]");
+pub(super) fn check(scene: &Scene, findings: &mut Findings) {
+    let all = scene.regions.iter().enumerate();
+    let all =
+        all.flat_map(|(index, region)| region.amounts.iter().enumerate().map(move |of| (index, region, of)));
+    for (region_index, region, (index, amount)) in all {
+        let path = format!("regions[{region_index}].amounts[{index}]");
         check_object_of(("amount", &path), scene, region, amount.object.as_ref(), findings);
         check_dabs(&path, amount, findings);
         let bends = amount.of == Amount::Flatness && amount.dabs.iter().any(|dab| dab.by < 1.0);

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use glam::DVec3;
 
-use super::{Findings, amounts, did_you_mean, shown, strokes};
+use super::{Findings, did_you_mean, shown, strokes};
 use crate::document::{Dab, Direction, Guide, GuideMode, PatchRef, Region, Scene, Seam, Selector};
 use crate::limits;
 use crate::problem::Severity;
@@ -39,7 +39,6 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
             check_object_of(("guide", &guide_path), scene, region, of, findings);
             check_guide(&guide_path, guide, findings);
         }
-        amounts::check(&region_path, scene, region, findings);
         strokes::check_of_region(&format!("{region_path}.strokes"), scene, index, findings);
     }
     check_covered(scene, findings);
