@@ -53,6 +53,31 @@ fn a_text_takes_the_place_of_a_file_and_a_broken_one_leaves_the_last_good() {
     assert!(renderer.render(&exact).unwrap() == own);
 }
 
+/// EGL takes its context for current when OSMesa has made another one current since: then all of the first renderer would be drawn, and
+/// removed, in the second one's context.
+#[test]
+fn renderers_of_two_drivers_on_one_thread_keep_apart() {
+    let painting = painting();
+    let frame = frame(&painting, Quality::Exact);
+    for drivers in [[Driver::Egl, Driver::Osmesa], [Driver::Osmesa, Driver::Egl]] {
+        let mut renderers =
+            drivers.map(|driver| Renderer::new(open(driver, &OpenOptions { debug: true }).unwrap()).unwrap());
+        let red =
+            ENCODE.replace("return mix(high, low,", "return vec3(1.0, 0.0, 0.0) + 0.0 * mix(high, low,");
+        let [first, second] = &mut renderers;
+        first.replace_shaders(&texts(&red)).unwrap();
+        let own = second.render(&frame).unwrap();
+        for _ in 0..2 {
+            assert!(first.render(&frame).unwrap().rgba8.starts_with(&[255, 0, 0, 255]), "{drivers:?}");
+            assert!(second.render(&frame).unwrap() == own, "{drivers:?}");
+        }
+        second.replace_shaders(&texts(&red)).unwrap();
+        first.replace_shaders(&ShaderTexts::default()).unwrap();
+        assert!(second.render(&frame).unwrap().rgba8.starts_with(&[255, 0, 0, 255]), "{drivers:?}");
+        assert!(first.render(&frame).unwrap() == own, "{drivers:?}");
+    }
+}
+
 #[test]
 fn the_command_draws_with_a_folder_of_shaders_or_says_what_is_wrong_with_it() {
     let folder = tempfile::tempdir().unwrap();

@@ -40,6 +40,7 @@ const OF_REGION: &[Line] = &[
     Do(Action::TurnDirection),
     Do(Action::Smooth),
     Do(Action::Erase),
+    Do(Action::Amount),
     Do(Action::Region),
     Separator,
     Do(Action::Duplicate),

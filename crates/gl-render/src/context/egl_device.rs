@@ -21,7 +21,9 @@ mod with_devices {
     use glutin::api::egl::device::Device;
     use glutin::api::egl::display::Display;
     use glutin::config::{Api, ConfigSurfaceTypes, ConfigTemplateBuilder};
-    use glutin::context::{ContextApi, ContextAttributesBuilder, GlProfile, Version};
+    use glutin::context::{
+        ContextApi, ContextAttributesBuilder, GlProfile, PossiblyCurrentGlContext as _, Version,
+    };
     use glutin::display::GlDisplay as _;
 
     use super::super::opening::{OpenOptions, Opened, VERSIONS};
@@ -96,6 +98,10 @@ mod with_devices {
     impl Platform for EglDevice {
         fn make_current(&self) -> Result<(), String> {
             self.context.make_current_surfaceless().map_err(|error| error.to_string())
+        }
+
+        fn make_none_current(&self) -> Result<(), String> {
+            self.context.make_not_current_in_place().map_err(|error| error.to_string())
         }
 
         fn function_address(&self, name: &CStr) -> *const c_void {

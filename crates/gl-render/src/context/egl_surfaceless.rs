@@ -146,6 +146,15 @@ impl Platform for Surfaceless {
         }
     }
 
+    fn make_none_current(&self) -> Result<(), String> {
+        let none = std::ptr::null_mut();
+        // SAFETY: the display is alive; no context is named.
+        match unsafe { (self.egl.make_current)(self.display, none, none, none) } {
+            0 => Err("the context cannot be let go".to_owned()),
+            _ => Ok(()),
+        }
+    }
+
     fn function_address(&self, name: &CStr) -> *const c_void {
         // SAFETY: the name ends with a zero byte.
         unsafe { (self.egl.get_proc_address)(name.as_ptr()) }

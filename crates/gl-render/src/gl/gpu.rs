@@ -1,13 +1,22 @@
 //! A shared handle on one OpenGL context.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 use glow::HasContext as _;
 
 use super::{DriverMessages, GlError, Platform, ShaderTexts};
+
+/// How many contexts were opened so far.
+static OPENED: AtomicU64 = AtomicU64::new(0);
+
+thread_local! {
+    /// Which of them was made current last on this thread.
+    static CURRENT: Cell<u64> = const { Cell::new(0) };
+}
 
 /// A context, shared by everything that was created in it. It is destroyed when the last of those is dropped.
 #[derive(Clone)]
@@ -16,6 +25,8 @@ pub(crate) struct Gpu {
 }
 
 struct Shared {
+    /// Which of the contexts it is, from 1.
+    id: u64,
     gl: Arc<glow::Context>,
     clock: RefCell<Option<PassClock>>,
     messages: Option<DriverMessages>,
@@ -89,7 +100,10 @@ impl Gpu {
         limits: Limits,
     ) -> Self {
         let (clock, shaders) = (RefCell::new(None), RefCell::default());
-        Self { shared: Rc::new(Shared { gl, clock, messages, limits, shaders, platform }) }
+        let id = OPENED.fetch_add(1, Ordering::Relaxed) + 1;
+        // Who opened it made it current.
+        CURRENT.set(id);
+        Self { shared: Rc::new(Shared { id, gl, clock, messages, limits, shaders, platform }) }
     }
 
     /// Sets the texts that replace shader files in programs created from now on; returns those before.
@@ -170,7 +184,11 @@ impl Gpu {
 
     /// Makes the context current on this thread; call it before a series of OpenGL calls.
     pub(crate) fn make_current(&self) -> Result<(), GlError> {
-        self.shared.platform.make_current().map_err(GlError::Context)
+        let Shared { id, platform, .. } = &*self.shared;
+        if CURRENT.replace(*id) != *id {
+            platform.make_none_current().map_err(GlError::Context)?;
+        }
+        platform.make_current().map_err(GlError::Context)
     }
 
     /// What the driver has reported since the last call, as an error.

@@ -6,6 +6,11 @@ use std::ffi::{CStr, c_void};
 pub(crate) trait Platform {
     /// Makes the context current on this thread.
     fn make_current(&self) -> Result<(), String>;
+    /// Makes no context current on this thread, where the library would else skip [`Platform::make_current`]: EGL does so when it made this
+    /// context current before, also if OSMesa has made another one current since.
+    fn make_none_current(&self) -> Result<(), String> {
+        Ok(())
+    }
     /// The address of an OpenGL function, null where there is none.
     fn function_address(&self, name: &CStr) -> *const c_void;
 }
