@@ -178,6 +178,18 @@ mod tests {
         }
     }
 
+    /// Seen from above, what is farther away is up; seen from below, what is nearer: so both have the same right.
+    #[test]
+    fn a_surface_that_faces_straight_up_or_down_has_fixed_axes() {
+        let close = |found: [DVec3; 2], wanted: [DVec3; 2]| {
+            assert!((found[0] - wanted[0]).length() + (found[1] - wanted[1]).length() < 1e-12, "{found:?}");
+        };
+        close(turntable_axes(DVec3::Y, DVec3::Y), [DVec3::X, DVec3::NEG_Z]);
+        close(turntable_axes(DVec3::NEG_Y, DVec3::Y), [DVec3::X, DVec3::Z]);
+        // Where up is along Z, away is along Y.
+        close(turntable_axes(DVec3::Z, DVec3::Z), [DVec3::X, DVec3::Y]);
+    }
+
     #[test]
     fn a_blend_takes_the_nearer_of_two_opposite_lines() {
         let normal = DVec3::new(0.3, -0.2, 0.9).normalize();

@@ -131,3 +131,14 @@ fn threads_do_not_change_the_lists() {
     };
     assert_eq!(on_threads(1), on_threads(3));
 }
+
+/// Of points on a grid, about as many as a list holds lie within the radius.
+#[test]
+fn a_list_is_full_at_its_radius() {
+    let (side, spacing) = (100, 0.3);
+    let radius = full_list_radius((f64::from(side) * spacing).powi(2), (side * side) as usize);
+    let near = (-20..=20).flat_map(|y| (-20..=20).map(move |x| f64::from(x * x + y * y).sqrt() * spacing));
+    let found = near.filter(|&away| away <= radius).count() as f64;
+    assert!((found / MAX_NEIGHBOURS as f64 - 1.0).abs() < 0.1, "{found}");
+    assert!(full_list_radius(1.0, 0).is_finite());
+}
