@@ -178,6 +178,15 @@ mod tests {
         }
     }
 
+    #[test]
+    fn a_blend_of_near_lifts_is_their_weighted_mean() {
+        let lift = Lift { along: DVec3::new(1.0, 2.0, 3.0), across: DVec3::new(-2.0, 1.0, 0.5) };
+        let other = Lift { along: DVec3::new(1.5, 1.0, 3.0), across: DVec3::new(-1.0, 1.0, 1.5) };
+        let blend = lift.blended(other, 0.25, JACOBIAN);
+        assert!((blend.along - DVec3::new(1.125, 1.75, 3.0)).length() < 1e-12, "{}", blend.along);
+        assert!((blend.across - DVec3::new(-1.75, 1.0, 0.75)).length() < 1e-12, "{}", blend.across);
+    }
+
     /// Seen from above, what is farther away is up; seen from below, what is nearer: so both have the same right.
     #[test]
     fn a_surface_that_faces_straight_up_or_down_has_fixed_axes() {

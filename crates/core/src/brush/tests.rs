@@ -86,21 +86,22 @@ fn a_picture_with_contrast_makes_a_brush() {
     assert!(marks_of_picture([64, 32], &light[..10]).is_empty());
 }
 
-/// Whether a mark is dark on light is told by all four borders of its picture.
+/// Whether a mark is dark on light is told by all four borders of its picture: here those that the mark reaches are lighter than the
+/// whole, and the others dark.
 #[test]
 fn a_light_mark_that_reaches_two_borders_of_its_picture_is_no_dark_one() {
-    let column = |x: usize| match x {
-        0 | 7 => 0,
-        3 => 230,
-        _ => 255,
+    let upright = |x: usize, y: usize| match (x, y) {
+        (0 | 7, _) => [0, 0, 0, 255],
+        (_, 0 | 63) => [255; 4],
+        _ => [230, 230, 230, 255],
     };
-    let lying = |index: usize| [column(index % 8), column(index % 8), column(index % 8), 255];
-    let texels: Vec<[u8; 4]> = (0..8 * 64).map(lying).collect();
-    let turned: Vec<[u8; 4]> = (0..64 * 8).map(|index| lying(index / 64)).collect();
-    for (size_px, texels) in [([8, 64], texels), ([64, 8], turned)] {
-        let marks = marks_of_picture(size_px, &texels);
-        let middle = |mark: &Mark| mark.texels[48 * SIZE[0] + 128][0];
-        assert!(marks.iter().all(|mark| middle(mark) > 0), "{size_px:?} was inverted");
+    let tall: Vec<[u8; 4]> = (0..8 * 64).map(|index| upright(index % 8, index / 8)).collect();
+    let wide: Vec<[u8; 4]> = (0..64 * 8).map(|index| upright(index / 64, index % 64)).collect();
+    for (size_px, texels, dark) in [([8, 64], tall, [24, 48]), ([64, 8], wide, [128, 11])] {
+        for mark in marks_of_picture(size_px, &texels) {
+            let paint = |[column, row]: [usize; 2]| mark.texels[row * SIZE[0] + column][0];
+            assert!(paint([128, 48]) > 0 && paint(dark) == 0, "{size_px:?} was inverted");
+        }
     }
 }
 

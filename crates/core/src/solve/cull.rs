@@ -214,7 +214,11 @@ mod tests {
     #[test]
     fn what_is_solved_is_the_projection_and_the_angle_of_the_lift() {
         for wrapped in [false, true] {
-            let (particles, map) = (crowd(1000, wrapped), view());
+            // Turned about no axis of its own, so that every number of the map counts.
+            let pose = DAffine3::from_axis_angle(DVec3::new(0.5, 0.7, -0.3).normalize(), 0.9);
+            let view = DMat4::from_translation(DVec3::new(0.3, -0.2, -4.0));
+            let map = ScreenMap::new(view, pose, PixelLens::Perspective { focal_px: 900.0 });
+            let particles = crowd(1000, wrapped);
             let mut solved = SolvedParticles::default();
             solve(&particles, &map, &mut solved);
             let (mut compared, mut angles) = (0, 0);

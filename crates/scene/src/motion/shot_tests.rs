@@ -5,13 +5,14 @@ use std::sync::Arc;
 use super::*;
 use crate::document::{Light, LightKey, LightKind, Lost, ObjectKey, Scene, Seen};
 
-/// Brings `thing`, which stands at the time as X, bends by it and is hidden from second 2 on, and a light as bright as the time.
+/// Brings `thing`, which stands at the time as X, bends by it and is hidden from second 2 on, a camera that stands there too, and a
+/// light as bright as the time.
 #[derive(Debug)]
 struct Clock;
 
 impl Brought for Clock {
     fn has_camera(&self) -> bool {
-        false
+        true
     }
 
     fn has_object(&self, name: &str) -> bool {
@@ -49,8 +50,9 @@ impl Brought for Clock {
         !self.has_object(name) || time_of(posed) < 2.0
     }
 
-    fn camera(&self, _time_s: f64, _size: (u32, u32)) -> Option<Seen> {
-        None
+    fn camera(&self, time_s: f64, _size: (u32, u32)) -> Option<Seen> {
+        let world_from_view = DMat4::from_translation(DVec3::X * time_s);
+        Some(Seen { world_from_view, lens: Lens::default(), shift: DVec2::ZERO })
     }
 
     fn in_collection(&self, _collection: &str, _object: &str) -> Option<bool> {
@@ -129,4 +131,14 @@ fn a_light_without_keys_is_as_the_shot_has_it() {
     let alone: Vec<Light> = scene.lights.iter().map(|light| light_at(&scene, light, 25.0)).collect();
     assert_eq!(alone.iter().map(|light| light.intensity).collect::<Vec<_>>(), [2.5, 9.0]);
     assert_eq!(lights_at(&scene, 25.0), alone);
+}
+
+#[test]
+fn a_camera_without_keys_is_that_of_the_shot() {
+    let mut scene = scene();
+    scene.camera.keys.clear();
+    let camera = camera_at(&scene, 25.0);
+    assert_eq!((camera.eye, camera.target.x, camera.roll_rad), (DVec3::X * 2.5, 2.5, 0.0));
+    scene.camera.keys = crate::new_scene::empty().camera.keys;
+    assert_ne!(camera_at(&scene, 25.0).eye, camera.eye);
 }

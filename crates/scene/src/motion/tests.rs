@@ -237,6 +237,12 @@ fn a_pose_comes_back_as_a_key() {
         assert!(off.length() < 1e-9, "{:?}", found.rotation_deg);
         assert!((DVec3::from(found.scale.0) - DVec3::from(scale)).length() < 1e-12, "{:?}", found.scale);
     }
+    // An even scale stays one number, whatever rounding does to the lengths of the axes.
+    for angle in 1..40 {
+        let rotation = rotation_from_euler_deg(DVec3::new(1.0, 2.0, 3.0) * f64::from(angle));
+        let Scale([x, y, z]) = key_of_pose(DAffine3::from_mat3(rotation * 0.3), 0.0).scale;
+        assert!(x == y && y == z && (x - 0.3).abs() < 1e-12, "{x} {y} {z}");
+    }
     let huge = key_of_pose(DAffine3::from_scale(DVec3::splat(1e9)), 0.0);
     assert_eq!(huge.scale, Scale::even(*limits::KEY_SCALE.end()));
 }
