@@ -15,6 +15,11 @@ layout(location = 7) in vec4 fitted;         // centre in px where it lies on it
 #ifdef SHAPED
 layout(location = 8) in vec2 shape;          // taper, bend in radians
 #endif
+#ifdef LINE
+layout(location = 9) in vec4 corner_of_line; // px; along and across the mark
+layout(location = 10) in vec4 middle_of_line; // from the line's middle to the corner in px; of the middle depth and presence
+layout(location = 11) in vec2 lean;          // depth of the plane less that of the middle, how far paint may lie off it; px
+#endif
 
 uniform vec2 size_px;
 uniform mat4 view_from_world;
@@ -43,6 +48,9 @@ flat out vec4 body;              // opacity, thickness, overrun in px, sign of t
 flat out vec4 own;               // depth and id of the body, how much of the stroke's length is there, how wet its paint is
 flat out vec4 plane;             // of the stroke, in px: its depth's slope along x and y, the depth of its middle less the stroke's own,
                                  // how far paint may lie off it
+#ifdef LINE
+out vec4 line;                   // depth, presence, depth of the plane less that in px, how far paint may lie off it
+#endif
 #ifdef SHAPED
 flat out vec4 form;              // half its quad's length (0 where it has no shape) and width in px, taper, bend per px
 flat out float leaning;          // skew
@@ -175,10 +183,20 @@ void main() {
     form = own_form;
     leaning = reach.w;
 #endif
+#ifdef LINE
+    mark_at = corner_of_line.zw;
+    from_center_px = middle_of_line.xy;
+    line = vec4(middle_of_line.zw, lean);
+    level = max(log2(mark_rows / (1.05 * size.y * MARGIN)), 0.0);
+#endif
     mark = vec4(float(marks.w & 65535u), level, soft, normal_and_bow.w);
     float fat = 0.55 + 0.75 * clamp(fitted.z, 0.0, 1.0) / 0.7;
     body = vec4(opacity, thickness * fat, reach.x, flip);
     plane = plane_of_stroke(center_px);
     own = vec4(place.z, float(marks.y), extent, min(pickup / WET_PICKUP, 1.0));
+#ifdef LINE
+    gl_Position = vec4(corner_of_line.xy / size_px * 2.0 - 1.0, 0.0, 1.0);
+#else
     gl_Position = vec4((center_px + from_center_px) / size_px * 2.0 - 1.0, 0.0, 1.0);
+#endif
 }
