@@ -257,7 +257,7 @@ fn what_is_in_front_hides_a_touch_and_a_planted_fault_is_noticed() {
     };
     let [left, right] = shares(&renderer(Driver::Egl).render(&frame).unwrap());
     assert!(left > 0.9 && right < 0.01, "{left} {right}");
-    let fault = ["if (floor(here.y) != own.y) return", "if (false) return"];
+    let fault = ["if (body.z < FREE) alpha *= laid(tint);", ""];
     let mut faulty = faulty_renderer("rotating_strokes/paint.frag", fault[0], fault[1]);
     let [_, right] = shares(&faulty.render(&frame).unwrap());
     assert!(right > 0.1, "the fault would not be noticed: {right}");

@@ -41,7 +41,7 @@ pub use strokes::{InspectorPlace, ResolvedStrokes, STROKE_NUMBERS, Shown, Stroke
 pub use style::Style;
 pub use style_settings::{CanvasFollows, Preparation, SettingRule, Solver, StyleInfo, StyleSettings};
 pub use sumi_e::{InkDrawing, InkLight, InkRule, SumiE};
-pub use touches::{TOUCH_SIZE, Touch, TouchPoint};
+pub use touches::{Touch, TouchPoint};
 pub use up::Up;
 
 /// A whole scene file.

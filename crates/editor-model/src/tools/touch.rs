@@ -1,7 +1,7 @@
 //! The tool that lays touches: a click places one stroke, a drag a long one along the surface.
 
 use glam::{DVec2, DVec3};
-use impasto_scene::document::{Amount, AmountDab, TOUCH_SIZE, Touch, TouchPoint};
+use impasto_scene::document::{Amount, AmountDab, Touch, TouchPoint};
 use impasto_scene::limits;
 
 use super::ring::Ring;
@@ -209,14 +209,14 @@ impl Drag {
             *limits::TOUCH_WIDTH_PX.end(),
         );
         let width_px = (width_px * 10.0).round() / 10.0;
-        let ratio = TOUCH_SIZE.length_px / TOUCH_SIZE.width_px;
+        let ratio = Touch::USUAL_LENGTH_PX / Touch::USUAL_WIDTH_PX;
         let length_px = (width_px * ratio).round().clamp(
             *limits::TOUCH_LENGTH_PX.start(),
             *limits::TOUCH_LENGTH_PX.end(),
         );
         Touch {
             width_px,
-            length_px: if kept.len() == 1 { length_px } else { TOUCH_SIZE.length_px },
+            length_px: if kept.len() == 1 { length_px } else { Touch::USUAL_LENGTH_PX },
             color: (!options.touch_from_picture).then_some(options.touch_color),
             opacity: options.touch_opacity,
             taper: options.touch_taper,

@@ -22,10 +22,12 @@ layout(location = 11) in vec2 lean;          // depth of the plane less that of 
 #endif
 
 uniform vec2 size_px;
+#ifndef LINE
 uniform mat4 view_from_world;
+uniform int kind;                // layer of paint
+#endif
 uniform float units_per_px_at_1; // world units per pixel at depth 1; at any depth where parallel
 uniform float orthographic;
-uniform int kind;                // layer of paint
 uniform float mark_rows;         // texels across a mark
 uniform sampler2D mark_bounds;   // a row for each mark: the box around all texels with more paint than a given amount
 #ifndef DRAFT
@@ -105,6 +107,7 @@ vec4 painted_part(float least, float level, float bow, float flip) {
     return clamp(vec4(part.xy, across), 0.0, 1.0);
 }
 
+#ifndef LINE
 // The plane that the stroke lies on. Paint that leaves it, past a crease, ends there; but the underpainting covers all, and lines
 // follow the border that they lie along.
 vec4 plane_of_stroke(vec2 center_px) {
@@ -116,6 +119,7 @@ vec4 plane_of_stroke(vec2 center_px) {
     float may_leave_px = goes_on ? 1e9 : (0.07 * size.x + 2.5) * max(0.7 / slant, 1.0);
     return vec4(slope, dot(slope, center_px - place.xy), may_leave_px);
 }
+#endif
 
 void main() {
 #ifdef STORES
@@ -192,7 +196,11 @@ void main() {
     mark = vec4(float(marks.w & 65535u), level, soft, normal_and_bow.w);
     float fat = 0.55 + 0.75 * clamp(fitted.z, 0.0, 1.0) / 0.7;
     body = vec4(opacity, thickness * fat, reach.x, flip);
+#ifdef LINE
+    plane = vec4(0.0);
+#else
     plane = plane_of_stroke(center_px);
+#endif
     own = vec4(place.z, float(marks.y), extent, min(pickup / WET_PICKUP, 1.0));
 #ifdef LINE
     gl_Position = vec4(corner_of_line.xy / size_px * 2.0 - 1.0, 0.0, 1.0);

@@ -213,7 +213,9 @@ impl RotatingStrokes {
         };
         let pass = targets.strokes_pass(frame.quality);
         self.gpu.begin_pass(pass, DrawState { blend: Blend::Over, ..DrawState::default() });
-        let mut bound = paint_inputs(program, (input, covered), (targets, marks), layer);
+        let mut bound = paint_inputs(program, (input, covered), (targets, marks))
+            .set("view_from_world", frame.view.view_from_world)
+            .set("kind", layer.kind as i32);
         if let Some(data) = data {
             bound = bound.set("first_stroke", layer.first as i32);
             data.begin_noting();
@@ -231,7 +233,7 @@ impl RotatingStrokes {
         watch: &mut Watch<'_>,
     ) -> Result<(), Halt> {
         for &strip in &input.frame.lines.strips {
-            self.paint_line(input, covered, layer, strip)?;
+            self.paint_line(input, covered, strip)?;
             watch.passed(layer.kind.name())?;
         }
         if let Some(data) = self.data.as_mut().filter(|_| input.gathers) {
@@ -244,7 +246,6 @@ impl RotatingStrokes {
         &mut self,
         input: &StyleInput<'_>,
         covered: &Covered,
-        layer: LayerRun,
         strip: LineStrip,
     ) -> Result<(), GlError> {
         let (Some(targets), Some(marks)) = (&self.targets, self.strokes.marks()) else { return Ok(()) };
@@ -254,7 +255,7 @@ impl RotatingStrokes {
         let Some(program) = program else { return Ok(()) };
         let pass = targets.strokes_pass(quality);
         self.gpu.begin_pass(pass, DrawState { blend: Blend::Over, ..DrawState::default() });
-        let mut bound = paint_inputs(program, (input, covered), (targets, marks), layer);
+        let mut bound = paint_inputs(program, (input, covered), (targets, marks));
         if let Some(data) = data {
             bound = bound.set("first_stroke", strip.stroke as i32);
             data.begin_noting();
@@ -436,15 +437,12 @@ fn paint_inputs<'a>(
     program: &'a Program,
     (input, covered): (&StyleInput<'_>, &Covered),
     (targets, marks): (&PaintTargets, &Marks),
-    layer: LayerRun,
 ) -> Bound<'a> {
     let frame = input.frame;
     let lens = LensSetup::new(&frame.view, frame.size_px);
     let mut bound = lens
         .set(program.bind(), &["size_px", "orthographic"])
         .set("units_per_px_at_1", 1.0 / lens.px_per_unit_at_1)
-        .set("view_from_world", frame.view.view_from_world)
-        .set("kind", layer.kind as i32)
         .set("mark_rows", brush::SIZE[1] as f32)
         .texture("brush_marks", &marks.texture)
         .texture("mark_bounds", &marks.bounds);

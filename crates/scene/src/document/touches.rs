@@ -16,10 +16,10 @@ pub struct Touch {
     /// strokes round it.
     pub points: Vec<TouchPoint>,
     /// How wide it is, pixels at the scene's size, from 1 to 400, however near the camera is.
-    #[serde(default = "TouchSize::width")]
+    #[serde(default = "usual_width_px")]
     pub width_px: f64,
     /// How long it is if it has a single place, pixels at the scene's size, from 1 to 4000.
-    #[serde(default = "TouchSize::length", skip_serializing_if = "TouchSize::is_length")]
+    #[serde(default = "usual_length_px", skip_serializing_if = "is_usual_length")]
     pub length_px: f64,
     /// Its colour, exactly; left out, the colour that strokes have there, which follows the light.
     #[serde(default, skip_serializing_if = "is_default")]
@@ -48,40 +48,33 @@ pub struct TouchPoint {
     pub normal: [f64; 3],
 }
 
-/// The size of a touch that states none.
-pub struct TouchSize {
-    /// Pixels at the scene's size.
-    pub width_px: f64,
-    /// Pixels at the scene's size.
-    pub length_px: f64,
+const fn usual_width_px() -> f64 {
+    14.0
 }
 
-/// The size of a touch that states none.
-pub const TOUCH_SIZE: TouchSize = TouchSize { width_px: 14.0, length_px: 48.0 };
+const fn usual_length_px() -> f64 {
+    48.0
+}
 
-impl TouchSize {
-    fn width() -> f64 {
-        TOUCH_SIZE.width_px
-    }
-
-    fn length() -> f64 {
-        TOUCH_SIZE.length_px
-    }
-
-    fn is_length(length_px: &f64) -> bool {
-        *length_px == TOUCH_SIZE.length_px
-    }
+fn is_usual_length(length_px: &f64) -> bool {
+    *length_px == Touch::USUAL_LENGTH_PX
 }
 
 impl Touch {
+    /// The width of a touch that states none, pixels.
+    pub const USUAL_WIDTH_PX: f64 = usual_width_px();
+
+    /// The length of a touch at a single place that states none, pixels.
+    pub const USUAL_LENGTH_PX: f64 = usual_length_px();
+
     /// A touch of the usual looks.
     pub fn new(name: impl Into<String>, on: impl Into<String>, points: Vec<TouchPoint>) -> Self {
         Self {
             name: name.into(),
             on: on.into(),
             points,
-            width_px: TOUCH_SIZE.width_px,
-            length_px: TOUCH_SIZE.length_px,
+            width_px: Self::USUAL_WIDTH_PX,
+            length_px: Self::USUAL_LENGTH_PX,
             color: None,
             opacity: 1.0,
             taper: 0.0,

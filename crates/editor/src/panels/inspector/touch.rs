@@ -4,7 +4,7 @@ use egui::Ui;
 use impasto_core::brush;
 use impasto_editor_model::Item;
 use impasto_editor_model::command::{Command, Edit, Touches};
-use impasto_scene::document::{TOUCH_SIZE, Touch};
+use impasto_scene::document::{Touch};
 use impasto_scene::limits::{TOUCH_LENGTH_PX, TOUCH_WIDTH_PX};
 
 use super::Asker;
@@ -90,22 +90,22 @@ fn numbers(ui: &mut Ui, asker: &mut Asker<'_, '_>, [touch, stored]: [&Touch; 2])
         range: 1.0..=120.0,
         limits: Some(TOUCH_WIDTH_PX),
         step: (0.5, 1),
-        default: Some(TOUCH_SIZE.width_px),
+        default: Some(Touch::USUAL_WIDTH_PX),
         ..Number::new("Touch width", "How wide it is in the picture, however near the camera is.")
     };
     asker.number(ui, &width, [touch.width_px, stored.width_px], |to| {
-        set(stored, "width", |touch| touch.width_px = to.unwrap_or(TOUCH_SIZE.width_px))
+        set(stored, "width", |touch| touch.width_px = to.unwrap_or(Touch::USUAL_WIDTH_PX))
     });
     if touch.points.len() == 1 {
         let length = Number {
             unit: "px",
             range: 1.0..=400.0,
             limits: Some(TOUCH_LENGTH_PX),
-            default: Some(TOUCH_SIZE.length_px),
+            default: Some(Touch::USUAL_LENGTH_PX),
             ..Number::new("Touch length", "How long it is in the picture.")
         };
         asker.number(ui, &length, [touch.length_px, stored.length_px], |to| {
-            set(stored, "length", |touch| touch.length_px = to.unwrap_or(TOUCH_SIZE.length_px))
+            set(stored, "length", |touch| touch.length_px = to.unwrap_or(Touch::USUAL_LENGTH_PX))
         });
     }
     let opacity = Number {

@@ -48,8 +48,12 @@ impl StrokePrograms {
     pub(super) fn ready_line(&mut self, gpu: &Gpu, quality: Quality) -> Result<(), GlError> {
         if self.line_paint.is_none() {
             let source = match quality {
-                Quality::Exact => ProgramSource { defined: &["LINE"], ..PAINT },
-                Quality::Draft => ProgramSource { defined: &["LINE", "DRAFT"], ..DRAFT_PAINT },
+                Quality::Exact => LINE_PAINT,
+                Quality::Draft => ProgramSource {
+                    uniforms: &[PAINT_UNIFORMS],
+                    defined: &["LINE", "DRAFT"],
+                    ..DRAFT_PAINT
+                },
             };
             self.line_paint = Some(Program::new(gpu, FILES, &source)?);
         }
@@ -69,11 +73,16 @@ pub(super) struct DataPrograms {
 
 impl DataPrograms {
     pub(super) fn new(gpu: &Gpu) -> Result<Self, GlError> {
-        let paint = ProgramSource { uniforms: &[PAINT_UNIFORMS, OF_EXACT, &["first_stroke"]], ..PAINT };
+        let paint = ProgramSource {
+            uniforms: &[PAINT_UNIFORMS, OF_BILLBOARDS, OF_EXACT, &["first_stroke"]],
+            ..PAINT
+        };
+        let line_paint =
+            ProgramSource { uniforms: &[PAINT_UNIFORMS, OF_EXACT, &["first_stroke"]], ..LINE_PAINT };
         let [paint, shaped_paint, line_paint, finish] = [
             ProgramSource { defined: &["STORES"], ..paint },
             ProgramSource { defined: &["SHAPED", "STORES"], ..paint },
-            ProgramSource { defined: &["LINE", "STORES"], ..paint },
+            ProgramSource { defined: &["LINE", "STORES"], ..line_paint },
             ProgramSource { defined: &["DATA"], ..FINISH },
         ]
         .map(|source| Program::new(gpu, FILES, &source));
@@ -126,8 +135,6 @@ const RESOLVE: ProgramSource<'static> = ProgramSource {
 
 const PAINT_UNIFORMS: &[&str] = &[
     "size_px",
-    "view_from_world",
-    "kind",
     "mark_rows",
     "mark_bounds",
     "brush_marks",
@@ -136,13 +143,20 @@ const PAINT_UNIFORMS: &[&str] = &[
     "orthographic",
 ];
 
+/// What a billboard needs, and a line does not.
+const OF_BILLBOARDS: &[&str] = &["view_from_world", "kind"];
+
 const OF_EXACT: &[&str] = &["below", "depth_and_id"];
 
-const PAINT: ProgramSource<'static> = ProgramSource { uniforms: &[PAINT_UNIFORMS, OF_EXACT], ..DRAFT_PAINT };
+const PAINT: ProgramSource<'static> =
+    ProgramSource { uniforms: &[PAINT_UNIFORMS, OF_BILLBOARDS, OF_EXACT], ..DRAFT_PAINT };
+
+const LINE_PAINT: ProgramSource<'static> =
+    ProgramSource { uniforms: &[PAINT_UNIFORMS, OF_EXACT], defined: &["LINE"], ..DRAFT_PAINT };
 
 /// Drafts pick up no paint.
 const DRAFT_PAINT: ProgramSource<'static> =
-    ProgramSource::new("rotating_strokes/paint.vert", Some("rotating_strokes/paint.frag"), &[PAINT_UNIFORMS]);
+    ProgramSource::new("rotating_strokes/paint.vert", Some("rotating_strokes/paint.frag"), &[PAINT_UNIFORMS, OF_BILLBOARDS]);
 
 pub(super) const SOFTEN: ProgramSource<'static> =
     ProgramSource::screen("rotating_strokes/soften.frag", &[&["height", "step_px"]]);
