@@ -296,3 +296,53 @@ fn amounts_are_painted() {
     };
     assert_eq!(bare(painted), before, "nothing else changed");
 }
+
+#[test]
+fn touches_are_laid_by_hand() {
+    let Some(screen) = Screen::open() else { return };
+    let folder = folder();
+    let before = read(folder.path(), "apple.ron");
+    let mut editor = EditorWindow::open(&screen, "touches", folder.path(), "apple.ron");
+    let [x, y] = editor.control("Viewport").middle().map(|at| at.to_string());
+    screen.xdotool(&["mousemove", &x, &y]);
+    editor.keys(&["Tab"]);
+    editor.wait_for_value("Paint, comb, shot camera, frame 0, reference");
+    let mut shown = editor.rest().0;
+    editor.keys(&["u"]);
+    editor.wait_for_value("Paint, touch, shot camera, frame 0, reference");
+    comb(&mut editor, [-60, -60], [-30, 70]);
+    shown = editor.rest_after(shown);
+    let middle = editor.control("Viewport").middle();
+    screen.click([middle[0] + 40, middle[1] + 20]);
+    shown = editor.rest_after(shown);
+    editor.keep_picture("1_laid");
+    editor.keys(&["ctrl+s"]);
+    editor.wait_for_title("apple.ron - Impasto");
+    let laid = read(folder.path(), "apple.ron");
+    std::fs::copy(folder.path().join("apple.ron"), folder.path().join("laid.ron")).unwrap();
+    // Across the long one with Shift: it goes, and one step of the history brings it back.
+    screen.xdotool(&["keydown", "shift"]);
+    comb(&mut editor, [-70, 0], [-20, 10]);
+    screen.xdotool(&["keyup", "shift"]);
+    editor.wait_for_title("apple.ron (edited) - Impasto");
+    shown = editor.rest_after(shown);
+    editor.keys(&["ctrl+s"]);
+    editor.wait_for_title("apple.ron - Impasto");
+    let erased = read(folder.path(), "apple.ron");
+    editor.keys(&["ctrl+z"]);
+    editor.wait_for_title("apple.ron (edited) - Impasto");
+    editor.rest_after(shown);
+    editor.keep_picture("2_back");
+    editor.keys(&["ctrl+s"]);
+    editor.wait_for_title("apple.ron - Impasto");
+    assert_eq!(read(folder.path(), "apple.ron"), laid);
+    assert_eq!(editor.quit(), Some(0));
+    checked(folder.path(), "laid.ron");
+
+    let [long, one] = &laid.touches[..] else { panic!("{:?}", laid.touches) };
+    assert!(long.points.len() > 1 && one.points.len() == 1);
+    assert!(laid.touches.iter().all(|touch| touch.on == "apple"));
+    assert_eq!(erased.touches, [one.clone()]);
+    let bare = |scene: Scene| Scene { touches: Vec::new(), ..scene };
+    assert_eq!(bare(laid), before, "nothing else changed");
+}

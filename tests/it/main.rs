@@ -55,6 +55,7 @@ mod sidecars;
 mod steadiness;
 mod strange_models;
 mod sumi_e;
+mod touches;
 mod turntable;
 mod warm_prepare;
 mod whole_shot;

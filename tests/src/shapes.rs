@@ -165,6 +165,7 @@ pub fn scene(objects: Vec<Object>) -> Scene {
             direction: Direction::Angle(20.0),
             ..Region::new("all", Selector::Everything)
         }],
+        touches: Vec::new(),
         style: Style::default(),
         aovs: Vec::new(),
     }

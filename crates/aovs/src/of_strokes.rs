@@ -57,7 +57,8 @@ pub(crate) fn add(
     if wanted.has(Aov::PaintAlpha) {
         let kinds: Vec<LayerKind> =
             frame.strokes.iter().enumerate().map(|(index, _)| kind_of(frame, index)).collect();
-        for kind in LayerKind::ALL {
+        let by_hand = drawn.painting.has_touches().then_some(LayerKind::Touches);
+        for kind in LayerKind::ALL.into_iter().chain(by_hand) {
             let shown = (0..pixels).into_par_iter().map(|pixel| {
                 let shares = covering.shares.of(pixel).iter();
                 shares

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::{ContextReport, Driver, OpenOptions, open};
 use impasto_painting::frame::{
-    Brushes, Finish, Frame, FrameLights, FrameView, LayerKind, LayerRun, Quality, Stroke, StrokeSource, Style,
+    Brushes, Finish, Frame, FrameLights, FrameView, LayerKind, LayerRun, Lines, Quality, Stroke, StrokeSource, Style,
 };
 use impasto_system::System;
 
@@ -161,6 +161,7 @@ fn test_frame() -> Frame {
         strokes: vec![stroke],
         sources: vec![source],
         layers: vec![LayerRun { order: 0, kind: LayerKind::Body, first: 0, count: 1 }],
+        lines: Lines::default(),
         brushes: Arc::new(Brushes::of_names(&["flat"])),
         palettes: Arc::default(),
         finish: Finish::default(),

@@ -32,6 +32,7 @@ pub mod presence;
 pub mod sampling;
 pub mod screen_map;
 pub mod shells;
+pub mod smooth_path;
 pub mod solve;
 mod wide;
 

@@ -1,6 +1,6 @@
 //! The difference between two versions of a scene, compact and applicable in both directions: an entry of the history.
 
-use impasto_scene::document::{AmountDab, Guide, Object, PaintedAmount, Region, Scene};
+use impasto_scene::document::{AmountDab, Guide, Object, PaintedAmount, Region, Scene, Touch};
 
 /// The difference between two scenes.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -10,10 +10,11 @@ pub(crate) struct SceneChange {
 
 #[derive(Clone, Debug, PartialEq)]
 enum Part {
-    /// Everything but objects and regions.
+    /// Everything but objects, regions and touches.
     Head(Box<[Scene; 2]>),
     Objects(Splice<Object>),
     Regions(Splice<Region>),
+    Touches(Splice<Touch>),
     /// The guides of one region, where nothing else of any region differs.
     Guides(usize, Splice<Guide>),
     /// The painted amounts of one region, likewise.
@@ -61,6 +62,7 @@ impl SceneChange {
         }
         parts.extend(Splice::between(&before.objects, &after.objects).map(Part::Objects));
         parts.extend(regions(&before.regions, &after.regions));
+        parts.extend(Splice::between(&before.touches, &after.touches).map(Part::Touches));
         (!parts.is_empty()).then_some(Self { parts })
     }
 
@@ -70,6 +72,7 @@ impl SceneChange {
                 Part::Head(heads) => put_head(scene, &heads[1]),
                 Part::Objects(splice) => splice.forward(&mut scene.objects),
                 Part::Regions(splice) => splice.forward(&mut scene.regions),
+                Part::Touches(splice) => splice.forward(&mut scene.touches),
                 Part::Guides(region, splice) => splice.forward(&mut scene.regions[*region].guides),
                 Part::Amounts(region, splice) => splice.forward(&mut scene.regions[*region].amounts),
                 Part::Dabs([region, amount], splice) => {
@@ -85,6 +88,7 @@ impl SceneChange {
                 Part::Head(heads) => put_head(scene, &heads[0]),
                 Part::Objects(splice) => splice.backward(&mut scene.objects),
                 Part::Regions(splice) => splice.backward(&mut scene.regions),
+                Part::Touches(splice) => splice.backward(&mut scene.touches),
                 Part::Guides(region, splice) => splice.backward(&mut scene.regions[*region].guides),
                 Part::Amounts(region, splice) => splice.backward(&mut scene.regions[*region].amounts),
                 Part::Dabs([region, amount], splice) => {
@@ -106,10 +110,14 @@ impl SceneChange {
         let of_regions = |regions: &[Region]| regions.iter().map(of_region).sum::<usize>();
         let of_objects =
             |objects: &[Object]| objects.iter().map(|object| 256 + object.keys.len() * 80).sum::<usize>();
+        let of_touches = |touches: &[Touch]| {
+            touches.iter().map(|touch| 192 + size_of_val(&touch.points[..])).sum::<usize>()
+        };
         let of_part = |part: &Part| match part {
             Part::Head(_) => 4096,
             Part::Objects(splice) => of_objects(&splice.before) + of_objects(&splice.after),
             Part::Regions(splice) => of_regions(&splice.before) + of_regions(&splice.after),
+            Part::Touches(splice) => of_touches(&splice.before) + of_touches(&splice.after),
             Part::Guides(_, splice) => of_guides(&splice.before) + of_guides(&splice.after),
             Part::Amounts(_, splice) => of_amounts(&splice.before) + of_amounts(&splice.after),
             Part::Dabs(_, splice) => of_dabs(&splice.before) + of_dabs(&splice.after),
@@ -137,6 +145,7 @@ pub(crate) fn head(scene: &Scene) -> Scene {
         objects: Vec::new(),
         strokes: scene.strokes.clone(),
         regions: Vec::new(),
+        touches: Vec::new(),
         style: scene.style.clone(),
         aovs: scene.aovs.clone(),
     }
@@ -144,7 +153,8 @@ pub(crate) fn head(scene: &Scene) -> Scene {
 
 fn put_head(scene: &mut Scene, head: &Scene) {
     let (objects, regions) = (std::mem::take(&mut scene.objects), std::mem::take(&mut scene.regions));
-    *scene = Scene { objects, regions, ..head.clone() };
+    let touches = std::mem::take(&mut scene.touches);
+    *scene = Scene { objects, regions, touches, ..head.clone() };
 }
 
 fn regions(before: &[Region], after: &[Region]) -> Option<Part> {

@@ -9,6 +9,7 @@ mod material;
 mod region;
 mod scene;
 mod time;
+mod touches;
 
 use impasto_scene::document::{Object, Region, Scene};
 use impasto_scene::loaded::LoadedScene;
@@ -21,6 +22,7 @@ pub use keys::{KeyOf, KeyedValue, strokes_at};
 pub use region::{Regions, StrokeChange, StrokesOf};
 pub use scene::SceneEdit;
 pub use time::{Pose, Time, ease_name};
+pub use touches::Touches;
 
 use crate::refusal::Refusal;
 use crate::selection::Selection;
@@ -36,6 +38,8 @@ pub enum Command {
     Directions(Directions),
     /// Painted amounts.
     Amounts(Amounts),
+    /// Strokes placed by hand.
+    Touches(Touches),
     /// Regions and their strokes.
     Regions(Regions),
     /// Keys and the timeline.
@@ -81,6 +85,7 @@ impl Command {
             Self::Arrange(command) => command.edit(scene, before),
             Self::Directions(command) => command.edit(scene),
             Self::Amounts(command) => command.edit(scene),
+            Self::Touches(command) => command.edit(scene),
             Self::Regions(command) => command.edit(scene),
             Self::Time(command) => command.edit(scene),
             Self::Scene(command) => command.edit(scene),

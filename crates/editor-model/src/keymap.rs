@@ -79,6 +79,8 @@ pub enum Action {
     /// Takes this tool of Paint.
     Amount,
     /// Takes this tool of Paint.
+    Touch,
+    /// Takes this tool of Paint.
     Pick,
     /// The radius follows the pointer until a press.
     SizeRadius,

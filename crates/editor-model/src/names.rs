@@ -40,6 +40,9 @@ pub(crate) fn rename_object(scene: &mut Scene, old: &str, new: &str) {
             object.parent = Some(new.to_owned());
         }
     }
+    for touch in scene.touches.iter_mut().filter(|touch| touch.on == old) {
+        new.clone_into(&mut touch.on);
+    }
     for region in &mut scene.regions {
         rename_in(&mut region.on, old, new);
         let of_guides = region.guides.iter_mut().map(|guide| &mut guide.object);

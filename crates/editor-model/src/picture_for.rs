@@ -32,7 +32,7 @@ impl PictureFor {
         match selection.active() {
             Some(Item::Object(name)) => Self::Texture(name.clone()),
             Some(Item::Region(name) | Item::Guide(name, _)) => Self::Brush(StrokesOf::Region(name.clone())),
-            Some(Item::Camera | Item::Light(_)) | None => Self::Brush(StrokesOf::Scene),
+            Some(Item::Camera | Item::Light(_) | Item::Touch(_)) | None => Self::Brush(StrokesOf::Scene),
         }
     }
 

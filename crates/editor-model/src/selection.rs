@@ -15,6 +15,8 @@ pub enum Item {
     Region(String),
     /// A guide: the name of its region, and its index among that region's guides.
     Guide(String, usize),
+    /// A touch, by name: a stroke placed by hand.
+    Touch(String),
 }
 
 impl Item {
@@ -22,7 +24,11 @@ impl Item {
     pub fn name(&self) -> &str {
         match self {
             Self::Camera => "shot",
-            Self::Light(name) | Self::Object(name) | Self::Region(name) | Self::Guide(name, _) => name,
+            Self::Light(name)
+            | Self::Object(name)
+            | Self::Region(name)
+            | Self::Guide(name, _)
+            | Self::Touch(name) => name,
         }
     }
 
@@ -33,6 +39,7 @@ impl Item {
             Self::Light(name) => scene.lights.iter().any(|light| light.name == *name),
             Self::Object(name) => scene.objects.iter().any(|object| object.name == *name),
             Self::Region(name) => scene.regions.iter().any(|region| region.name == *name),
+            Self::Touch(name) => scene.touches.iter().any(|touch| touch.name == *name),
             Self::Guide(name, index) => {
                 scene.regions.iter().any(|region| region.name == *name && *index < region.guides.len())
             }

@@ -1,6 +1,6 @@
 //! The state of the editor that is not part of the document: mode, tools and their settings, shading, overlays, frame.
 
-use impasto_scene::document::{Amount, LightKind};
+use impasto_scene::document::{Amount, Color, LightKind};
 
 use crate::playback::Pacing;
 
@@ -47,6 +47,8 @@ pub enum Tool {
     Region,
     /// Paint: makes strokes wider, longer, denser or flatter under the drag.
     Amount,
+    /// Paint: lays single strokes by hand, over all others.
+    Touch,
     /// Paint: takes the direction under the cursor.
     Pick,
 }
@@ -185,6 +187,18 @@ pub struct ToolOptions {
     pub amount: Amount,
     /// Whether a drag lowers the amount instead of raising it.
     pub lowers: bool,
+    /// Half the width of a touch, points on the screen.
+    pub touch_radius_px: f64,
+    /// Whether a drag erases instead of laying a touch.
+    pub touch_erases: bool,
+    /// Whether a touch takes the colour that strokes have there; else `touch_color`.
+    pub touch_from_picture: bool,
+    /// The colour of touches.
+    pub touch_color: Color,
+    /// How far a touch covers what is below, 0..=1.
+    pub touch_opacity: f64,
+    /// How much narrower a touch ends than it begins, -1..=1.
+    pub touch_taper: f64,
     /// Whether strokes inside the ring are shown as a comb would lay them, before the press.
     pub foresee: bool,
 }
@@ -271,8 +285,21 @@ impl Default for ToolOptions {
             light: LightKind::Point,
             amount: Amount::Width,
             lowers: false,
+            touch_radius_px: 7.0,
+            touch_erases: false,
+            touch_from_picture: false,
+            touch_color: Color([1.0, 0.93, 0.8]),
+            touch_opacity: 1.0,
+            touch_taper: 0.0,
             foresee: true,
         }
+    }
+}
+
+impl ToolOptions {
+    /// Radius of a tool's ring, points on the screen.
+    pub fn radius_of(&self, tool: Tool) -> f64 {
+        if tool == Tool::Touch { self.touch_radius_px } else { self.radius_px }
     }
 }
 
@@ -334,6 +361,7 @@ impl Tool {
                 | Self::Erase
                 | Self::Region
                 | Self::Amount
+                | Self::Touch
                 | Self::Pick
         )
     }

@@ -32,6 +32,7 @@ mod sizing;
 mod smear;
 #[cfg(test)]
 mod tests;
+mod touch;
 mod turn;
 
 pub use hand::Hand;
@@ -278,6 +279,7 @@ pub(crate) fn waiting_words(tool: Tool, options: &ToolOptions, region: &str) -> 
         Tool::Erase => "[Drag] erase to automatic  [F] radius  [Middle] orbit".to_owned(),
         Tool::Region => format!("[Drag] add to {region}  [Ctrl] take away"),
         Tool::Amount => amounts::waiting_words(options),
+        Tool::Touch => touch::waiting_words(options),
         Tool::Pick => "[Click] take the direction  [Middle] orbit".to_owned(),
         _ => String::new(),
     }

@@ -36,6 +36,8 @@ icons! {
     ERASE = ICON_INK_ERASER;
     /// Paint amount.
     AMOUNT = ICON_LINE_WEIGHT;
+    /// Touch: a stroke placed by hand.
+    TOUCH = ICON_GESTURE;
     /// Region brush.
     REGION = ICON_LASSO_SELECT;
     /// Pick direction.

@@ -5,7 +5,7 @@
 use std::mem::offset_of;
 
 use impasto_painting::Frame;
-use impasto_painting::frame::{LayerRun, Stroke};
+use impasto_painting::frame::{LayerRun, LineStrip, LineVertex, Stroke};
 
 use crate::gl::{Attribute, Bound, Buffer, BufferUse, GlError, Gpu, Records, VertexArray, Vertices};
 use crate::marks::Marks;
@@ -20,6 +20,8 @@ pub(crate) struct StrokeBuffers {
     marks: Option<Marks>,
     strokes: Buffer,
     resolved: Buffer,
+    /// The vertices of the frame's lines.
+    lines: Buffer,
     count: usize,
     /// A point for each stroke.
     points: VertexArray,
@@ -34,6 +36,7 @@ impl StrokeBuffers {
             marks: None,
             strokes: Buffer::new(gpu, BufferUse::Streamed)?,
             resolved: Buffer::new(gpu, BufferUse::ReadBack)?,
+            lines: Buffer::new(gpu, BufferUse::Streamed)?,
             count: 0,
             points: VertexArray::empty(gpu)?,
             quads: VertexArray::empty(gpu)?,
@@ -52,6 +55,9 @@ impl StrokeBuffers {
         self.strokes.upload(bytemuck::cast_slice(&frame.strokes))?;
         self.resolved.reserve((self.count * RESOLVED_BYTES).max(RESOLVED_BYTES))?;
         self.points.set(&stroke_inputs(&self.strokes, 0, false), None);
+        if !frame.lines.vertices.is_empty() {
+            self.lines.upload(bytemuck::cast_slice(&frame.lines.vertices))?;
+        }
         Ok(())
     }
 
@@ -78,6 +84,16 @@ impl StrokeBuffers {
         self.gpu.draw(bound, &self.quads, Vertices::Quads { instances: run.count })
     }
 
+    /// Draws a strip of a line, in the pass that was begun last.
+    pub(crate) fn draw_strip(&self, bound: Bound<'_>, strip: LineStrip) -> Result<(), GlError> {
+        let stroke = strip.stroke as i32;
+        let mut inputs = stroke_inputs(&self.strokes, stroke, true);
+        inputs.extend(resolved_inputs(&self.resolved, stroke));
+        inputs.extend(line_inputs(&self.lines, strip.first as i32));
+        self.quads.set(&inputs, None);
+        self.gpu.draw(bound, &self.quads, Vertices::Strip { count: strip.count })
+    }
+
     /// The marks that were uploaded last.
     pub(crate) fn marks(&self) -> Option<&Marks> {
         self.marks.as_ref()
@@ -100,6 +116,22 @@ fn resolved_inputs(resolved: &Buffer, first: i32) -> [Attribute<'_>; 2] {
         stride_bytes: stride,
         offset_bytes: first * stride + offset,
         per_instance: true,
+    })
+}
+
+/// The fields of [`LineVertex`] as shader inputs, from vertex `first` on.
+fn line_inputs(lines: &Buffer, first: i32) -> [Attribute<'_>; 3] {
+    let stride = size_of::<LineVertex>() as i32;
+    let fields =
+        [(9, 4, offset_of!(LineVertex, at_px)), (10, 4, offset_of!(LineVertex, from_middle_px)), (11, 2, offset_of!(LineVertex, lean_px))];
+    fields.map(|(location, components, offset)| Attribute {
+        location,
+        buffer: lines,
+        components,
+        integer: false,
+        stride_bytes: stride,
+        offset_bytes: first * stride + offset as i32,
+        per_instance: false,
     })
 }
 

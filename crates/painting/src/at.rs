@@ -6,7 +6,7 @@ use glam::DAffine3;
 use impasto_scene::built_in_mesh;
 use impasto_scene::motion::{self, CameraPose};
 
-use crate::frame::{Frame, FrameBody, Strokes};
+use crate::frame::{Frame, FrameBody, Lines, Strokes};
 use crate::frame_options::FrameOptions;
 use crate::lights;
 use crate::painting::Painting;
@@ -59,6 +59,7 @@ impl Painting {
             strokes: Vec::new(),
             sources: Vec::new(),
             layers: Vec::new(),
+            lines: Lines::default(),
             brushes: Arc::clone(&self.brushes),
             palettes: self.palettes_at(frame),
             finish: self.finish.at(&view, f64::from(options.shot_height_px())),
@@ -82,6 +83,10 @@ impl Painting {
         }
         let mut view = self.view(camera, frame, options, |_| true);
         view.recall = recall.filter(|recall| recall.is_of(self));
-        view.strokes()
+        let mut strokes = view.strokes();
+        if self.has_touches() {
+            view.lay_touches(&mut strokes);
+        }
+        strokes
     }
 }

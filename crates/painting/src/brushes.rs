@@ -4,6 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use impasto_core::brush::{self, Mark};
 use impasto_core::hash;
+use impasto_scene::document::Scene;
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::presets::{LayerKind, ResolvedLayer};
 use rayon::prelude::*;
@@ -15,14 +16,15 @@ use crate::regions::RegionRule;
 static MARKS: [OnceLock<Arc<Vec<Mark>>>; brush::NAMES.len()] =
     [const { OnceLock::new() }; brush::NAMES.len()];
 
-/// The names of the brushes of all layers that lay paint, sorted.
-pub(crate) fn names_of_rules(rules: &[RegionRule]) -> Vec<String> {
+/// The names of the brushes of all layers that lay paint, and of touches, sorted.
+pub(crate) fn names_of(scene: &Scene, rules: &[RegionRule]) -> Vec<String> {
     let mut names: Vec<String> = rules
         .iter()
         .flat_map(|rule| LayerKind::ALL.map(|kind| rule.strokes.layer_of(kind)))
         .filter(|layer| layer.coverage > 0.0)
         .flat_map(|layer| layer.brushes.iter().cloned())
         .collect();
+    names.extend(scene.touches.iter().filter_map(|touch| touch.brush.clone()));
     names.sort();
     names.dedup();
     names

@@ -5,7 +5,7 @@ use impasto_core::solve::Bounds;
 use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
 
-use crate::frame::{LayerRun, Quality, Stroke, StrokeSource, Strokes};
+use crate::frame::{LayerRun, Lines, Quality, Stroke, StrokeSource, Strokes};
 use crate::order::{OrderEntry, PaintingOrder};
 use crate::painting_view::{CoatView, MOST_GROWTH, PaintingView};
 use crate::recall::Recall;
@@ -73,7 +73,7 @@ impl PaintingView<'_> {
                 }
             }
         }
-        Strokes { strokes, sources, layers: layers.into_iter().map(|(_, run)| run).collect() }
+        Strokes { strokes, sources, layers: layers.into_iter().map(|(_, run)| run).collect(), lines: Lines::default() }
     }
 
     /// A bit for each particle of a coat: whether it faces the eye and its stroke may be present in the picture, judged

@@ -6,6 +6,7 @@ use glam::{Affine2, DVec3, Mat4, Vec3, Vec4};
 use impasto_core::brush::Mark;
 use impasto_scene::limits::MAX_PIXELS;
 
+mod line;
 mod stroke;
 
 pub use crate::bent::Bent;
@@ -15,6 +16,7 @@ pub use impasto_core::bending::Vertices;
 pub use impasto_scene::document::{InkDrawing, InkLight, InkRule, Style, SumiE};
 pub use impasto_scene::mesh_file::{Sampler, Wrap};
 pub use impasto_scene::presets::LayerKind;
+pub use line::{LineStrip, LineVertex, Lines};
 pub use stroke::{ANY_COLOR, LayerRun, Mixing, Paint, Stroke, StrokeSource, Strokes};
 
 /// One picture, ready to draw.
@@ -40,6 +42,8 @@ pub struct Frame {
     pub sources: Vec<StrokeSource>,
     /// Runs of `strokes` that belong to one layer, in painting order.
     pub layers: Vec<LayerRun>,
+    /// The lines of the layer of touches.
+    pub lines: Lines,
     /// The marks of all brushes; shared between frames.
     pub brushes: Arc<Brushes>,
     /// The palettes that strokes are mixed from.
@@ -80,8 +84,8 @@ impl Frame {
 
     /// Replaces the strokes.
     pub fn lay(&mut self, strokes: Strokes) {
-        let Strokes { strokes, sources, layers } = strokes;
-        (self.strokes, self.sources, self.layers) = (strokes, sources, layers);
+        let Strokes { strokes, sources, layers, lines } = strokes;
+        (self.strokes, self.sources, self.layers, self.lines) = (strokes, sources, layers, lines);
     }
 }
 

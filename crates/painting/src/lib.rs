@@ -53,6 +53,8 @@ mod stroke;
 mod stroke_directions;
 mod stroke_size;
 mod surface;
+mod touch_lines;
+mod touches;
 mod traits;
 mod view;
 

@@ -27,6 +27,7 @@ use crate::prepare::Step;
 use crate::references::SceneReferences;
 use crate::regions::{BodyRegions, RegionRule};
 use crate::shapes::{noises_at, shapes};
+use crate::touches::LaidTouch;
 
 /// A prepared scene, from which frames are made at any time and through any camera. Immutable; cheap to clone.
 #[derive(Clone)]
@@ -42,6 +43,8 @@ pub struct Painting {
     /// Index of each rule's palette, or [`crate::frame::ANY_COLOR`].
     pub(crate) palette_of_rule: Vec<u8>,
     pub(crate) brushes: Arc<Brushes>,
+    /// The strokes that were placed by hand, in the order of the scene.
+    pub(crate) touches: Arc<Vec<LaidTouch>>,
     pub(crate) finish: FinishRule,
     /// All particles in painting order.
     pub(crate) order: Arc<PaintingOrder>,
@@ -233,7 +236,18 @@ impl Painting {
     pub fn paint_layers(&self) -> Vec<(i32, LayerKind)> {
         let orders: BTreeSet<i32> = self.rules.iter().map(|rule| rule.strokes.layer).collect();
         let kinds: BTreeSet<LayerKind> = self.coats.iter().map(|coat| coat.kind).collect();
-        orders.iter().flat_map(|&order| kinds.iter().map(move |&kind| (order, kind))).collect()
+        let of_regions = orders.iter().flat_map(|&order| kinds.iter().map(move |&kind| (order, kind)));
+        of_regions.chain(self.has_touches().then(|| (self.highest_layer(), LayerKind::Touches))).collect()
+    }
+
+    /// Whether any stroke was placed by hand.
+    pub fn has_touches(&self) -> bool {
+        !self.touches.is_empty() && self.style.settings().preparation().lays_touches
+    }
+
+    /// The highest `layer` of its regions: touches lie over it.
+    pub(crate) fn highest_layer(&self) -> i32 {
+        self.rules.iter().map(|rule| rule.strokes.layer).max().unwrap_or(0)
     }
 
     /// Area of the visible sides of one object, model units squared.

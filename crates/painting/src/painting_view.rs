@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DMat3, DVec3};
 use impasto_core::horn_exact::{self, ClipView};
 use impasto_core::lift::Lift;
 use impasto_core::solve::{BakedParticles, Bounds, ParticleView, SolvedParticle, SolvedParticles, solve};
@@ -26,6 +26,10 @@ use crate::view::PictureView;
 pub(crate) struct PaintingView<'a> {
     pub(crate) painting: &'a Painting,
     pub(crate) coats: Vec<CoatView<'a>>,
+    /// One per object.
+    pub(crate) bodies: Vec<PosedBody>,
+    /// Turns world space to the axes of the view: right, up, towards the eye.
+    pub(crate) view_from_world: DMat3,
     /// Half the picture's width and height.
     pub(crate) half_px: [f32; 2],
     /// The factor from pixels at the scene's own size to pixels of the picture.
@@ -72,11 +76,12 @@ pub(crate) struct PlacedParticle {
 }
 
 /// One body at a frame, shared by its coats.
-struct PosedBody {
-    hidden: bool,
-    world_from_model: DAffine3,
+pub(crate) struct PosedBody {
+    pub(crate) hidden: bool,
+    pub(crate) world_from_model: DAffine3,
+    pub(crate) map: ScreenMap,
     /// `None` at rest.
-    bent: Option<Arc<Bent>>,
+    pub(crate) bent: Option<Arc<Bent>>,
 }
 
 /// A stroke that follows the size of its surface becomes at most this many times as large as stated.
@@ -100,6 +105,7 @@ impl Painting {
             .map(|((world_from_model, bent), hidden)| PosedBody {
                 hidden,
                 world_from_model,
+                map: view.screen_map(world_from_model),
                 bent: bent.clone(),
             })
             .collect();
@@ -107,6 +113,8 @@ impl Painting {
         let mut painting_view = PaintingView {
             painting: self,
             coats: Vec::new(),
+            bodies,
+            view_from_world: DMat3::from_mat4(view.pose.view_from_world()),
             half_px: options.size_px.map(|side| side as f32 * 0.5),
             px_scale,
             near_far: view.frame_view(self.origin_in_world).near_far,
@@ -120,7 +128,7 @@ impl Painting {
         };
         let coats = self.coats.iter().filter(|coat| wanted(coat));
         painting_view.coats =
-            coats.map(|coat| painting_view.coat_view(coat, &view, &bodies[coat.object])).collect();
+            coats.map(|coat| painting_view.coat_view(coat, &view, &painting_view.bodies[coat.object])).collect();
         painting_view
     }
 
@@ -133,7 +141,7 @@ impl Painting {
 impl<'a> PaintingView<'a> {
     fn coat_view(&self, coat: &'a Coat, view: &PictureView, body: &PosedBody) -> CoatView<'a> {
         let world_from_model = body.world_from_model;
-        let map = view.screen_map(world_from_model);
+        let map = body.map;
         let wanted_per_px =
             self.strokes_of_rule.last().map_or(0.0, |strokes| f64::from(strokes.body().wanted_per_px()));
         let shown = coat.sampled.polygons.as_ref().map(|polygons| {

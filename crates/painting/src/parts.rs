@@ -129,7 +129,7 @@ impl Cap {
 /// How far the strokes of a layer fit the form. The underpainting and the scumble are there to be broad.
 pub(crate) fn fit_of(kind: LayerKind, fit: f32) -> f32 {
     match kind {
-        LayerKind::Underpainting | LayerKind::Scumble | LayerKind::Contour => 0.0,
+        LayerKind::Underpainting | LayerKind::Scumble | LayerKind::Contour | LayerKind::Touches => 0.0,
         LayerKind::Body | LayerKind::Form | LayerKind::Accents | LayerKind::Lights => fit,
     }
 }

@@ -33,6 +33,7 @@ use crate::regions::{self, BodyGuide, BodyRegions};
 use crate::shadow_bounds;
 use crate::shapes::{BodyShapes, file_bend, shapes};
 use crate::surface::SurfaceInputs;
+use crate::touches::{TouchInputs, TouchMemo};
 use crate::view::PictureView;
 use options::{StepClock, fits};
 
@@ -45,6 +46,7 @@ pub struct Preparer {
     objects: HashMap<String, ObjectCache>,
     order: Cached<OrderInputs, Arc<PaintingOrder>>,
     brushes: Option<Arc<Brushes>>,
+    touches: TouchMemo,
 }
 
 /// Prepares one scene; for many versions of one, keep a [`Preparer`].
@@ -147,7 +149,10 @@ impl Preparer {
         if matches!(kept, Kept::Taken(..)) {
             clock.lap("taken");
         }
-        Ok(Painting { bodies, coats, brushes, order, kept, steps: clock.steps, ..plain })
+        let bodies_laid: Vec<_> = bodies.iter().map(|body| (&body.surface, &*body.regions)).collect();
+        let inputs = TouchInputs { rules: context.rules, bodies: &bodies_laid, coats: &coats, brushes: &brushes };
+        let touches = self.touches.lay(scene, &inputs);
+        Ok(Painting { bodies, coats, brushes, order, kept, touches, steps: clock.steps, ..plain })
     }
 
     /// Makes the strokes, step by step.
@@ -160,7 +165,7 @@ impl Preparer {
     ) -> Result<Strokes, PrepareError> {
         let &Work { loaded, context, objects, options } = work;
         let go_on = || if (options.give_up)() { Err(PrepareError::GivenUp) } else { Ok(()) };
-        let brushes = self.brushes(brushes::of_names(loaded, brushes::names_of_rules(context.rules)));
+        let brushes = self.brushes(brushes::of_names(loaded, brushes::names_of(context.scene, context.rules)));
         clock.lap("brushes");
         go_on()?;
         caches.par_iter_mut().zip(objects).for_each(|(cache, &object)| cache.count(context, object));
@@ -292,7 +297,7 @@ impl Work<'_> {
         let surfaces: Vec<Arc<BodySurface>> = bodies.iter().map(|body| Arc::clone(&body.surface)).collect();
         let key = SceneKey { loaded, context, objects, surfaces: &surfaces }.find();
         let Some(bytes) = find(&key) else { return (Kept::NotThere(key), None) };
-        let brushes = brushes::names_of_rules(context.rules);
+        let brushes = brushes::names_of(context.scene, context.rules);
         let wanted = Wanted { surfaces: &surfaces, rules: context.rules.len(), brushes };
         match KeptPainting::read(&*bytes, &key, wanted) {
             Ok(found) => (Kept::Taken(key, bytes.count()), Some(found)),
@@ -405,6 +410,7 @@ fn plain(
         palettes: Arc::new(palettes),
         palette_of_rule,
         brushes: Arc::default(),
+        touches: Arc::default(),
         finish: FinishRule::new(scene, &style, &references.own().view),
         rules: Arc::new(rules),
         order: Arc::default(),

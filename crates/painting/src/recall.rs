@@ -36,6 +36,8 @@ impl Recall {
             LayerKind::Form | LayerKind::Accents | LayerKind::Contour | LayerKind::Lights => {
                 SMALL << (turn % 16)
             }
+            // No coat carries them.
+            LayerKind::Touches => 0,
             LayerKind::Body | LayerKind::Scumble => LARGE << (turn % 2),
             // Drafts have no underpainting.
             LayerKind::Underpainting => 0,
@@ -47,8 +49,11 @@ impl Recall {
         };
         let mut words: Vec<u64> = order.numbers().chunks(Self::WORD).map(word).collect();
         for (index, source) in frame.sources.iter().enumerate() {
-            if is_present(index) {
-                words[source.place as usize / Self::WORD] |= 1 << (source.place as usize % Self::WORD);
+            // Touches have no place among the particles, and are always asked for.
+            if let Some(word) = words.get_mut(source.place as usize / Self::WORD)
+                && is_present(index)
+            {
+                *word |= 1 << (source.place as usize % Self::WORD);
             }
         }
         Self { order, words }

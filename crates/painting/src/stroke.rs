@@ -193,7 +193,7 @@ impl PaintingView<'_> {
         wanted.ln() as f32
     }
 
-    fn overrun_px(&self, edges: Edges, of_layer: f32, noise: f32) -> f32 {
+    pub(crate) fn overrun_px(&self, edges: Edges, of_layer: f32, noise: f32) -> f32 {
         match edges {
             Edges::Clip => 0.0,
             Edges::Overrun(px) => {
@@ -249,7 +249,7 @@ fn patch(noise: f32) -> f32 {
     smoothstep(0.5 + 0.45 * noise).max(0.02)
 }
 
-fn mixing(strokes: &ResolvedStrokes, boldness: f32, palette: u8) -> Mixing {
+pub(crate) fn mixing(strokes: &ResolvedStrokes, boldness: f32, palette: u8) -> Mixing {
     let byte = |value: f32, scale: f32| (value * scale).round() as u8;
     Mixing {
         jitter: byte(strokes.color_jitter * boldness, Mixing::SCALE),

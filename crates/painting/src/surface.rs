@@ -231,7 +231,7 @@ impl BodySurface {
     }
 
     /// sRGB albedo at a particle, 8 bits a channel, as 0xAABBGGRR; A is 0 where unlit.
-    fn albedo_srgb8(&self, particle: &Particle) -> u32 {
+    pub(crate) fn albedo_srgb8(&self, particle: &Particle) -> u32 {
         let material = self.material_of_triangle(particle.triangle as usize);
         let Some(material) = self.materials.get(material) else { return NO_MATERIAL };
         let mut albedo = material.albedo;

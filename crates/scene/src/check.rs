@@ -21,6 +21,7 @@ mod on_meshes;
 mod regions;
 mod shot;
 mod strokes;
+mod touches;
 
 pub(crate) use strokes::brush_pictures;
 
@@ -47,6 +48,7 @@ pub fn check(scene: &Scene) -> Vec<Finding> {
     strokes::check(scene, &mut findings);
     regions::check(scene, &mut findings);
     amounts::check(scene, &mut findings);
+    touches::check(scene, &mut findings);
     findings.done()
 }
 

@@ -14,6 +14,8 @@ mod strokes;
 mod style;
 mod style_settings;
 mod sumi_e;
+mod touches;
+mod up;
 
 use serde::{Deserialize, Serialize};
 
@@ -39,6 +41,8 @@ pub use strokes::{InspectorPlace, ResolvedStrokes, STROKE_NUMBERS, Shown, Stroke
 pub use style::Style;
 pub use style_settings::{CanvasFollows, Preparation, SettingRule, Solver, StyleInfo, StyleSettings};
 pub use sumi_e::{InkDrawing, InkLight, InkRule, SumiE};
+pub use touches::{Touch, TouchPoint};
+pub use up::Up;
 
 /// A whole scene file.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
@@ -91,6 +95,9 @@ pub struct Scene {
     /// Parts of objects with settings of their own; a later region wins over an earlier one.
     #[serde(default, skip_serializing_if = "is_default")]
     pub regions: Vec<Region>,
+    /// Strokes placed by hand, the last paint of all; a later one lies over an earlier one.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub touches: Vec<Touch>,
     /// How the scene is drawn.
     #[serde(default)]
     pub style: Style,
@@ -255,51 +262,6 @@ fn one_frame() -> u32 {
 
 fn is_one_frame(frames: &u32) -> bool {
     *frames == 1
-}
-
-/// Which axis of the mesh file points up.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
-pub enum Up {
-    /// Y up, −Z forward (the usual OBJ export).
-    #[default]
-    Y,
-    /// Z up, Y forward (CAD, raw Blender).
-    Z,
-    /// X up.
-    X,
-    /// −X up.
-    NegX,
-    /// −Y up: upside down.
-    NegY,
-    /// −Z up.
-    NegZ,
-}
-
-impl Up {
-    /// All, with their names on the command line.
-    pub const ALL: [(&'static str, Self); 6] = [
-        ("x", Self::X),
-        ("y", Self::Y),
-        ("z", Self::Z),
-        ("-x", Self::NegX),
-        ("-y", Self::NegY),
-        ("-z", Self::NegZ),
-    ];
-
-    /// Turns the file's axes so that Y points up.
-    pub fn y_up_from_file(self) -> glam::DMat3 {
-        use glam::DVec3;
-        // The images of the file's X, Y and Z.
-        let [x, y, z] = match self {
-            Self::Y => [DVec3::X, DVec3::Y, DVec3::Z],
-            Self::Z => [DVec3::X, DVec3::NEG_Z, DVec3::Y],
-            Self::X => [DVec3::Y, DVec3::NEG_X, DVec3::Z],
-            Self::NegX => [DVec3::NEG_Y, DVec3::X, DVec3::Z],
-            Self::NegY => [DVec3::X, DVec3::NEG_Y, DVec3::NEG_Z],
-            Self::NegZ => [DVec3::X, DVec3::Z, DVec3::NEG_Y],
-        };
-        glam::DMat3::from_cols(x, y, z)
-    }
 }
 
 /// A thing in the scene: a mesh file or one group of it, placed and keyed.

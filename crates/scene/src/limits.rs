@@ -102,6 +102,21 @@ pub const MAX_AMOUNTS: usize = 4096;
 /// Dabs of all painted amounts of a scene.
 pub const MAX_AMOUNT_DABS: usize = 32_768;
 
+/// Touches of a scene: strokes placed by hand.
+pub const MAX_TOUCHES: usize = 2048;
+
+/// Points of one touch.
+pub const MAX_TOUCH_POINTS: usize = 256;
+
+/// Points of all touches of a scene.
+pub const MAX_ALL_TOUCH_POINTS: usize = 32_768;
+
+/// Width of a touch, pixels.
+pub const TOUCH_WIDTH_PX: std::ops::RangeInclusive<f64> = 1.0..=400.0;
+
+/// Length of a touch at a single place, pixels.
+pub const TOUCH_LENGTH_PX: std::ops::RangeInclusive<f64> = 1.0..=4000.0;
+
 /// Floods of a scene.
 pub const MAX_FLOODS: usize = 256;
 

@@ -161,6 +161,7 @@ fn bare() -> Scene {
         objects: Vec::new(),
         strokes: StrokeSettings::default(),
         regions: Vec::new(),
+        touches: Vec::new(),
         style: Default::default(),
         aovs: Vec::new(),
     }

@@ -37,10 +37,12 @@ pub enum LayerKind {
     Contour,
     /// A few thick ones on highlights.
     Lights,
+    /// Those that were placed by hand, over all others.
+    Touches,
 }
 
 impl LayerKind {
-    /// All, from the first laid on to the last.
+    /// Those whose strokes Impasto places itself, from the first laid on to the last.
     pub const ALL: [Self; 7] = [
         Self::Underpainting,
         Self::Body,
@@ -61,6 +63,7 @@ impl LayerKind {
             Self::Accents => "accents",
             Self::Contour => "contour",
             Self::Lights => "lights",
+            Self::Touches => "touches",
         }
     }
 }

@@ -19,7 +19,7 @@ const TESTS: Place = ("a test module", &["tests/it/"], ".rs");
 
 /// Names in those places that are no techniques.
 const NO_TECHNIQUES: &[&str] =
-    &["shared", "mod", "README", "reference", "paint", "inverse_bilinear", "bending", "amounts"];
+    &["shared", "mod", "README", "reference", "paint", "inverse_bilinear", "bending", "amounts", "touches"];
 
 /// Techniques that lack one of their parts.
 pub fn check(files: &[String]) -> Vec<Finding> {

@@ -4,6 +4,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use impasto_scene::document::{ObjectKey, Scene};
 use impasto_scene::motion;
 
+use super::touches::touch_mut;
 use super::{Done, counted, object_mut, posable_object, region_mut, unlocked_object, unlocked_region};
 use crate::euler;
 use crate::names;
@@ -13,9 +14,9 @@ use crate::selection::{Item, Selection};
 /// Names, parents, order, deletion.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Edit {
-    /// Deletes things. An object is deleted with its regions; its children move to its parent.
+    /// Deletes things. An object is deleted with its regions and touches; its children move to its parent.
     Delete(Vec<Item>),
-    /// Makes copies of objects (with their regions), regions, lights and guides, and selects the copies.
+    /// Makes copies of objects (with their regions and touches), regions, lights, guides and touches, and selects the copies.
     Duplicate(Vec<Item>),
     /// Gives a thing another name.
     Rename(Item, String),
@@ -26,9 +27,9 @@ pub enum Edit {
         /// The new parent, if any.
         parent: Option<String>,
     },
-    /// Moves an object, a region, a light or a guide to another place in its list. Later regions win.
+    /// Moves an object, a region, a light, a guide or a touch to another place in its list. Later regions win.
     Reorder(Item, usize),
-    /// Hides objects and regions, or shows them again.
+    /// Hides objects, regions and touches, or shows them again.
     SetHidden(Vec<Item>, bool),
     /// Locks objects and regions, so that they cannot be changed, or unlocks them.
     SetLocked(Vec<Item>, bool),
@@ -47,6 +48,7 @@ impl Edit {
                     match item {
                         Item::Object(name) => object_mut(scene, name)?.hidden = *hidden,
                         Item::Region(name) => region_mut(scene, name)?.hidden = *hidden,
+                        Item::Touch(name) => touch_mut(scene, name)?.hidden = *hidden,
                         _ => return Err(Refusal::new(format!("{} cannot be hidden", item.name()))),
                     }
                 }
@@ -99,6 +101,10 @@ fn delete(scene: &mut Scene, items: &[Item]) -> Result<Done, Refusal> {
                 unlocked_region(scene, region)?.guides.remove(*index);
             }
             Item::Object(name) => delete_object(scene, name)?,
+            Item::Touch(name) => {
+                touch_mut(scene, name)?;
+                scene.touches.retain(|touch| touch.name != *name);
+            }
         }
     }
     Ok(Done::new(text).selecting(Selection::default()))
@@ -118,6 +124,7 @@ fn delete_object(scene: &mut Scene, name: &str) -> Result<(), Refusal> {
     }
     scene.objects.retain(|object| object.name != name);
     scene.regions.retain(|region| region.on.object() != Some(name));
+    scene.touches.retain(|touch| touch.on != name);
     for region in &mut scene.regions {
         region.guides.retain(|guide| guide.object.as_deref() != Some(name));
         region.amounts.retain(|amount| amount.object.as_deref() != Some(name));
@@ -149,6 +156,12 @@ fn duplicate(scene: &mut Scene, items: &[Item]) -> Result<Done, Refusal> {
                 guides.push(guide);
                 made.push(Item::Guide(region.clone(), guides.len() - 1));
             }
+            Item::Touch(name) => {
+                let mut touch = touch_mut(scene, name)?.clone();
+                touch.name = names::unique(name, scene.touches.iter().map(|touch| touch.name.as_str()));
+                made.push(Item::Touch(touch.name.clone()));
+                scene.touches.push(touch);
+            }
             Item::Camera => return Err(Refusal::new("The shot has one camera")),
         }
     }
@@ -168,9 +181,16 @@ fn duplicate_object(scene: &mut Scene, name: &str) -> Result<String, Refusal> {
     for mut region in of_it {
         region.name = names::unique(&region.name, scene.regions.iter().map(|region| region.name.as_str()));
         // `rename_object` gets a scene with only this region, so that nothing else is renamed.
-        let mut alone = Scene { objects: Vec::new(), regions: vec![region], ..scene.clone() };
+        let mut alone =
+            Scene { objects: Vec::new(), regions: vec![region], touches: Vec::new(), ..scene.clone() };
         names::rename_object(&mut alone, name, &new);
         scene.regions.append(&mut alone.regions);
+    }
+    let touches: Vec<_> = scene.touches.iter().filter(|touch| touch.on == name).cloned().collect();
+    for mut touch in touches {
+        touch.name = names::unique(&touch.name, scene.touches.iter().map(|touch| touch.name.as_str()));
+        touch.on.clone_from(&new);
+        scene.touches.push(touch);
     }
     scene.objects.push(copy);
     Ok(new)
@@ -205,11 +225,16 @@ fn rename(scene: &mut Scene, item: &Item, name: &str) -> Result<Done, Refusal> {
             let light = scene.lights.iter_mut().find(|light| light.name == old);
             light.ok_or_else(|| Refusal::unknown("light", &old))?.name.clone_from(&new);
         }
+        Item::Touch(_) => {
+            taken(Box::new(scene.touches.iter().map(|touch| touch.name.as_str())))?;
+            touch_mut(scene, &old)?.name.clone_from(&new);
+        }
         Item::Camera | Item::Guide(..) => return Err(Refusal::new("That has no name of its own")),
     }
     let renamed = match item {
         Item::Object(_) => Item::Object(new.clone()),
         Item::Region(_) => Item::Region(new.clone()),
+        Item::Touch(_) => Item::Touch(new.clone()),
         _ => Item::Light(new.clone()),
     };
     Ok(Done::new(format!("Rename to {new}")).selecting(Selection::only(renamed)))
@@ -299,6 +324,10 @@ fn reorder(scene: &mut Scene, item: &Item, to: usize) -> Result<Done, Refusal> {
             let to = to.min(guides.len() - 1);
             let selection = Selection::only(Item::Guide(region.clone(), to));
             return Ok(Done::new(format!("Move guide {way}")).selecting(selection));
+        }
+        Item::Touch(_) => {
+            let from = scene.touches.iter().position(|touch| touch.name == name);
+            shift(&mut scene.touches, from, to)?
         }
         Item::Camera => return Err(Refusal::new("The shot has one camera")),
     };

@@ -145,6 +145,7 @@ impl Editor {
             Action::Erase => Tool::Erase,
             Action::Region => Tool::Region,
             Action::Amount => Tool::Amount,
+            Action::Touch => Tool::Touch,
             Action::Pick => Tool::Pick,
             Action::Move | Action::Turn | Action::Scale => {
                 let (operation, tool) = match action {

@@ -146,11 +146,14 @@ impl Editor {
             loose.iter().flat_map(|loose| loose.poses.iter().map(|(name, _)| name.clone())).collect();
         let mut commands: Vec<Command> =
             loose.iter().flat_map(|loose| loose.poses.iter().map(|(_, command)| command.clone())).collect();
-        let keyed = self.document.selection().items().iter().map(|item| match item {
-            Item::Object(name) => KeyOf::Object(name.clone()),
-            Item::Camera => KeyOf::Camera,
-            Item::Light(name) => KeyOf::Light(name.clone()),
-            Item::Region(name) | Item::Guide(name, _) => KeyOf::Strokes(StrokesOf::Region(name.clone())),
+        let keyed = self.document.selection().items().iter().filter_map(|item| match item {
+            Item::Object(name) => Some(KeyOf::Object(name.clone())),
+            Item::Camera => Some(KeyOf::Camera),
+            Item::Light(name) => Some(KeyOf::Light(name.clone())),
+            Item::Region(name) | Item::Guide(name, _) => {
+                Some(KeyOf::Strokes(StrokesOf::Region(name.clone())))
+            }
+            Item::Touch(_) => None,
         });
         let is_posed = |of: &KeyOf| match of {
             KeyOf::Camera | KeyOf::Object(_) => posed.iter().any(|name| *name == of.name()),

@@ -128,6 +128,7 @@ pub(super) const BINDINGS: &[Binding] = &[
     both(Action::Erase, "Erase to automatic", PAINT, &[plain(Key::Letter('E'))]),
     both(Action::Region, "Region", PAINT, &[plain(Key::Letter('M'))]),
     both(Action::Amount, "Paint amount", PAINT, &[plain(Key::Letter('P'))]),
+    both(Action::Touch, "Touch", PAINT, &[plain(Key::Letter('U'))]),
     both(Action::Pick, "Pick direction", PAINT, &[plain(Key::Letter('I'))]),
     each(Action::SizeRadius, "Brush radius", PAINT, &[plain(Key::Letter('F'))], &[plain(Key::Letter('B'))]),
     each(

@@ -136,6 +136,7 @@ fn the_keys_of_both_presets_are_as_documented() {
         (A::Erase, paint, "E", "E"),
         (A::Region, paint, "M", "M"),
         (A::Amount, paint, "P", "P"),
+        (A::Touch, paint, "U", "U"),
         (A::Pick, paint, "I", "I"),
         (A::SetKey, posing, "I", "S"),
         (A::FlipUnderCursor, paint, "X", "X"),

@@ -36,7 +36,7 @@ pub(super) fn dabs(touched: &[PathPoint], radius: f64, by: f64) -> Vec<AmountDab
 }
 
 /// A value with no more digits than tell a thousandth of a length: a file of dabs stays readable.
-fn short(value: f64, length: f64) -> f64 {
+pub(super) fn short(value: f64, length: f64) -> f64 {
     let digits = (3.0 - length.log10().floor()).clamp(0.0, 12.0) as i32;
     let scale = 10f64.powi(digits);
     let rounded = (value * scale).round() / scale;

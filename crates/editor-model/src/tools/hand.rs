@@ -6,11 +6,15 @@ use super::brush::Brush;
 use super::curve::Curve;
 use super::fill::Fill;
 use super::sizing::{self, Sizing};
+use super::touch::TouchTool;
 use super::turn::{self, Turn};
 use super::{Surroundings, ToolEvent, ToolOutput, region};
 use crate::command::{Command, Directions};
 use crate::keymap::Action;
-use crate::session::{RegionBy, Tool};
+use crate::session::{RegionBy, Tool, ToolOptions};
+
+/// The largest radius of a touch, points on the screen.
+const MOST_TOUCH_PX: f64 = 100.0;
 
 /// The active tool of Paint and its state. One lives as long as the window.
 #[derive(Clone, Debug, Default)]
@@ -32,6 +36,7 @@ enum ToolState {
     Curve(Curve),
     Fill(Fill),
     Turn(Turn),
+    Touch(TouchTool),
 }
 
 impl Hand {
@@ -43,12 +48,28 @@ impl Hand {
             ToolState::Curve(curve) => curve.is_busy(),
             ToolState::Fill(fill) => fill.is_busy(),
             ToolState::Turn(turn) => turn.is_busy(),
+            ToolState::Touch(touch) => touch.is_busy(),
         };
         held || self.sizing.is_some()
     }
 
     /// Handles an event for a tool of Paint; a change of the tool cancels what the last one had begun.
     pub fn take(&mut self, tool: Tool, event: &ToolEvent, around: &Surroundings) -> ToolOutput {
+        if tool != Tool::Touch {
+            return self.take_as(tool, event, around);
+        }
+        // A touch is much narrower than a brush, so it has a radius of its own, which the same keys change.
+        let radius_px = around.options.radius_px;
+        let options = ToolOptions { radius_px: around.options.touch_radius_px, ..around.options.clone() };
+        let mut output = self.take_as(tool, event, &Surroundings { options: &options, ..*around });
+        if let Some(options) = &mut output.options {
+            options.touch_radius_px = options.radius_px.min(MOST_TOUCH_PX);
+            options.radius_px = radius_px;
+        }
+        output
+    }
+
+    fn take_as(&mut self, tool: Tool, event: &ToolEvent, around: &Surroundings) -> ToolOutput {
         if self.tool != Some(tool) {
             let at_px = self.at_px;
             *self = Self { tool: Some(tool), held: ToolState::of(tool), at_px, ..Self::default() };
@@ -91,6 +112,7 @@ impl Hand {
             ToolState::Curve(curve) => curve.take(event, around),
             ToolState::Fill(fill) => fill.take(event, around),
             ToolState::Turn(turn) => turn.take(event, around),
+            ToolState::Touch(touch) => touch.take(event, around),
             ToolState::Nothing if tool == Tool::Pick => turn::pick(event, around),
             ToolState::Nothing => ToolOutput::default(),
         }
@@ -130,6 +152,7 @@ impl ToolState {
             Tool::GuideCurve => Self::Curve(Curve::default()),
             Tool::Fill => Self::Fill(Fill::default()),
             Tool::TurnDirection => Self::Turn(Turn::default()),
+            Tool::Touch => Self::Touch(TouchTool::default()),
             _ => Self::Nothing,
         }
     }

@@ -18,6 +18,7 @@ mod amounts;
 mod clicks;
 mod curves;
 mod strokes;
+mod touches;
 
 const SIZE_PX: DVec2 = DVec2::new(640.0, 360.0);
 const NONE: Modifiers = Modifiers { ctrl: false, shift: false, alt: false };

@@ -218,6 +218,7 @@ pub(super) fn fresh(editor: &Editor, view: &View, ui: &Ui) -> Fresh {
     let visible = |object: usize| scene.objects.get(object).is_some_and(|object| !object.hidden);
     let sight = Sight { picker: editor.picker(), poses: &poses, visible: &visible, view };
     let mut guides = if is_painting { guides(editor, scene, &sight) } else { Vec::new() };
+    guides.extend(selected_touch(editor, scene, &sight));
     if is_painting && output.line_px.len() > 1 {
         guides.push(GuideCurve {
             runs_px: vec![output.line_px.clone()],
@@ -241,7 +242,7 @@ pub(super) fn fresh(editor: &Editor, view: &View, ui: &Ui) -> Fresh {
         stand_ins: if editor.session.mode == Mode::Arrange { stand_ins(editor, scene) } else { Vec::new() },
         missing: motion_marks::missing(editor, &poses),
         singular: singular(editor, &poses, view),
-        radius_px: editor.session.options.radius_px,
+        radius_px: editor.session.options.radius_of(editor.session.tool()),
         hides_pointer: has_ring && editor.session.tool() != Tool::Pick,
     }
 }
@@ -317,6 +318,20 @@ fn guides(editor: &Editor, scene: &Scene, sight: &Sight<'_>) -> Vec<GuideCurve> 
     };
     let is_shown = |index: usize| index >= first || selected == Some(index);
     region.guides.iter().enumerate().filter(|(index, _)| is_shown(*index)).filter_map(curve).collect()
+}
+
+/// The line of the selected touch, with its points as handles.
+fn selected_touch(editor: &Editor, scene: &Scene, sight: &Sight<'_>) -> Option<GuideCurve> {
+    let Item::Touch(name) = editor.document().selection().active()? else { return None };
+    let touch = scene.touches.iter().find(|touch| touch.name == *name)?;
+    let object = scene.objects.iter().position(|object| object.name == touch.on)?;
+    let pose = sight.poses.get(object)?;
+    let place = |at: DVec3, normal: DVec3| {
+        lifted(&(*pose * sight.picker.now_from_rest(object, at)), at, normal)
+    };
+    let handles: Vec<[DVec3; 2]> =
+        touch.points.iter().map(|point| place(point.at.into(), point.normal.into())).collect();
+    Some(GuideCurve { selected: true, ..GuideCurve::seen(&handles, &handles, sight) })
 }
 
 fn lifted(pose: &DAffine3, at: DVec3, normal: DVec3) -> [DVec3; 2] {

@@ -17,6 +17,7 @@ use Line::{Add, Do, Separator};
 
 const OF_OBJECT: &[Line] = &[
     Do(Action::Comb),
+    Do(Action::Touch),
     Separator,
     Do(Action::Move),
     Do(Action::Turn),
@@ -40,6 +41,7 @@ const OF_REGION: &[Line] = &[
     Do(Action::TurnDirection),
     Do(Action::Smooth),
     Do(Action::Erase),
+    Do(Action::Touch),
     Do(Action::Amount),
     Do(Action::Region),
     Separator,
@@ -51,6 +53,16 @@ const OF_REGION: &[Line] = &[
     Do(Action::Lock),
     Separator,
     Do(Action::SetKey),
+];
+
+const OF_TOUCH: &[Line] = &[
+    Do(Action::Touch),
+    Separator,
+    Do(Action::Duplicate),
+    Do(Action::Rename),
+    Do(Action::Delete),
+    Separator,
+    Do(Action::Hide),
 ];
 
 const OF_GUIDE: &[Line] = &[Do(Action::Duplicate), Do(Action::Delete)];
@@ -118,6 +130,7 @@ pub fn context_menu(ui: &Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
             Some(Item::Object(_)) => OF_OBJECT,
             Some(Item::Region(_)) => OF_REGION,
             Some(Item::Guide(..)) => OF_GUIDE,
+            Some(Item::Touch(_)) => OF_TOUCH,
             Some(Item::Light(_)) => OF_LIGHT,
             Some(Item::Camera) => OF_CAMERA,
             None => OF_VIEW,

@@ -117,6 +117,7 @@ const TOOLS: &[Line] = &[
     Do(Action::TurnDirection),
     Do(Action::Smooth),
     Do(Action::Erase),
+    Do(Action::Touch),
     Do(Action::Amount),
     Do(Action::Region),
     Do(Action::Pick),
@@ -295,6 +296,10 @@ pub(super) fn is_on(shown: &PanelInput<'_>, action: Action) -> bool {
         Item::Region(name) => {
             let region = scene.regions.iter().find(|region| region.name == *name)?;
             Some([region.hidden, region.locked])
+        }
+        Item::Touch(name) => {
+            let touch = scene.touches.iter().find(|touch| touch.name == *name)?;
+            Some([touch.hidden, false])
         }
         Item::Camera | Item::Light(_) | Item::Guide(..) => None,
     };

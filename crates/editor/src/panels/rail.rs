@@ -13,7 +13,7 @@ const POSING: &[&[Tool]] =
     &[&[Tool::Select, Tool::Move, Tool::Turn, Tool::Scale], &[Tool::AddLight, Tool::ShotCamera]];
 const PAINT: &[&[Tool]] = &[
     &[Tool::Comb, Tool::GuideCurve, Tool::Fill, Tool::TurnDirection, Tool::Smooth, Tool::Erase],
-    &[Tool::Amount, Tool::Region, Tool::Pick],
+    &[Tool::Touch, Tool::Amount, Tool::Region, Tool::Pick],
 ];
 
 /// Takes the left 48 points of `ui`.

@@ -50,6 +50,11 @@ pub(super) fn face(tool: Tool) -> ToolFace {
             icons::AMOUNT,
             "Makes strokes wider, longer, denser or flatter where it is dragged.",
         ),
+        Tool::Touch => keyed(
+            Action::Touch,
+            icons::TOUCH,
+            "Lays single strokes by hand over all others: a click one, a drag a long one along the surface.",
+        ),
         Tool::Region => keyed(Action::Region, icons::REGION, "Says which faces belong to a region."),
         Tool::Pick => keyed(
             Action::Pick,

@@ -6,3 +6,4 @@ const int SCUMBLE = 3;
 const int ACCENTS = 4;
 const int CONTOUR = 5;
 const int LIGHTS = 6;
+const int TOUCHES = 7;

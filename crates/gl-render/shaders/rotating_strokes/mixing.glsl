@@ -4,10 +4,10 @@ uniform sampler2D palettes;      // a row each: pigments in Oklab, w how far col
 const uint ANY_COLOR = 255u;
 
 // Standard deviations from stroke to stroke, by layer: lightness, hue in degrees, chroma as a share.
-const vec3 JITTER[7] = vec3[7](
+const vec3 JITTER[8] = vec3[8](
     vec3(0.020, 7.0, 0.10), vec3(0.007, 3.5, 0.06), vec3(0.005, 3.0, 0.05),
     vec3(0.012, 8.0, 0.06), vec3(0.004, 3.0, 0.05), vec3(0.004, 3.0, 0.05),
-    vec3(0.005, 2.0, 0.04)
+    vec3(0.005, 2.0, 0.04), vec3(0.004, 2.0, 0.04)
 );
 
 struct Mixing {

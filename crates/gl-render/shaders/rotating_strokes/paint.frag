@@ -11,6 +11,9 @@ flat in vec4 mark;
 flat in vec4 body;
 flat in vec4 own;
 flat in vec4 plane;
+#ifdef LINE
+in vec4 line;
+#endif
 #ifdef SHAPED
 flat in vec4 form;
 flat in float leaning;
@@ -54,6 +57,15 @@ const float HEIGHT_SCALE = 1.5;
 const float FREE = 1e6;
 const float STEEPNESS = 4.0;
 
+// The depth of the stroke where a pixel lies on it.
+float own_depth() {
+#ifdef LINE
+    return line.x;
+#else
+    return own.x;
+#endif
+}
+
 // The body that the middle of a pixel shows.
 float body_at(vec2 at_px) {
     ivec2 texel = clamp(ivec2(floor(at_px)), ivec2(0), textureSize(surface, 0) - 1);
@@ -62,11 +74,12 @@ float body_at(vec2 at_px) {
 
 // How much paint lies past the stroke's own body, over which it reaches this far: ragged, because hairs with more paint run further.
 float past_body(vec2 here, float reach_px) {
-    float bias = 2.0 * units_per_px_at_1 * mix(own.x, 1.0, orthographic);
+    float depth = own_depth();
+    float bias = 2.0 * units_per_px_at_1 * mix(depth, 1.0, orthographic);
     float away_px = length(from_center_px);
     vec2 inward = -from_center_px / max(away_px, 1e-3);
     // No paint goes over a body in front of the stroke; a little goes over the background and over bodies behind.
-    if (here.y != 0.0 && here.x < own.x - bias) reach_px = 0.35;
+    if (here.y != 0.0 && here.x < depth - bias) reach_px = 0.35;
     float on_own = 0.0;
     for (int index = 0; index < 4; index++) {
         float back_px = clamp(reach_px + (float(index) - 1.5) * 0.7, 0.0, away_px);
@@ -77,8 +90,12 @@ float past_body(vec2 here, float reach_px) {
 
 // How much paint lies here on the stroke's own body: all near the stroke's plane, none far off it, as past a crease.
 float on_plane(float depth) {
-    float px_per_unit = 1.0 / (units_per_px_at_1 * mix(own.x, 1.0, orthographic));
-    float off_px = (depth - own.x) * px_per_unit - plane.z - dot(plane.xy, from_center_px);
+    float px_per_unit = 1.0 / (units_per_px_at_1 * mix(own_depth(), 1.0, orthographic));
+    float off_px = (depth - own_depth()) * px_per_unit;
+#ifdef LINE
+    return 1.0 - smoothstep(line.w, 2.0 * line.w, abs(off_px - line.z));
+#endif
+    off_px -= plane.z + dot(plane.xy, from_center_px);
     return 1.0 - smoothstep(plane.w, 2.0 * plane.w, abs(off_px));
 }
 
@@ -108,7 +125,15 @@ void main() {
     at.y -= mark.w * ((u - 0.5) * (u - 0.5) - 0.06) * 0.5 * FILL;
     vec3 texel = textureLod(brush_marks, vec3(at, mark.x), level).rgb;
     float past_end = max(abs(2.0 * u - 1.0) - own.z, 0.0);
-    float alpha = smoothstep(paint.a - mark.z, paint.a + mark.z, texel.r - STEEPNESS * past_end);
+    float least = paint.a;
+#ifdef LINE
+    // Where the surface turns away the brush leaves less and less of its mark.
+    least = mix(1.0 + mark.z, least, smoothstep(0.0, 1.0, 2.0 * line.y));
+#endif
+    float alpha = smoothstep(least - mark.z, least + mark.z, texel.r - STEEPNESS * past_end);
+#ifdef LINE
+    alpha *= min(16.0 * line.y * line.y, 1.0);
+#endif
     if (alpha <= 0.0) discard;
     float tint = texel.b * 2.0 - 1.0;
     if (body.z < FREE) alpha *= laid(tint);

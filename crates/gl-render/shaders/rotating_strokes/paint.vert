@@ -15,12 +15,19 @@ layout(location = 7) in vec4 fitted;         // centre in px where it lies on it
 #ifdef SHAPED
 layout(location = 8) in vec2 shape;          // taper, bend in radians
 #endif
+#ifdef LINE
+layout(location = 9) in vec4 corner_of_line; // px; along and across the mark
+layout(location = 10) in vec4 middle_of_line; // from the line's middle to the corner in px; of the middle depth and presence
+layout(location = 11) in vec2 lean;          // depth of the plane less that of the middle, how far paint may lie off it; px
+#endif
 
 uniform vec2 size_px;
+#ifndef LINE
 uniform mat4 view_from_world;
+uniform int kind;                // layer of paint
+#endif
 uniform float units_per_px_at_1; // world units per pixel at depth 1; at any depth where parallel
 uniform float orthographic;
-uniform int kind;                // layer of paint
 uniform float mark_rows;         // texels across a mark
 uniform sampler2D mark_bounds;   // a row for each mark: the box around all texels with more paint than a given amount
 #ifndef DRAFT
@@ -43,6 +50,9 @@ flat out vec4 body;              // opacity, thickness, overrun in px, sign of t
 flat out vec4 own;               // depth and id of the body, how much of the stroke's length is there, how wet its paint is
 flat out vec4 plane;             // of the stroke, in px: its depth's slope along x and y, the depth of its middle less the stroke's own,
                                  // how far paint may lie off it
+#ifdef LINE
+out vec4 line;                   // depth, presence, depth of the plane less that in px, how far paint may lie off it
+#endif
 #ifdef SHAPED
 flat out vec4 form;              // half its quad's length (0 where it has no shape) and width in px, taper, bend per px
 flat out float leaning;          // skew
@@ -97,6 +107,7 @@ vec4 painted_part(float least, float level, float bow, float flip) {
     return clamp(vec4(part.xy, across), 0.0, 1.0);
 }
 
+#ifndef LINE
 // The plane that the stroke lies on. Paint that leaves it, past a crease, ends there; but the underpainting covers all, and lines
 // follow the border that they lie along.
 vec4 plane_of_stroke(vec2 center_px) {
@@ -108,6 +119,7 @@ vec4 plane_of_stroke(vec2 center_px) {
     float may_leave_px = goes_on ? 1e9 : (0.07 * size.x + 2.5) * max(0.7 / slant, 1.0);
     return vec4(slope, dot(slope, center_px - place.xy), may_leave_px);
 }
+#endif
 
 void main() {
 #ifdef STORES
@@ -175,10 +187,24 @@ void main() {
     form = own_form;
     leaning = reach.w;
 #endif
+#ifdef LINE
+    mark_at = corner_of_line.zw;
+    from_center_px = middle_of_line.xy;
+    line = vec4(middle_of_line.zw, lean);
+    level = max(log2(mark_rows / (1.05 * size.y * MARGIN)), 0.0);
+#endif
     mark = vec4(float(marks.w & 65535u), level, soft, normal_and_bow.w);
     float fat = 0.55 + 0.75 * clamp(fitted.z, 0.0, 1.0) / 0.7;
     body = vec4(opacity, thickness * fat, reach.x, flip);
+#ifdef LINE
+    plane = vec4(0.0);
+#else
     plane = plane_of_stroke(center_px);
+#endif
     own = vec4(place.z, float(marks.y), extent, min(pickup / WET_PICKUP, 1.0));
+#ifdef LINE
+    gl_Position = vec4(corner_of_line.xy / size_px * 2.0 - 1.0, 0.0, 1.0);
+#else
     gl_Position = vec4((center_px + from_center_px) / size_px * 2.0 - 1.0, 0.0, 1.0);
+#endif
 }

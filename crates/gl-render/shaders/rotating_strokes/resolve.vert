@@ -35,7 +35,7 @@ const vec2 THIN = vec2(0.01, 0.14);
 // Standard deviation of the Gaussian over which colours are averaged, in widths of the stroke. It is never less than this, since
 // single pixels change by chance.
 const float LEAST_BLUR_PX = 1.1;
-const float BLUR[7] = float[7](0.33, 0.20, 0.20, 0.22, 0.30, 0.60, 0.25);
+const float BLUR[8] = float[8](0.33, 0.20, 0.20, 0.22, 0.30, 0.60, 0.25, 0.25);
 
 // How far highlights are spread over their body, as in `RotatingStrokes`, pixels of the scene's own size.
 const float SPREAD_PX = 16.0;
@@ -254,11 +254,13 @@ void main() {
         moved = to_end_px(outline);
         turn = mat2(cos(turned), sin(turned), -sin(turned), cos(turned)) * turn;
     }
-    if (there > LEAST && kind != CONTOUR) there *= seen(turn);
+    // What hides a touch is found pixel by pixel.
+    if (there > LEAST && kind != CONTOUR && kind != TOUCHES) there *= seen(turn);
     if (there <= LEAST) return;
 
     float across_px = max(BLUR[kind] * size.y, clamp(1.4 * px_scale, LEAST_BLUR_PX, 1.4));
     mat2 blur_px = mat2(clamp(0.16 * size.x, across_px, 2.5 * across_px), 0.0, 0.0, across_px);
+    if (kind == TOUCHES) blur_px = mat2(across_px, 0.0, 0.0, across_px);
     vec4 found = own_color(kind == LIGHTS ? place.xy + moved : place.xy, own.y, turn * blur_px);
     // A highlight is in the picture only.
     float known = kind == LIGHTS ? 1.0 : found.w * (1.0 - smoothstep(THIN.x, THIN.y, thinness(place.xy, own)));
@@ -273,6 +275,7 @@ void main() {
     if ((marks.z >> 24) == 128u) {
         resolved = vec4(albedo_of(marks.z), there);
         fitted = vec4(place.xy + moved + turn[0] * shift(turn, own), lab.x, turned);
+        if (kind == TOUCHES) fitted.z = oklab_from_linear(resolved.rgb).x;
         return;
     }
     vec3 wide = kind == ACCENTS ? mix(lab, wide_mean(place.xy, own.y, lab), known) : lab;

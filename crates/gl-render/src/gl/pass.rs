@@ -42,6 +42,8 @@ pub(crate) enum Vertices {
     Indexed { first: u32, count: u32 },
     /// A strip of four corners for each instance.
     Quads { instances: u32 },
+    /// One strip of so many corners.
+    Strip { count: u32 },
 }
 
 impl Gpu {
@@ -118,6 +120,10 @@ impl Gpu {
             // SAFETY: as for indexed triangles.
             Vertices::Quads { instances } => self.counting_fragments(|| unsafe {
                 gl.draw_arrays_instanced(glow::TRIANGLE_STRIP, 0, 4, instances as i32);
+            }),
+            // SAFETY: as for indexed triangles.
+            Vertices::Strip { count } => self.counting_fragments(|| unsafe {
+                gl.draw_arrays_instanced(glow::TRIANGLE_STRIP, 0, count as i32, 1);
             }),
         }
         // SAFETY: the context is current.

@@ -14,7 +14,7 @@ use glam::{Vec2, Vec4};
 use impasto_core::brush;
 use impasto_core::color::oklab_from_linear;
 use impasto_painting::Quality;
-use impasto_painting::frame::{LayerRun, Stroke};
+use impasto_painting::frame::{LayerKind, LayerRun, LineStrip, Stroke};
 
 use crate::drawn::PaintSurface;
 use crate::encode::Output;
@@ -23,6 +23,7 @@ use crate::gl::{
     Blend, Bound, DrawState, Format, Framebuffer, GlError, Gpu, Halt, Program, Texture, VertexArray, Vertices,
 };
 use crate::lens::{LENS_UNIFORMS, LensSetup};
+use crate::marks::Marks;
 use crate::palettes::palette_texture;
 use crate::stroke_buffers::StrokeBuffers;
 use crate::style_renderer::{StyleInput, StyleRenderer};
@@ -169,6 +170,9 @@ impl RotatingStrokes {
         layer: LayerRun,
         watch: &mut Watch<'_>,
     ) -> Result<(), Halt> {
+        if layer.kind == LayerKind::Touches {
+            return self.paint_lines(input, covered, layer, watch);
+        }
         let strokes = strokes_of(input, layer);
         let shaped = strokes.iter().any(Stroke::is_shaped);
         let mut first = layer.first;
@@ -209,25 +213,54 @@ impl RotatingStrokes {
         };
         let pass = targets.strokes_pass(frame.quality);
         self.gpu.begin_pass(pass, DrawState { blend: Blend::Over, ..DrawState::default() });
-        let lens = LensSetup::new(&frame.view, frame.size_px);
-        let mut bound = lens
-            .set(program.bind(), &["size_px", "orthographic"])
-            .set("units_per_px_at_1", 1.0 / lens.px_per_unit_at_1)
+        let mut bound = paint_inputs(program, (input, covered), (targets, marks))
             .set("view_from_world", frame.view.view_from_world)
-            .set("kind", layer.kind as i32)
-            .set("mark_rows", brush::SIZE[1] as f32)
-            .texture("brush_marks", &marks.texture)
-            .texture("mark_bounds", &marks.bounds);
-        if frame.quality == Quality::Exact {
-            bound =
-                bound.texture("below", &targets.below).texture("depth_and_id", &input.reference.depth_and_id);
-        }
-        bound = covered.set_surface(bound);
+            .set("kind", layer.kind as i32);
         if let Some(data) = data {
             bound = bound.set("first_stroke", layer.first as i32);
             data.begin_noting();
         }
         self.strokes.draw(bound, layer, with_shape)?;
+        self.data.as_mut().filter(|_| input.gathers).map_or(Ok(()), PaintData::end_noting)
+    }
+
+    /// Lays the lines of a layer, one after the other.
+    fn paint_lines(
+        &mut self,
+        input: &StyleInput<'_>,
+        covered: &Covered,
+        layer: LayerRun,
+        watch: &mut Watch<'_>,
+    ) -> Result<(), Halt> {
+        for &strip in &input.frame.lines.strips {
+            self.paint_line(input, covered, strip)?;
+            watch.passed(layer.kind.name())?;
+        }
+        if let Some(data) = self.data.as_mut().filter(|_| input.gathers) {
+            data.end_layer(layer, input.frame.size_px);
+        }
+        Ok(())
+    }
+
+    fn paint_line(
+        &mut self,
+        input: &StyleInput<'_>,
+        covered: &Covered,
+        strip: LineStrip,
+    ) -> Result<(), GlError> {
+        let (Some(targets), Some(marks)) = (&self.targets, self.strokes.marks()) else { return Ok(()) };
+        let quality = input.frame.quality;
+        let data = self.data_of(input);
+        let program = data.map(PaintData::line_paint).or(self.programs(quality).line_paint.as_ref());
+        let Some(program) = program else { return Ok(()) };
+        let pass = targets.strokes_pass(quality);
+        self.gpu.begin_pass(pass, DrawState { blend: Blend::Over, ..DrawState::default() });
+        let mut bound = paint_inputs(program, (input, covered), (targets, marks));
+        if let Some(data) = data {
+            bound = bound.set("first_stroke", strip.stroke as i32);
+            data.begin_noting();
+        }
+        self.strokes.draw_strip(bound, strip)?;
         self.data.as_mut().filter(|_| input.gathers).map_or(Ok(()), PaintData::end_noting)
     }
 
@@ -312,6 +345,7 @@ impl StyleRenderer for RotatingStrokes {
         self.coverage.ready_all()?;
         for quality in [Quality::Exact, Quality::Draft] {
             self.ready(quality)?.ready_shaped(&gpu, quality)?;
+            self.ready(quality)?.ready_line(&gpu, quality)?;
         }
         if self.data.is_none() && gpu.limits().has_storage {
             self.data = Some(PaintData::new(&gpu)?);
@@ -335,6 +369,9 @@ impl StyleRenderer for RotatingStrokes {
         let programs = self.ready(frame.quality)?;
         if frame.strokes.iter().any(Stroke::is_shaped) {
             programs.ready_shaped(&gpu, frame.quality)?;
+        }
+        if !frame.lines.strips.is_empty() {
+            programs.ready_line(&gpu, frame.quality)?;
         }
         if input.gathers {
             let data = match self.data.take() {
@@ -393,6 +430,26 @@ impl StyleRenderer for RotatingStrokes {
     fn read_paint(&self) -> Vec<[f32; 4]> {
         self.targets.as_ref().map_or_else(Vec::new, |targets| targets.paint_pass.read_colors(0))
     }
+}
+
+/// Sets what all programs that lay paint need.
+fn paint_inputs<'a>(
+    program: &'a Program,
+    (input, covered): (&StyleInput<'_>, &Covered),
+    (targets, marks): (&PaintTargets, &Marks),
+) -> Bound<'a> {
+    let frame = input.frame;
+    let lens = LensSetup::new(&frame.view, frame.size_px);
+    let mut bound = lens
+        .set(program.bind(), &["size_px", "orthographic"])
+        .set("units_per_px_at_1", 1.0 / lens.px_per_unit_at_1)
+        .set("mark_rows", brush::SIZE[1] as f32)
+        .texture("brush_marks", &marks.texture)
+        .texture("mark_bounds", &marks.bounds);
+    if frame.quality == Quality::Exact {
+        bound = bound.texture("below", &targets.below).texture("depth_and_id", &input.reference.depth_and_id);
+    }
+    covered.set_surface(bound)
 }
 
 fn strokes_of<'a>(input: &'a StyleInput<'_>, layer: LayerRun) -> &'a [Stroke] {

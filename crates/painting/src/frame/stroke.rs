@@ -4,6 +4,8 @@ use bytemuck::{Pod, Zeroable};
 use impasto_core::presence;
 use impasto_scene::presets::LayerKind;
 
+use super::Lines;
+
 /// The palette index of strokes that have no palette.
 pub const ANY_COLOR: u8 = 255;
 
@@ -161,6 +163,8 @@ pub struct Strokes {
     pub sources: Vec<StrokeSource>,
     /// Runs of `strokes` that belong to one layer, in painting order.
     pub layers: Vec<LayerRun>,
+    /// The lines of the layer of touches.
+    pub lines: Lines,
 }
 
 /// A run of strokes of one layer of paint.

@@ -46,7 +46,9 @@ impl SceneKey<'_> {
         key.words(concat!(env!("CARGO_PKG_VERSION"), " ", env!("IMPASTO_SOURCES")));
         key.numbers(&[FORMAT]);
         // What a shot brings is in the objects, and in the views, references and shapes that follow.
-        key.value(&Scene { stage: Stage::default(), ..Scene::clone(scene) });
+        // Touches are laid anew; of them only the brushes are kept.
+        key.value(&Scene { stage: Stage::default(), touches: Vec::new(), ..Scene::clone(scene) });
+        scene.touches.iter().for_each(|touch| key.value(&touch.brush));
         rules.iter().for_each(|rule| key.value(rule));
         key.value(&(solver, paper, underpainting, orthographic));
         for (view, poses) in *views {

@@ -51,7 +51,7 @@ pub(crate) fn brush_pictures(scene: &Scene) -> Vec<(&str, String)> {
         .iter()
         .enumerate()
         .map(|(index, region)| (format!("regions[{index}].strokes"), &region.strokes));
-    let mut seen = HashSet::new();
+    let mut seen: HashSet<String> = HashSet::new();
     let mut found = Vec::new();
     for (path, settings) in [("strokes".to_owned(), &scene.strokes)].into_iter().chain(of_regions) {
         let of_layers = settings
@@ -62,9 +62,15 @@ pub(crate) fn brush_pictures(scene: &Scene) -> Vec<(&str, String)> {
         let mixes = [(format!("{path}.brush"), settings.brush.as_ref())].into_iter().chain(of_layers);
         for (field_path, mix) in mixes {
             let names = mix.into_iter().flat_map(|mix| &mix.0).map(String::as_str);
-            for name in names.filter(|name| presets::is_picture(name) && seen.insert(name.to_owned())) {
+            for name in names.filter(|name| presets::is_picture(name) && seen.insert((*name).to_owned())) {
                 found.push((name, field_path.clone()));
             }
+        }
+    }
+    for (index, touch) in scene.touches.iter().enumerate() {
+        let name = touch.brush.as_deref().filter(|name| presets::is_picture(name));
+        if let Some(name) = name.filter(|name| seen.insert((*name).to_owned())) {
+            found.push((name, format!("touches[{index}].brush")));
         }
     }
     found
@@ -140,7 +146,7 @@ fn check_keys(keys_path: &str, keys: &[StrokesKey], findings: &mut Findings) {
     }
 }
 
-fn check_brush(settings_path: &str, brush: Option<&BrushMix>, findings: &mut Findings) {
+pub(super) fn check_brush(settings_path: &str, brush: Option<&BrushMix>, findings: &mut Findings) {
     let Some(BrushMix(names)) = brush else { return };
     let field_path = format!("{settings_path}.brush");
     if names.is_empty() || names.len() > limits::MAX_BRUSHES {

@@ -337,6 +337,47 @@ fn amounts_that_cannot_work_are_errors() {
 }
 
 #[test]
+fn touches_that_cannot_work_are_errors() {
+    let point = "(at: (0, 0, 0), normal: (0, 1, 0))";
+    let touch = |rest: &str| {
+        format!("touches: [(name: \"t\", on: \"a\", points: [{point}])]").replace("points: [", rest)
+    };
+    let with = |field: &str| touch(&format!("{field}, points: ["));
+    let found = |field: &str, at: &str| {
+        assert_finds(&with(field), &[(Error, &format!("touches[0].{at}"))]);
+    };
+    assert_finds(&with("width_px: 20, length_px: 80, opacity: 0.5, taper: -1, brush: Some(\"flat\")"), &[]);
+    for (field, at) in [
+        ("width_px: 0.5", "width_px"),
+        ("width_px: 401", "width_px"),
+        ("length_px: NaN", "length_px"),
+        ("opacity: 1.01", "opacity"),
+        ("taper: -1.1", "taper"),
+        ("brush: Some(\"flatt\")", "brush"),
+    ] {
+        found(field, at);
+    }
+    assert_finds("touches: [(name: \"t\", on: \"a\", points: [])]", &[(Error, "touches[0].points")]);
+    let elsewhere = with("width_px: 14").replace("on: \"a\"", "on: \"b\"");
+    assert_finds(&elsewhere, &[(Error, "touches[0].on")]);
+    let flat = with("width_px: 14").replace("normal: (0, 1, 0)", "normal: (0, 0, 0)");
+    assert_finds(&flat, &[(Error, "touches[0].points[0].normal")]);
+    let far = with("width_px: 14").replace("at: (0, 0, 0)", "at: (inf, 0, 0)");
+    assert_finds(&far, &[(Error, "touches[0].points[0].at")]);
+    let one = format!("(name: \"t\", on: \"a\", points: [{point}])");
+    assert_finds(&format!("touches: [{one}, {one}]"), &[(Error, "touches[1].name")]);
+    let points = format!("{point}, ").repeat(limits::MAX_TOUCH_POINTS + 1);
+    let long = format!("touches: [(name: \"t\", on: \"a\", points: [{points}])]");
+    assert_finds(&long, &[(Error, "touches[0].points")]);
+    let many: String = (0..=limits::MAX_TOUCHES)
+        .map(|index| format!("(name: \"t{index}\", on: \"a\", points: [{point}]), "))
+        .collect();
+    assert_finds(&format!("touches: [{many}]"), &[(Limit, "touches")]);
+    let ink = format!("{}, style: SumiE()", with("width_px: 14"));
+    assert_finds(&ink, &[(Warning, "touches")]);
+}
+
+#[test]
 fn regions_that_a_later_one_covers_are_told() {
     let regions = |on: [&str; 3]| {
         let list: String =

@@ -60,6 +60,7 @@ impl StyleSettings for RotatingStrokes {
         Preparation {
             has_strokes: true,
             solver: self.solver,
+            lays_touches: true,
             underpainting: self.underpainting,
             weave: if self.canvas == Canvas::Linen { self.weave } else { 0.0 },
             canvas_follows: self.canvas_follows,

@@ -52,6 +52,8 @@ pub struct Preparation {
     pub has_strokes: bool,
     /// How the turn of a stroke is found.
     pub solver: Solver,
+    /// Whether strokes that were placed by hand are painted.
+    pub lays_touches: bool,
     /// Whether there are large thin strokes and a tone under the body layer.
     pub underpainting: bool,
     /// How much of the canvas is felt where paint is thin; 0 for a smooth board.
@@ -131,6 +133,7 @@ impl Default for Preparation {
         Self {
             has_strokes: false,
             solver: Solver::default(),
+            lays_touches: false,
             underpainting: true,
             weave: 0.0,
             canvas_follows: CanvasFollows::default(),

@@ -168,6 +168,7 @@ pub(super) fn named_path(scene: &Scene, field_path: &str) -> String {
             "objects" => &scene.objects.get(index)?.name,
             "regions" => &scene.regions.get(index)?.name,
             "lights" => &scene.lights.get(index)?.name,
+            "touches" => &scene.touches.get(index)?.name,
             _ => return None,
         };
         let is_plain =

@@ -354,7 +354,7 @@ fn what_goes_into(field: &str) -> Option<&'static str> {
         "layer" => "a whole number, as in 1 or -1",
         "size" => "two whole numbers, as in (1280, 720)",
         "fps" | "frame" | "roll_deg" | "turn_deg" | "fov_y_deg" | "near" | "far" | "height" | "intensity"
-        | "gloss" | "radius" | "strength" | "by" | "period_secs" => A_NUMBER,
+        | "gloss" | "radius" | "strength" | "by" | "width_px" | "length_px" | "opacity" | "period_secs" => A_NUMBER,
         "eye" | "target" | "position" | "translation" | "rotation_deg" | "at" | "normal" => {
             "three numbers, as in (0, 1.5, -2)"
         }
@@ -364,7 +364,8 @@ fn what_goes_into(field: &str) -> Option<&'static str> {
         "amounts" => "a list, as in [(of: Width, dabs: [(at: (…), normal: (…), radius: 0.2, by: 1.5)])]",
         "of" => "Width, Length, Density or Flatness",
         "dabs" => "dabs, as in [(at: (0, 1, 0), normal: (0, 0, 1), radius: 0.2, by: 1.5)]",
-        "points" => "at least two points, as in [(at: (0, 1, 0), normal: (0, 0, 1)), …]",
+        "touches" => "a list, as in [(name: \"glint\", on: \"apple\", points: [(at: (…), normal: (…))])]",
+        "points" => "points of a surface, as in [(at: (0, 1, 0), normal: (0, 0, 1)), …]",
         "view" => "an eye and a target, as in (eye: (0, 1, 4), target: (0, 0, 0))",
         "seam" => "Hard or Soft(0.1)",
         "sense" => "Lines or Arrows",

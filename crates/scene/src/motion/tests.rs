@@ -35,6 +35,7 @@ fn scene(camera_keys: Vec<CameraKey>, objects: Vec<Object>) -> Scene {
         objects,
         strokes: Default::default(),
         regions: Vec::new(),
+        touches: Vec::new(),
         style: Default::default(),
         aovs: Vec::new(),
     }

@@ -27,6 +27,7 @@ fn scene(strokes: StrokeSettings, of_region: StrokeSettings) -> Scene {
             strokes: of_region,
             ..Region::new("skin", Selector::Everything)
         }],
+        touches: Vec::new(),
         style: Default::default(),
         aovs: Vec::new(),
     }

@@ -252,7 +252,7 @@ fn the_page_of_the_scene_file_is_what_is_declared() {
 }
 
 /// Where each struct is in a scene file: the text before its fields, its required fields, and the text after them.
-const PLACES: [(&str, [&str; 3]); 18] = [
+const PLACES: [(&str, [&str; 3]); 19] = [
     ("Timeline", ["timeline: (", "", ")"]),
     ("CameraKey", ["camera: (keys: [(", "frame: 0, eye: (0, 0, 1), target: (0, 0, 0), ", ")])"]),
     ("Lens::Perspective", ["camera: (keys: [], lens: Perspective(", "", "))"]),
@@ -274,6 +274,7 @@ const PLACES: [(&str, [&str; 3]); 18] = [
     ),
     ("Region", ["regions: [(", "name: \"a\", on: Everything, ", ")]"]),
     ("Guide", ["regions: [(name: \"a\", on: Everything, guides: [(", "points: [], radius: 1, ", ")])]"]),
+    ("Touch", ["touches: [(", "name: \"a\", on: \"b\", points: [], ", ")]"]),
     ("Reference::View", ["reference: View(", "eye: (0, 0, 1), target: (0, 0, 0), ", ")"]),
     ("RotatingStrokes", ["style: RotatingStrokes(", "", ")"]),
     ("SumiE", ["style: SumiE(", "", ")"]),

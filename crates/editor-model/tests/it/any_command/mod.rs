@@ -4,11 +4,11 @@ use glam::{DAffine3, DQuat, DVec3};
 use impasto_editor_model::Item;
 use impasto_editor_model::command::{
     Amounts, Arrange, Command, Directions, Edit, Gesture, GuideSettings, KeyOf, Pose, PoseField,
-    RegionTarget, Regions, SceneEdit, Shift, StrokeChange, StrokesOf, Time,
+    RegionTarget, Regions, SceneEdit, Shift, StrokeChange, StrokesOf, Time, Touches,
 };
 use impasto_scene::document::{
     Amount, AmountDab, BrushMix, Color, Dab, Direction, Ease, Guide, GuidePoint, LightKind, MaterialOverride,
-    ObjectKey, Region, STROKE_NUMBERS, Scene, Seam, Selector, Sense, Style, SumiE,
+    ObjectKey, Region, STROKE_NUMBERS, Scene, Seam, Selector, Sense, Style, SumiE, Touch, TouchPoint,
 };
 use impasto_scene::motion;
 
@@ -41,6 +41,7 @@ pub fn command(scene: &Scene, (kind, which, other, x, y): Dice) -> Command {
     let object = pick(scene.objects.iter().map(|object| object.name.as_str()).collect(), which);
     let another = pick(scene.objects.iter().map(|object| object.name.as_str()).collect(), other);
     let region = pick(scene.regions.iter().map(|region| region.name.as_str()).collect(), which);
+    let touch = pick(scene.touches.iter().map(|touch| touch.name.as_str()).collect(), which);
     let light = pick(scene.lights.iter().map(|light| light.name.as_str()).collect(), which);
     let guides =
         scene.regions.iter().find(|other| other.name == region).map_or(0, |region| region.guides.len());
@@ -50,11 +51,12 @@ pub fn command(scene: &Scene, (kind, which, other, x, y): Dice) -> Command {
     } else {
         RegionTarget::Named(region.clone())
     };
-    let item = match other % 5 {
+    let item = match other % 6 {
         0 => Item::Camera,
         1 => Item::Light(light.clone()),
         2 => Item::Region(region.clone()),
         3 => Item::Guide(of_guide.0.clone(), of_guide.1),
+        4 => Item::Touch(touch.clone()),
         _ => Item::Object(object.clone()),
     };
     let key_of = match other % 6 {
@@ -67,7 +69,7 @@ pub fn command(scene: &Scene, (kind, which, other, x, y): Dice) -> Command {
     let frame = f64::from(other % 24);
     let of = if other % 5 == 0 { StrokesOf::Scene } else { StrokesOf::Region(region.clone()) };
     let field = &STROKE_NUMBERS[usize::from(other) % STROKE_NUMBERS.len()];
-    match kind % 41 {
+    match kind % 42 {
         0 => Command::Edit(Edit::Delete(vec![item])),
         1 => Command::Edit(Edit::Duplicate(vec![item])),
         2 => Command::Edit(Edit::Rename(item, format!("name {}", other % 7))),
@@ -231,6 +233,15 @@ pub fn command(scene: &Scene, (kind, which, other, x, y): Dice) -> Command {
                 dabs: vec![amount_dab(x, y), amount_dab(y, x)],
             },
         }),
+        40 => Command::Touches(match other % 4 {
+            0 => Touches::Erase(vec![touch]),
+            1 => Touches::Set {
+                name: touch,
+                touch: Box::new(a_touch(&object, x, y)),
+                what: "width".to_owned(),
+            },
+            _ => Touches::Lay(vec![a_touch(&object, x, y), a_touch(&object, y, x)]),
+        }),
         _ => Command::Several(
             "Both".to_owned(),
             vec![
@@ -239,6 +250,15 @@ pub fn command(scene: &Scene, (kind, which, other, x, y): Dice) -> Command {
             ],
         ),
     }
+}
+
+fn a_touch(object: &str, x: f64, y: f64) -> Touch {
+    let point = |share: f64| {
+        let Dab { at, normal, .. } = dab(x + share, y);
+        TouchPoint { at, normal }
+    };
+    let color = (x > 0.0).then_some(Color([0.2, 0.301, 0.4]));
+    Touch { width_px: 8.0 + x.abs(), color, ..Touch::new("touch", object, vec![point(0.0), point(0.5)]) }
 }
 
 fn dab(x: f64, y: f64) -> Dab {

@@ -20,6 +20,7 @@ mod region;
 mod rotating_strokes;
 mod scene;
 mod strokes;
+mod touch;
 
 use egui::{ScrollArea, Ui};
 use impasto_editor_model::Item;
@@ -46,6 +47,7 @@ pub fn inspector(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
             Some(Item::Guide(name, _)) => region::show(ui, &mut asker, name),
             Some(Item::Object(name)) => object::show(ui, &mut asker, name),
             Some(Item::Light(name)) => light::show(ui, &mut asker, name),
+            Some(Item::Touch(name)) => touch::show(ui, &mut asker, name),
             Some(Item::Camera) => camera::show(ui, &mut asker),
             None => scene::show(ui, &mut asker),
         });

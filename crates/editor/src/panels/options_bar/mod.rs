@@ -10,6 +10,7 @@ use impasto_editor_model::Item;
 use impasto_editor_model::session::{Mode, Tool, ToolOptions};
 
 use self::settings::{BarPlace, Control, Setting};
+use impasto_scene::document::Color;
 use super::tool_names::face;
 use super::top_bar::WIDE;
 use super::{Ask, PanelInput, divider, row, row_from_right, text_width, within};
@@ -90,6 +91,7 @@ fn width(ui: &Ui, setting: &Setting, say: Translate) -> f32 {
         Control::Number(number) => number.width,
         Control::Check { words, .. } => 24.0 + text_width(ui, say(words), type_face::body()),
         Control::Mirror => widgets::TOGGLE_GROUP,
+        Control::Colour { .. } => measure::BUTTON,
     };
     let label = match setting.label {
         "" => 0.0,
@@ -135,6 +137,15 @@ fn control(ui: &mut Ui, setting: &Setting, options: &mut ToolOptions, say: Trans
         }
         Control::Check { words, get } => {
             widgets::checkbox(ui, say(words), get(options));
+        }
+        Control::Colour { name, get } => {
+            let color = get(options);
+            let [r, g, b] = color.0.map(|channel| (channel * 255.0).round() as u8);
+            let mut picked = egui::Color32::from_rgb(r, g, b);
+            if widgets::color_square(ui, name, &mut picked).changed() {
+                let [r, g, b, _] = picked.to_array();
+                *color = Color([r, g, b].map(|channel| f32::from(channel) / 255.0));
+            }
         }
         Control::Mirror => {
             widgets::toggle_group(ui, ["Mirror X", "Mirror Y", "Mirror Z"], &mut options.mirror);

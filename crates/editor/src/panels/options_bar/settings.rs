@@ -1,7 +1,7 @@
 //! The settings of each tool: what the options bar shows of them, and where.
 
 use impasto_editor_model::session::{Axes, FillKind, RegionBy, RegionDoes, Tool, ToolOptions};
-use impasto_scene::document::{Amount, LightKind};
+use impasto_scene::document::{Amount, Color, LightKind};
 
 /// When a setting is on the bar. Otherwise, or where there is no room, it is in the menu at the bar's end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,6 +29,7 @@ pub(super) enum Control {
     Number(Number),
     Check { words: &'static str, get: fn(&mut ToolOptions) -> &mut bool },
     Mirror,
+    Colour { name: &'static str, get: fn(&mut ToolOptions) -> &mut Color },
 }
 
 /// A few words, one of them on.
@@ -232,6 +233,7 @@ pub(super) fn of(tool: Tool, options: &ToolOptions) -> Vec<Setting> {
         }
         Tool::Erase => settings.extend([apart(radius()), falloff(), mirror(), front_only()]),
         Tool::Amount => settings.extend(amount()),
+        Tool::Touch => settings.extend(touch(options)),
         Tool::Region => region(&mut settings, options),
         Tool::Pick | Tool::ShotCamera => (),
     }
@@ -255,6 +257,59 @@ fn amount() -> Vec<Setting> {
         mirror(),
         front_only(),
     ]
+}
+
+fn touch(options: &ToolOptions) -> Vec<Setting> {
+    let does = choice!(touch_erases: [false => "Lay", "Lay touches"; true => "Erase", "Erase strokes";]);
+    let number = |name: &'static str, (unit, times), range, get, effect| Number {
+        name,
+        unit,
+        range,
+        width: 72.0,
+        times,
+        get,
+        effect,
+    };
+    let radius = number(
+        "Touch radius",
+        ("px", 1.0),
+        (2.0, 100.0),
+        |options: &mut ToolOptions| &mut options.touch_radius_px,
+        "Half the width of the stroke, as the ring shows it.",
+    );
+    let mut settings = vec![
+        at(BarPlace::Always, "", does),
+        apart(at(BarPlace::Always, "Radius", Control::Number(radius))),
+    ];
+    if !options.touch_erases {
+        let from = choice!(touch_from_picture: [
+            false => "Colour", "Touch in a colour";
+            true => "Picture", "Touch as the picture";
+        ]);
+        settings.push(apart(at(BarPlace::Always, "", from)));
+        if !options.touch_from_picture {
+            let color = Control::Colour { name: "Colour of touches", get: |options| &mut options.touch_color };
+            settings.push(at(BarPlace::Always, "", color));
+        }
+        let opacity = number(
+            "Touch opacity",
+            ("%", 100.0),
+            (0.0, 100.0),
+            |options: &mut ToolOptions| &mut options.touch_opacity,
+            "How far the stroke covers what is below.",
+        );
+        let taper = number(
+            "Touch taper",
+            ("%", 100.0),
+            (-100.0, 100.0),
+            |options: &mut ToolOptions| &mut options.touch_taper,
+            "How much narrower the stroke ends than it begins.",
+        );
+        settings.push(apart(at(BarPlace::Wide, "Opacity", Control::Number(opacity))));
+        settings.push(at(BarPlace::Wide, "Taper", Control::Number(taper)));
+    }
+    settings.extend([steady(), front_only()]);
+    settings
 }
 
 fn region(settings: &mut Vec<Setting>, options: &ToolOptions) {

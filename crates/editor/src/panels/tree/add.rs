@@ -86,6 +86,9 @@ fn object_of<'a>(scene: &'a Scene, active: Option<&'a Item>) -> Option<&'a str> 
         Item::Region(name) | Item::Guide(name, _) => {
             scene.regions.iter().find(|region| region.name == *name)?.on.object()
         }
+        Item::Touch(name) => {
+            scene.touches.iter().find(|touch| touch.name == *name).map(|touch| touch.on.as_str())
+        }
         Item::Camera | Item::Light(_) => None,
     }
 }

@@ -108,7 +108,8 @@ fn command_of(scene: &Scene, dragged: &Item, place: DropTarget<'_>) -> Option<Co
         }
         (Item::Object(name), DropTarget::Off) => parent_of(name).is_some().then(|| set_parent(name, None)),
         (Item::Region(_), DropTarget::Before(target @ Item::Region(_)))
-        | (Item::Light(_), DropTarget::Before(target @ Item::Light(_))) => reorder(target, false),
+        | (Item::Light(_), DropTarget::Before(target @ Item::Light(_)))
+        | (Item::Touch(_), DropTarget::Before(target @ Item::Touch(_))) => reorder(target, false),
         (
             Item::Region(_),
             DropTarget::After(target @ Item::Region(_)) | DropTarget::Onto(target @ Item::Region(_)),
@@ -116,6 +117,10 @@ fn command_of(scene: &Scene, dragged: &Item, place: DropTarget<'_>) -> Option<Co
         | (
             Item::Light(_),
             DropTarget::After(target @ Item::Light(_)) | DropTarget::Onto(target @ Item::Light(_)),
+        )
+        | (
+            Item::Touch(_),
+            DropTarget::After(target @ Item::Touch(_)) | DropTarget::Onto(target @ Item::Touch(_)),
         ) => reorder(target, true),
         _ => None,
     }
@@ -126,6 +131,7 @@ fn index_of(scene: &Scene, item: &Item) -> Option<usize> {
         Item::Object(name) => scene.objects.iter().position(|object| object.name == *name),
         Item::Region(name) => scene.regions.iter().position(|region| region.name == *name),
         Item::Light(name) => scene.lights.iter().position(|light| light.name == *name),
+        Item::Touch(name) => scene.touches.iter().position(|touch| touch.name == *name),
         Item::Camera | Item::Guide(..) => None,
     }
 }

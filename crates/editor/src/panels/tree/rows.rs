@@ -2,7 +2,7 @@
 
 use egui::Color32;
 use impasto_editor_model::{Document, Item};
-use impasto_scene::document::{Color, Direction, Object, Region, Scene};
+use impasto_scene::document::{Color, Direction, Object, Region, Scene, Touch};
 use impasto_scene::new_scene::REGION_COLORS;
 
 use crate::icons;
@@ -122,7 +122,9 @@ impl Listing<'_> {
             let regions = || {
                 scene.regions.iter().enumerate().filter(move |(_, region)| region.on.object() == Some(name))
             };
+            let touches = || scene.touches.iter().filter(move |touch| touch.on == name);
             let is_parent = regions().next().is_some()
+                || touches().next().is_some()
                 || scene.objects.iter().any(|other| other.parent.as_deref() == Some(name));
             let open = self.all_open || self.state.rows.get(name).copied().unwrap_or(self.starts_open);
             let lacks_mesh = self.document.lacks_mesh(&object.mesh);
@@ -137,6 +139,7 @@ impl Listing<'_> {
             });
             if is_parent && open {
                 rows.extend(regions().map(|region| region_row(region, depth + 1)));
+                rows.extend(touches().map(|touch| touch_row(touch, depth + 1)));
                 self.objects_on(Some(name), depth + 1, rows);
             }
         }
@@ -161,6 +164,14 @@ fn region_row((index, region): (usize, &Region), depth: usize) -> TreeLine {
     }
 }
 
+fn touch_row(touch: &Touch, depth: usize) -> TreeLine {
+    let mark = match touch.color {
+        Some(color) => RowMark::Colour(color_of(color)),
+        None => RowMark::Icon(icons::TOUCH),
+    };
+    TreeLine { depth, hidden: touch.hidden, ..TreeLine::new(Item::Touch(touch.name.clone()), "touch", mark) }
+}
+
 /// The colour that a region is shown in: its own, or one by its index.
 pub(crate) fn region_color(scene: &Scene, name: &str) -> Color32 {
     let index = scene.regions.iter().position(|region| region.name == name).unwrap_or(0);
@@ -168,7 +179,10 @@ pub(crate) fn region_color(scene: &Scene, name: &str) -> Color32 {
 }
 
 fn shown_color(own: Option<Color>, index: usize) -> Color32 {
-    let Color(channels) = own.unwrap_or(REGION_COLORS[index % REGION_COLORS.len()]);
+    color_of(own.unwrap_or(REGION_COLORS[index % REGION_COLORS.len()]))
+}
+
+fn color_of(Color(channels): Color) -> Color32 {
     let [r, g, b] = channels.map(|channel| (channel * 255.0).round() as u8);
     Color32::from_rgb(r, g, b)
 }
@@ -215,6 +229,9 @@ pub(super) fn above(scene: &Scene, item: &Item) -> Vec<String> {
             region.and_then(|region| region.on.object()).map(str::to_owned)
         }
         Item::Object(name) => object(name).and_then(|object| object.parent.clone()),
+        Item::Touch(name) => {
+            scene.touches.iter().find(|touch| touch.name == *name).map(|touch| touch.on.clone())
+        }
         Item::Camera | Item::Light(_) => None,
     };
     let mut names = Vec::new();

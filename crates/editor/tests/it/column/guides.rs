@@ -1,8 +1,8 @@
 //! Tests of the list of guides and of the other facts that a region's inspector shows.
 
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use impasto_editor_model::command::{Amounts, Command, RegionTarget};
-use impasto_scene::document::{Amount, AmountDab};
+use impasto_editor_model::command::{Amounts, Command, RegionTarget, Touches};
+use impasto_scene::document::{Amount, AmountDab, Color, Touch, TouchPoint};
 
 use super::{Column, click, harness, region, type_in, with_guides};
 
@@ -112,4 +112,36 @@ fn painted_amounts_are_listed_and_cleared() {
     harness.run();
     click(&mut harness, "Clear all amounts");
     assert!(harness.state().region("apple").amounts.is_empty());
+}
+
+#[test]
+fn a_touch_is_listed_under_its_object_and_set_in_the_inspector() {
+    let mut harness = harness("apple.ron", region("apple"));
+    let point = TouchPoint { at: [0.0, 0.5, 0.5], normal: [0.0, 0.0, 1.0] };
+    let touch = Touch { color: Some(Color([1.0; 3])), ..Touch::new("glint", "apple", vec![point]) };
+    harness.state_mut().apply(Command::Touches(Touches::Lay(vec![touch.clone(), touch])));
+    harness.run();
+    for name in ["glint, touch", "glint 2, touch"] {
+        assert!(harness.query_by_label(name).is_some(), "{name} has no row");
+    }
+    fn last(harness: &egui_kittest::Harness<'_, Column>) -> Touch {
+        harness.state().document.scene().touches[1].clone()
+    }
+    assert_eq!(last(&harness).name, "glint 2");
+    type_in(&mut harness, "Touch width", "22");
+    type_in(&mut harness, "Touch length", "90");
+    type_in(&mut harness, "Touch taper", "0.5");
+    let now = last(&harness);
+    assert_eq!((now.width_px, now.length_px, now.taper), (22.0, 90.0, 0.5));
+    click(&mut harness, "Reset Touch colour");
+    assert_eq!(last(&harness).color, None);
+    click(&mut harness, "Hide touch");
+    assert!(last(&harness).hidden);
+    click(&mut harness, "Delete touch");
+    assert_eq!(harness.state().document.scene().touches.len(), 1);
+    for _ in 0..6 {
+        harness.state_mut().document.undo().expect("each was one step");
+    }
+    let first = harness.state().document.scene().touches[0].clone();
+    assert_eq!(last(&harness), Touch { name: "glint 2".to_owned(), ..first });
 }

@@ -52,6 +52,11 @@ impl PaintData {
         if has_shape { &self.programs.shaped_paint } else { &self.programs.paint }
     }
 
+    /// The program that paints lines and notes.
+    pub(super) fn line_paint(&self) -> &Program {
+        &self.programs.line_paint
+    }
+
     /// Begins to note the fragments of a piece.
     pub(super) fn begin_noting(&self) {
         self.gatherer.begin();

@@ -13,6 +13,8 @@ pub(super) struct StrokePrograms {
     pub(super) paint: Program,
     /// For tapered and bent strokes; created when the first of them is painted.
     pub(super) shaped_paint: Option<Program>,
+    /// For lines; created when the first of them is painted.
+    pub(super) line_paint: Option<Program>,
     pub(super) finish: Program,
 }
 
@@ -27,7 +29,7 @@ impl StrokePrograms {
             ],
         }
         .map(|source| Program::new(gpu, FILES, &source));
-        Ok(Self { resolve: resolve?, paint: paint?, shaped_paint: None, finish: finish? })
+        Ok(Self { resolve: resolve?, paint: paint?, shaped_paint: None, line_paint: None, finish: finish? })
     }
 
     /// Creates the program for tapered and bent strokes, unless it is there.
@@ -41,6 +43,22 @@ impl StrokePrograms {
         }
         Ok(())
     }
+
+    /// Creates the program for lines, unless it is there.
+    pub(super) fn ready_line(&mut self, gpu: &Gpu, quality: Quality) -> Result<(), GlError> {
+        if self.line_paint.is_none() {
+            let source = match quality {
+                Quality::Exact => LINE_PAINT,
+                Quality::Draft => ProgramSource {
+                    uniforms: &[PAINT_UNIFORMS],
+                    defined: &["LINE", "DRAFT"],
+                    ..DRAFT_PAINT
+                },
+            };
+            self.line_paint = Some(Program::new(gpu, FILES, &source)?);
+        }
+        Ok(())
+    }
 }
 
 /// The programs of a picture of which more is wanted than its colour.
@@ -48,20 +66,27 @@ pub(super) struct DataPrograms {
     /// As [`StrokePrograms::paint`], and notes every fragment.
     pub(super) paint: Program,
     pub(super) shaped_paint: Program,
+    pub(super) line_paint: Program,
     /// As [`StrokePrograms::finish`], and tells of the paint's surface.
     pub(super) finish: Program,
 }
 
 impl DataPrograms {
     pub(super) fn new(gpu: &Gpu) -> Result<Self, GlError> {
-        let paint = ProgramSource { uniforms: &[PAINT_UNIFORMS, OF_EXACT, &["first_stroke"]], ..PAINT };
-        let [paint, shaped_paint, finish] = [
+        let paint = ProgramSource {
+            uniforms: &[PAINT_UNIFORMS, OF_BILLBOARDS, OF_EXACT, &["first_stroke"]],
+            ..PAINT
+        };
+        let line_paint =
+            ProgramSource { uniforms: &[PAINT_UNIFORMS, OF_EXACT, &["first_stroke"]], ..LINE_PAINT };
+        let [paint, shaped_paint, line_paint, finish] = [
             ProgramSource { defined: &["STORES"], ..paint },
             ProgramSource { defined: &["SHAPED", "STORES"], ..paint },
+            ProgramSource { defined: &["LINE", "STORES"], ..line_paint },
             ProgramSource { defined: &["DATA"], ..FINISH },
         ]
         .map(|source| Program::new(gpu, FILES, &source));
-        Ok(Self { paint: paint?, shaped_paint: shaped_paint?, finish: finish? })
+        Ok(Self { paint: paint?, shaped_paint: shaped_paint?, line_paint: line_paint?, finish: finish? })
     }
 }
 
@@ -110,8 +135,6 @@ const RESOLVE: ProgramSource<'static> = ProgramSource {
 
 const PAINT_UNIFORMS: &[&str] = &[
     "size_px",
-    "view_from_world",
-    "kind",
     "mark_rows",
     "mark_bounds",
     "brush_marks",
@@ -120,13 +143,20 @@ const PAINT_UNIFORMS: &[&str] = &[
     "orthographic",
 ];
 
+/// What a billboard needs, and a line does not.
+const OF_BILLBOARDS: &[&str] = &["view_from_world", "kind"];
+
 const OF_EXACT: &[&str] = &["below", "depth_and_id"];
 
-const PAINT: ProgramSource<'static> = ProgramSource { uniforms: &[PAINT_UNIFORMS, OF_EXACT], ..DRAFT_PAINT };
+const PAINT: ProgramSource<'static> =
+    ProgramSource { uniforms: &[PAINT_UNIFORMS, OF_BILLBOARDS, OF_EXACT], ..DRAFT_PAINT };
+
+const LINE_PAINT: ProgramSource<'static> =
+    ProgramSource { uniforms: &[PAINT_UNIFORMS, OF_EXACT], defined: &["LINE"], ..DRAFT_PAINT };
 
 /// Drafts pick up no paint.
 const DRAFT_PAINT: ProgramSource<'static> =
-    ProgramSource::new("rotating_strokes/paint.vert", Some("rotating_strokes/paint.frag"), &[PAINT_UNIFORMS]);
+    ProgramSource::new("rotating_strokes/paint.vert", Some("rotating_strokes/paint.frag"), &[PAINT_UNIFORMS, OF_BILLBOARDS]);
 
 pub(super) const SOFTEN: ProgramSource<'static> =
     ProgramSource::screen("rotating_strokes/soften.frag", &[&["height", "step_px"]]);

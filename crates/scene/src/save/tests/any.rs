@@ -404,6 +404,26 @@ fn any_region() -> impl Strategy<Value = Region> {
     )
 }
 
+fn any_touch() -> impl Strategy<Value = Touch> {
+    let point = (vector3(), vector3()).prop_map(|(at, normal)| TouchPoint { at, normal });
+    let looks = (proptest::option::of(any_color()), proptest::option::of(name()), any::<bool>());
+    let numbers = [(); 4].map(|()| number());
+    (name(), name(), prop::collection::vec(point, 0..3), looks, numbers).prop_map(
+        |(name, on, points, (color, brush, hidden), [width_px, length_px, opacity, taper])| Touch {
+            name,
+            on,
+            points,
+            width_px,
+            length_px,
+            color,
+            opacity,
+            taper,
+            brush,
+            hidden,
+        },
+    )
+}
+
 pub(super) fn any_scene() -> impl Strategy<Value = Scene> {
     let style = any_style();
     let background_key =
@@ -418,12 +438,13 @@ pub(super) fn any_scene() -> impl Strategy<Value = Scene> {
         prop::collection::vec(any_object(), 0..4),
         prop::collection::vec(any_region(), 0..3),
         prop::collection::vec(any_reference(), 0..3),
+        prop::collection::vec(any_touch(), 0..3),
     );
     (head, any_camera(), lists, any_strokes()).prop_map(
         |(
             (size, seed, ((background, background_keys), exposure), timeline, reference, style),
             camera,
-            (lights, objects, regions, further_references),
+            (lights, objects, regions, further_references, touches),
             strokes,
         )| {
             Scene {
@@ -443,6 +464,7 @@ pub(super) fn any_scene() -> impl Strategy<Value = Scene> {
                 objects,
                 strokes,
                 regions,
+                touches,
                 style,
                 aovs: Vec::new(),
             }

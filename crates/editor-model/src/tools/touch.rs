@@ -1,0 +1,245 @@
+//! The tool that lays touches: a click places one stroke, a drag a long one along the surface.
+
+use glam::{DVec2, DVec3};
+use impasto_scene::document::{Amount, AmountDab, Touch, TouchPoint};
+use impasto_scene::limits;
+
+use super::ring::Ring;
+use super::{NOTHING_HERE, Paintable, Surroundings, ToolEvent, ToolOutput, amounts};
+use crate::command::{Amounts, Command, Touches};
+use crate::keymap::{Action, Modifiers};
+use crate::path::{Faces, PathPoint, PathSettings, STAMP_SHARE, SurfacePath, simplify};
+use crate::picking::Hit;
+use crate::refusal::Refusal;
+use crate::selection::Item;
+use crate::session::ToolOptions;
+
+/// A drag that stays this near its press places a single stroke, points on the screen.
+const CLICK_PX: f64 = 5.0;
+
+/// The line that is laid stays this near what was drawn, in widths, and is at least so smooth: points on the screen.
+const TOLERANCE: f64 = 0.04;
+const LEAST_TOLERANCE_PX: f64 = 0.75;
+
+/// What a touch is called first.
+const NAME: &str = "touch";
+
+/// The state of the tool.
+#[derive(Clone, Debug, Default)]
+pub(super) struct TouchTool {
+    drag: Option<Drag>,
+}
+
+#[derive(Clone, Debug)]
+struct Drag {
+    erases: bool,
+    on: Paintable,
+    /// The object's name.
+    object: String,
+    path: SurfacePath,
+    press_px: DVec2,
+    /// How far the pointer has been from its press.
+    farthest_px: f64,
+    at_px: DVec2,
+}
+
+impl TouchTool {
+    pub(super) fn is_busy(&self) -> bool {
+        self.drag.is_some()
+    }
+
+    pub(super) fn take(&mut self, event: &ToolEvent, around: &Surroundings) -> ToolOutput {
+        match *event {
+            ToolEvent::Hover { at_px, .. } => aim(at_px, around),
+            ToolEvent::Press { at_px, held, .. } => self.press(at_px, held, around),
+            ToolEvent::Move { at_px, .. } => {
+                let Some(drag) = &mut self.drag else { return aim(at_px, around) };
+                drag.at_px = at_px;
+                drag.farthest_px = drag.farthest_px.max(at_px.distance(drag.press_px));
+                let object = drag.on.object;
+                drag.path.move_to(at_px, &mut |at_px| around.hit(at_px).filter(|hit| hit.object == object));
+                self.under_way(around)
+            }
+            ToolEvent::Release => {
+                let commit = self.drag.take().and_then(|drag| drag.command(around));
+                ToolOutput { commit, ..ToolOutput::saying(waiting_words(around.options)) }
+            }
+            ToolEvent::Cancel | ToolEvent::FocusLost | ToolEvent::Key(Action::Cancel) => {
+                self.drag = None;
+                ToolOutput::saying(waiting_words(around.options))
+            }
+            ToolEvent::Key(_) if self.drag.is_some() => self.under_way(around),
+            ToolEvent::Key(_) => ToolOutput::saying(waiting_words(around.options)),
+        }
+    }
+
+    fn press(&mut self, at_px: DVec2, held: Modifiers, around: &Surroundings) -> ToolOutput {
+        let options = around.options;
+        let hit = around.hit(at_px).filter(|hit| hit.front || !options.front_only);
+        let Some(hit) = hit else { return ToolOutput::refusing(Refusal::new(NOTHING_HERE)) };
+        if held.ctrl {
+            let found = touches_near(around, &hit, &[point_of(at_px, &hit)], radius_of(&hit, around));
+            let select = found.last().map(|name| Item::Touch(name.clone()));
+            return ToolOutput { select, ..aim(at_px, around) };
+        }
+        let on = match paintable(&hit, around) {
+            Ok(on) => on,
+            Err(refusal) => return ToolOutput::refusing(refusal),
+        };
+        let Some(object) = around.object(hit.object) else { return ToolOutput::default() };
+        let settings = PathSettings {
+            radius_px: options.radius_px,
+            steady: options.steady,
+            faces: if options.front_only { Faces::Front } else { Faces::All },
+        };
+        self.drag = Some(Drag {
+            erases: options.touch_erases != held.shift,
+            on,
+            object: object.name.clone(),
+            path: SurfacePath::press(at_px, &hit, around.view, around.pose(hit.object), &settings),
+            press_px: at_px,
+            farthest_px: 0.0,
+            at_px,
+        });
+        self.under_way(around)
+    }
+
+    fn under_way(&self, around: &Surroundings) -> ToolOutput {
+        let Some(drag) = &self.drag else { return ToolOutput::default() };
+        let verb = if drag.erases { "Erasing on" } else { "Laying a touch on" };
+        let words = format!("{verb} {}   [Esc] take it back", drag.object);
+        let rings = match around.hit(drag.at_px).filter(|hit| hit.object == drag.on.object) {
+            Some(hit) => vec![Ring::on(&hit, around.options.radius_px, around)],
+            None => vec![Ring::hollow(drag.at_px, around.options.radius_px)],
+        };
+        ToolOutput { preview: drag.command(around), rings, ..ToolOutput::saying(words) }
+    }
+}
+
+/// What shows while no button is pressed.
+fn aim(at_px: DVec2, around: &Surroundings) -> ToolOutput {
+    let rings = match around.hit(at_px) {
+        Some(hit) => vec![Ring::on(&hit, around.options.radius_px, around)],
+        None => vec![Ring::hollow(at_px, around.options.radius_px)],
+    };
+    ToolOutput { rings, ..ToolOutput::saying(waiting_words(around.options)) }
+}
+
+/// The words of the status line while no drag is under way.
+pub(super) fn waiting_words(options: &ToolOptions) -> String {
+    let [click, shift] =
+        if options.touch_erases { ["[Drag] erase", "lay"] } else { ["[Click] one stroke  [Drag] a long one", "erase"] };
+    format!("{click}  [Shift] {shift}  [Ctrl] select  [F] width  [Middle] orbit")
+}
+
+/// What lies under a hit: touches belong to their object, whatever its regions are.
+fn paintable(hit: &Hit, around: &Surroundings) -> Result<Paintable, Refusal> {
+    let object = around.object(hit.object).ok_or_else(|| Refusal::new(NOTHING_HERE))?;
+    if object.locked {
+        return Err(Refusal::new(format!("{} is locked", object.name)));
+    }
+    around.paintable(Some(hit))
+}
+
+fn point_of(at_px: DVec2, hit: &Hit) -> PathPoint {
+    PathPoint { at_px, position: hit.position_in_model, normal: hit.normal_in_model }
+}
+
+fn radius_of(hit: &Hit, around: &Surroundings) -> f64 {
+    around.options.radius_px / hit.px_per_model_unit(around.view, around.poses)
+}
+
+/// The touches of a hit's object that come within this distance of any of these points, in the order of the list.
+fn touches_near(around: &Surroundings, hit: &Hit, touched: &[PathPoint], radius: f64) -> Vec<String> {
+    let Some(object) = around.object(hit.object) else { return Vec::new() };
+    near(around, &object.name, touched, radius)
+}
+
+fn near(around: &Surroundings, object: &str, touched: &[PathPoint], radius: f64) -> Vec<String> {
+    let is_near = |touch: &&Touch| {
+        let places: Vec<DVec3> = touch.points.iter().map(|point| DVec3::from(point.at)).collect();
+        let line = match places.len() {
+            0 | 1 => places,
+            count => impasto_core::smooth_path::smooth_path(&places, 12 * (count - 1)),
+        };
+        touch.on == object
+            && !touch.hidden
+            && touched.iter().any(|stamp| line.iter().any(|at| at.distance(stamp.position) <= 1.5 * radius))
+    };
+    around.scene().touches.iter().filter(is_near).map(|touch| touch.name.clone()).collect()
+}
+
+impl Drag {
+    /// The command that a release would give now.
+    fn command(&self, around: &Surroundings) -> Option<Command> {
+        let object = self.on.object;
+        let path = self.path.finished(&mut |at_px| around.hit(at_px).filter(|hit| hit.object == object));
+        if self.erases {
+            return self.erased(&path, around);
+        }
+        let touches: Vec<Touch> = if self.farthest_px < CLICK_PX {
+            let first = path.pieces().first().and_then(|piece| piece.first())?;
+            vec![self.touch(&[*first], &path, around)]
+        } else {
+            let pieces = path.pieces().iter().filter(|piece| piece.len() > 1);
+            pieces.map(|piece| self.touch(piece, &path, around)).collect()
+        };
+        (!touches.is_empty()).then_some(Command::Touches(Touches::Lay(touches)))
+    }
+
+    /// The touch along a piece of a path.
+    fn touch(&self, piece: &[PathPoint], path: &SurfacePath, around: &Surroundings) -> Touch {
+        let options = around.options;
+        let px_per_unit = options.radius_px / path.radius();
+        let mut tolerance = (TOLERANCE * options.radius_px).max(LEAST_TOLERANCE_PX) / px_per_unit;
+        let mut kept = simplify::within(piece, tolerance);
+        while kept.len() > limits::MAX_TOUCH_POINTS {
+            tolerance *= 1.5;
+            kept = simplify::within(piece, tolerance);
+        }
+        let short = |value: f64, length: f64| amounts::short(value, length);
+        let points = kept.iter().map(|point| TouchPoint {
+            at: point.position.to_array().map(|value| short(value, path.radius())),
+            normal: point.normal.to_array().map(|value| short(value, 1.0)),
+        });
+        // The ring is as wide as the stroke: from points of the window to pixels of the scene's own size.
+        let scale = f64::from(around.scene().size.1) / around.view.size_px.y.max(1.0);
+        let width_px = (2.0 * options.radius_px * scale).clamp(
+            *limits::TOUCH_WIDTH_PX.start(),
+            *limits::TOUCH_WIDTH_PX.end(),
+        );
+        let width_px = (width_px * 10.0).round() / 10.0;
+        let ratio = Touch::USUAL_LENGTH_PX / Touch::USUAL_WIDTH_PX;
+        let length_px = (width_px * ratio).round().clamp(
+            *limits::TOUCH_LENGTH_PX.start(),
+            *limits::TOUCH_LENGTH_PX.end(),
+        );
+        Touch {
+            width_px,
+            length_px: if kept.len() == 1 { length_px } else { Touch::USUAL_LENGTH_PX },
+            color: (!options.touch_from_picture).then_some(options.touch_color),
+            opacity: options.touch_opacity,
+            taper: options.touch_taper,
+            ..Touch::new(NAME, self.object.clone(), points.collect())
+        }
+    }
+
+    /// Takes the touches under the drag away; where there are none, strokes are thinned to nothing.
+    fn erased(&self, path: &SurfacePath, around: &Surroundings) -> Option<Command> {
+        let touched = path.stamps_apart(STAMP_SHARE);
+        let names = near(around, &self.object, &touched, path.radius());
+        if !names.is_empty() {
+            return Some(Command::Touches(Touches::Erase(names)));
+        }
+        let dabs: Vec<AmountDab> =
+            amounts::dabs(&path.stamps_apart(amounts::DAB_SHARE), 1.5 * path.radius(), 0.0);
+        (!dabs.is_empty()).then(|| {
+            Command::Amounts(Amounts::Paint {
+                region: self.on.target.clone(),
+                of: Amount::Density,
+                object: self.on.object_name.clone(),
+                dabs,
+            })
+        })
+    }
+}

@@ -1,0 +1,43 @@
+//! The lines of a frame's touches, in the layout in which they go to the GPU.
+
+use bytemuck::{Pod, Zeroable};
+
+/// The lines of all touches of a frame.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Lines {
+    /// The vertices of all strips.
+    pub vertices: Vec<LineVertex>,
+    /// A strip of triangles for each piece of a touch that is in front of the camera, in painting order.
+    pub strips: Vec<LineStrip>,
+}
+
+/// A strip of triangles: vertices on the left and the right of a line in turn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LineStrip {
+    /// Index of the touch in the frame's strokes.
+    pub stroke: u32,
+    /// Index of the first vertex.
+    pub first: u32,
+    /// How many vertices.
+    pub count: u32,
+}
+
+/// A vertex of a strip. Pixels, origin at the lower left, Y up.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct LineVertex {
+    /// Where it is, pixels.
+    pub at_px: [f32; 2],
+    /// Where it is on the brush mark, 0..=1: along and across.
+    pub on_mark: [f32; 2],
+    /// From the line's middle to it, pixels.
+    pub from_middle_px: [f32; 2],
+    /// Depth of the line's middle, world units.
+    pub depth: f32,
+    /// How far the paint is there, 0 where the surface is seen edge-on, to 1.
+    pub presence: f32,
+    /// How much deeper than the line's middle the surface's plane is under it, pixels.
+    pub lean_px: f32,
+    /// How far the surface may leave that plane before paint ends, pixels of depth.
+    pub leave_px: f32,
+}
