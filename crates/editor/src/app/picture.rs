@@ -267,7 +267,8 @@ impl PictureFlow {
         let from = (editor.session.frame.floor() as i64).clamp(course.first, course.last);
         let frames = (0..course.count().min(MOST_FRAMES))
             .map(|index| course.first + (from - course.first + index).rem_euclid(course.count()));
-        frames.flat_map(|frame| self.views(editor, frame as f64)).collect()
+        let views = frames.flat_map(|frame| self.views(editor, frame as f64));
+        views.map(|view| ViewJob { lights: Vec::new(), ..view }).collect()
     }
 
     /// The views to show at a frame.
@@ -280,22 +281,24 @@ impl PictureFlow {
         } else {
             vec![now]
         };
-        let moving = editor.is_moving() || editor.time().playback.is_playing();
+        let plays = editor.time().playback.is_playing();
+        let moving = editor.is_moving() || plays;
         let view = |(framing, (camera, frame)): (&Framing, (CameraPose, f64))| ViewJob {
             camera: framing.widened(&camera),
             frame,
             size_px: framing.size_px(),
             shot_height_px: framing.shot_height_px(),
             shading,
-            lights: lights::billboards(editor, framing),
+            // What plays is the film, without icons.
+            lights: if plays { Vec::new() } else { lights::billboards(editor, framing) },
             moving,
         };
         self.layout.framings().iter().zip(seen).map(view).collect()
     }
 }
 
-/// Whether to finish the film while nothing else is drawn: it was played before, and shows nothing but the film.
+/// Whether to finish the film while nothing else is drawn: it was played before.
 fn finishes(editor: &Editor, views: &[ViewJob]) -> bool {
     let [view] = views else { return false };
-    !view.moving && view.lights.is_empty() && editor.session.finishes && editor.time().has_played()
+    !view.moving && editor.session.finishes && editor.time().has_played()
 }
