@@ -42,6 +42,7 @@ mod picture_border;
 mod point_caches;
 mod progressive_order;
 mod recall;
+mod reference_pass;
 mod references;
 mod roll_and_lateral;
 mod rotating_strokes;

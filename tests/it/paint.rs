@@ -8,10 +8,12 @@ use impasto_gl_render::Renderer;
 use impasto_gl_render::context::Driver;
 use impasto_painting::frame::{Frame, LayerKind};
 use impasto_painting::{FrameOptions, Painting, prepare};
-use impasto_scene::document::{Color, Direction, Light, LightKind, Scene};
+use impasto_scene::document::{
+    Color, Direction, LayerSettings, Light, LightKind, RotatingStrokes, Scene, Style,
+};
 use impasto_scene::load::{LoadOptions, load};
 use impasto_tests::command::root;
-use impasto_tests::pictures::renderer;
+use impasto_tests::pictures::{Grey, renderer};
 use impasto_tests::scenes;
 use impasto_tests::shapes;
 
@@ -301,6 +303,60 @@ fn paint_ends_at_a_crease() {
     // Both are within half a stroke, 40 rows, of the crease at row 166. Strokes that ran on gave 0.87 and 0.28.
     assert!(share(122..150) > 0.95, "dark strokes run on over the top: {}", share(122..150));
     assert!(share(178..200) < 0.18, "light strokes run on over the front: {}", share(178..200));
+}
+
+/// The paint is a surface: its normal leans against the slope of its height. Paint of height 1 is 1.6 px thick, and stands 2.2 times as
+/// steep in the light of the room, so that a stroke's furrows are seen.
+#[test]
+fn the_normal_of_the_paint_is_that_of_its_height() {
+    const STEEPNESS: f64 = 2.2 * 1.6;
+    let mut renderer = renderer(Driver::Auto);
+    let size_px = [640, 360];
+    for relief in [0.5, 1.0, 2.0] {
+        let painting = sphere(|scene| {
+            scene.style =
+                Style::RotatingStrokes(RotatingStrokes { relief, weave: 0.0, ..Default::default() });
+            // Wet paint has less relief where it ran together.
+            let dry = |kind: LayerKind| LayerSettings {
+                name: kind.name().to_owned(),
+                pickup: Some(0.0),
+                coverage: (kind != LayerKind::Body).then_some(0.0),
+                ..LayerSettings::default()
+            };
+            scene.strokes.layers = LayerKind::ALL.map(dry).into();
+        });
+        renderer.gather_paint(true);
+        renderer.render(&painting.at(0.0, &options(size_px))).unwrap();
+        let surface = renderer.read_paint_surface().unwrap();
+        let height = Grey {
+            size_px: size_px.map(|side| side as usize),
+            values: surface.normal_and_height.iter().map(|pixel| f64::from(pixel[3].to_f32())).collect(),
+        };
+        // How steep the normals say the paint is, beside heights at the corners of a square of 1.2 px; rows go down.
+        let (mut both, mut alone, mut off) = (0.0, 0.0, 0.0);
+        for (x, y) in
+            (2..size_px[1] as usize - 2).flat_map(|y| (2..size_px[0] as usize - 2).map(move |x| (x, y)))
+        {
+            let at = |dx: f64, dy: f64| height.sample(x as f64 + 0.6 * dx, y as f64 - 0.6 * dy).unwrap();
+            let [right_above, left_above, right_below, left_below] =
+                [at(1.0, 1.0), at(-1.0, 1.0), at(1.0, -1.0), at(-1.0, -1.0)];
+            let slope = [
+                (right_above + right_below - left_above - left_below) / 2.4,
+                (right_above + left_above - right_below - left_below) / 2.4,
+            ];
+            let n =
+                surface.normal_and_height[y * size_px[0] as usize + x].map(|value| f64::from(value.to_f32()));
+            for axis in 0..2 {
+                let (found, wanted) = (-n[axis] / n[2], STEEPNESS * relief * slope[axis]);
+                both += found * wanted;
+                alone += wanted * wanted;
+                off += (found - wanted).powi(2);
+            }
+        }
+        assert!(alone > 100.0, "there is no relief to compare: {alone}");
+        assert!((both / alone - 1.0).abs() < 0.01, "relief {relief} stands {} times as steep", both / alone);
+        assert!(off < 1e-3 * alone, "relief {relief}: normals are off by {off} of {alone}");
+    }
 }
 
 /// The colours of the pixels after the picture was reduced to `small` by averaging.

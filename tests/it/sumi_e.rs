@@ -1,6 +1,8 @@
 //! Tests of ink on paper. First the source's five passes are compared with a version on the CPU that shares no code
 //! with them, then what our own rule adds is tested.
 
+mod laid_ink;
+
 use glam::{DVec3, Vec3};
 use impasto_core::TriangleMesh;
 use impasto_gl_render::context::Driver;

@@ -91,25 +91,18 @@ fn plant(
 
 const SHADERS: &str = "crates/gl-render/shaders";
 
-/// The program of the integration tests, built.
+/// The program of the integration tests, built with the features of the whole workspace, so that nothing is built twice.
 fn built_tests(root: &Path) -> anyhow::Result<PathBuf> {
-    let arguments = [
-        "test",
-        "--locked",
-        "--package",
-        "impasto-tests",
-        "--test",
-        "it",
-        "--no-run",
-        "--message-format",
-        "json",
-    ];
+    let arguments =
+        ["test", "--locked", "--workspace", "--test", "it", "--no-run", "--message-format", "json"];
+    let manifest = root.join("tests/Cargo.toml");
     let said = steps::output(root, &cargo(), &arguments)?;
     let program = said
         .lines()
         .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
         .find_map(|message| {
-            (message["target"]["name"] == "it").then(|| message["executable"].as_str().map(PathBuf::from))?
+            let is_ours = message["manifest_path"].as_str().map(Path::new) == Some(&manifest);
+            is_ours.then(|| message["executable"].as_str().map(PathBuf::from))?
         });
     program.context("cargo did not say where the tests are")
 }

@@ -306,6 +306,31 @@ mod tests {
         assert!(size.least() <= on_knob);
     }
 
+    /// In millimetres forms are a thousand times as large as in metres, and as near to each other; here a power of two.
+    #[test]
+    fn sizes_grow_with_the_surface() {
+        let [mut large, small] = [ball(2.0), ball(0.25)];
+        let first = large.positions.len() as u32;
+        large.positions.extend(small.positions.iter().map(|&at| at + Vec3::X * 3.0));
+        large.normals.extend(small.normals);
+        large.triangles.extend(small.triangles.iter().map(|corners| corners.map(|vertex| vertex + first)));
+        let sizes = |scale: f32| {
+            let mut mesh = large.clone();
+            mesh.positions.iter_mut().for_each(|at| *at *= scale);
+            let size = FormSize::of(&Surface::new(&mesh, |_| true), 7);
+            let places =
+                [(Vec3::ZERO, 2.0, Vec3::Y), (Vec3::ZERO, 2.0, Vec3::NEG_Z), (Vec3::X * 3.0, 0.25, Vec3::Y)];
+            places.map(|(middle, radius, out)| size.at((middle + out * radius) * scale, out) / scale)
+        };
+        let plain = sizes(1.0);
+        assert!(plain[0] > 4.0 * plain[2] && plain[1] > 4.0 * plain[2], "{plain:?}");
+        for scale in [1.0 / 1024.0, 1024.0] {
+            for (found, plain) in sizes(scale).iter().zip(plain) {
+                assert!((found / plain - 1.0).abs() < 1e-3, "times {scale}: {found} for {plain}");
+            }
+        }
+    }
+
     #[test]
     fn a_surface_without_area_bounds_nothing() {
         let mesh = TriangleMesh {

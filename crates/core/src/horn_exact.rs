@@ -41,3 +41,43 @@ pub fn turn_rad(
     let angle = cross.atan2(dot);
     if angle.is_finite() { angle } else { 0.0 }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Parallel rays on a picture of 400 by 200 pixels, which is two units high.
+    const VIEW: ClipView = ClipView {
+        clip_from_model: DMat4::from_cols_array_2d(&[
+            [0.5, 0.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0, 0.0],
+            [0.0, 0.0, -0.1, 0.0],
+            [0.0, 0.0, 0.0, 1.0],
+        ]),
+        size_px: DVec2::new(400.0, 200.0),
+    };
+
+    #[test]
+    fn neighbours_that_turn_by_an_angle_give_this_angle() {
+        assert_eq!(VIEW.pixel(DVec3::new(0.5, -0.25, 3.0)), DVec2::new(50.0, -25.0));
+        let (then, now) = (DVec3::new(0.2, 0.1, 0.0), DVec3::new(-0.3, 0.4, 1.0));
+        let steps = [[0.3, 0.1], [-0.1, 0.25], [0.05, -0.2], [-0.4, -0.3]].map(DVec2::from_array);
+        for angle in [-3.0, -1.2, 0.0, 0.7, 2.5_f64] {
+            let neighbours = steps.iter().map(|&step| {
+                let turned = DVec2::from_angle(angle).rotate(step) * 1.7;
+                [then + step.extend(0.5), now + turned.extend(-0.5)]
+            });
+            let found = turn_rad([then, now], neighbours, &VIEW, &VIEW);
+            assert!((found - angle).abs() < 1e-12, "{found} for {angle}");
+        }
+        assert_eq!(turn_rad([then, now], std::iter::empty(), &VIEW, &VIEW), 0.0);
+    }
+
+    /// One neighbour goes from the right to above, and a nearer one stays: the longer offsets count more, as the square of their length.
+    #[test]
+    fn neighbours_count_by_their_offsets() {
+        let neighbours = [[DVec3::X, DVec3::Y], [DVec3::X * 0.5, DVec3::X * 0.5]];
+        let found = turn_rad([DVec3::ZERO; 2], neighbours.into_iter(), &VIEW, &VIEW);
+        assert!((found - 1.0_f64.atan2(0.25)).abs() < 1e-12, "{found}");
+    }
+}

@@ -52,3 +52,36 @@ fn ratio(over: f64, under: f64) -> f64 {
         FARTHEST.copysign(over) * 1.0_f64.copysign(under)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_undoes_bilinear_interpolation_in_any_convex_quad() {
+        let quads = [
+            [[0.0, 0.0], [3.0, 0.0], [0.0, 2.0], [3.0, 2.0]],
+            [[1.0, 1.0], [4.0, 2.0], [0.0, 3.0], [3.5, 5.0]],
+            [[-1.0, 0.0], [1.0, 0.0], [-2.0, 4.0], [2.0, 4.0]],
+        ];
+        for quad in quads.map(|corners| corners.map(DVec2::from_array)) {
+            // Wound the other way, u and v change places.
+            let [p0, p1, p2, p3] = quad;
+            for quad in [quad, [p0, p2, p1, p3]] {
+                for at in [[0.0, 0.0], [0.25, 0.5], [0.7, 0.1], [1.0, 0.4], [0.3, 1.0]].map(DVec2::from_array)
+                {
+                    let found = inverse_bilinear(bilinear(at, quad), quad);
+                    assert!(found.abs_diff_eq(at, 1e-12), "{found} for {at} in {quad:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn without_area_it_is_bounded_and_never_nan() {
+        assert_eq!([ratio(0.0, 0.0), ratio(1.0, 0.0), ratio(-1.0, 0.0)], [0.0, FARTHEST, -FARTHEST]);
+        assert_eq!([ratio(1.0, -1e-9), ratio(6.0, -3.0)], [-FARTHEST, -2.0]);
+        let point = inverse_bilinear(DVec2::new(5.0, -3.0), [DVec2::ZERO; 4]);
+        assert!(point.abs().max_element() <= FARTHEST, "{point}");
+    }
+}

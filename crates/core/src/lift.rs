@@ -179,6 +179,27 @@ mod tests {
     }
 
     #[test]
+    fn a_blend_of_near_lifts_is_their_weighted_mean() {
+        let lift = Lift { along: DVec3::new(1.0, 2.0, 3.0), across: DVec3::new(-2.0, 1.0, 0.5) };
+        let other = Lift { along: DVec3::new(1.5, 1.0, 3.0), across: DVec3::new(-1.0, 1.0, 1.5) };
+        let blend = lift.blended(other, 0.25, JACOBIAN);
+        assert!((blend.along - DVec3::new(1.125, 1.75, 3.0)).length() < 1e-12, "{}", blend.along);
+        assert!((blend.across - DVec3::new(-1.75, 1.0, 0.75)).length() < 1e-12, "{}", blend.across);
+    }
+
+    /// Seen from above, what is farther away is up; seen from below, what is nearer: so both have the same right.
+    #[test]
+    fn a_surface_that_faces_straight_up_or_down_has_fixed_axes() {
+        let close = |found: [DVec3; 2], wanted: [DVec3; 2]| {
+            assert!((found[0] - wanted[0]).length() + (found[1] - wanted[1]).length() < 1e-12, "{found:?}");
+        };
+        close(turntable_axes(DVec3::Y, DVec3::Y), [DVec3::X, DVec3::NEG_Z]);
+        close(turntable_axes(DVec3::NEG_Y, DVec3::Y), [DVec3::X, DVec3::Z]);
+        // Where up is along Z, away is along Y.
+        close(turntable_axes(DVec3::Z, DVec3::Z), [DVec3::X, DVec3::Y]);
+    }
+
+    #[test]
     fn a_blend_takes_the_nearer_of_two_opposite_lines() {
         let normal = DVec3::new(0.3, -0.2, 0.9).normalize();
         let lift = Lift::tangent(JACOBIAN, normal).unwrap();

@@ -228,6 +228,8 @@ pub struct Session {
     pub frame_before_paint: Option<f64>,
     /// Whether playing begins again at the end of the range.
     pub looped: bool,
+    /// Whether the frames of a film that was played are painted exactly while the window rests.
+    pub finishes: bool,
     /// Whether playing follows the clock or shows every frame.
     pub pacing: Pacing,
     /// Whether a pose made in Animate is keyed at once.
@@ -252,6 +254,7 @@ impl Default for Session {
             frame: 0.0,
             frame_before_paint: None,
             looped: true,
+            finishes: true,
             pacing: Pacing::default(),
             auto_key: true,
             lock_to_view: false,

@@ -76,6 +76,11 @@ impl LoosePoses {
 }
 
 impl TimeHand {
+    /// Whether the film was played since the window opened.
+    pub fn has_played(&self) -> bool {
+        self.played.is_some()
+    }
+
     /// Whether a thing has a loose pose.
     pub fn is_loose(&self, name: &str) -> bool {
         self.loose.as_ref().is_some_and(|loose| loose.poses.iter().any(|(other, _)| other == name))

@@ -88,6 +88,8 @@ icons! {
     LAST_FRAME = ICON_LAST_PAGE;
     /// Loop.
     LOOP = ICON_REPEAT;
+    /// Finish frames.
+    FINISH = ICON_AUTO_AWESOME_MOTION;
     /// Key.
     KEY = ICON_DIAMOND;
     /// Dropped frames.

@@ -2,7 +2,7 @@
 //! and polls for results.
 //!
 //! ```text
-//! Worker::show(Job) ─▶ mailbox (one job, the latest) ─▶ prepare ─▶ draft ─▶ rest ─▶ exact ─▶ tray ─▶ Worker::poll
+//! Worker::show(Job) ─▶ mailbox (one job, the latest) ─▶ prepare ─▶ draft ─▶ rest ─▶ exact ─▶ film ─▶ tray ─▶ Worker::poll
 //! ```
 
 use std::sync::Arc;
@@ -21,6 +21,7 @@ use impasto_scene::motion::CameraPose;
 
 mod ahead;
 mod draft;
+mod film;
 mod mailbox;
 mod paint_worker;
 #[cfg(test)]
@@ -41,6 +42,16 @@ pub struct Job {
     pub serial: u64,
     /// The views, each drawn as one picture.
     pub views: Vec<ViewJob>,
+}
+
+/// What will likely be asked for after a job.
+#[derive(Clone, Debug, Default)]
+pub struct Later {
+    /// During playback, the same views at the next frame: computed while those of the job are drawn.
+    pub ahead: Vec<ViewJob>,
+    /// At rest, the view of each frame of the film, the next to be seen first: drawn exactly and kept, once the views of the
+    /// job are exact.
+    pub film: Vec<ViewJob>,
 }
 
 /// One picture of a scene.
@@ -94,6 +105,8 @@ pub enum Report {
     Prepared(Box<(Painting, Picker)>, u64),
     /// A picture.
     Picture(Picture),
+    /// The frames of the film whose exact pictures are kept, in order, and the scene's serial.
+    Finished(Vec<i64>, u64),
     /// What went wrong, in words for the user. The thread goes on.
     Failed(String),
 }
@@ -141,13 +154,12 @@ impl Worker {
 
     /// Shows this from now on. A job that was not begun is dropped; one that is under way gives up its exact pictures.
     pub fn show(&self, job: Job) {
-        self.mailbox.put(job, Vec::new());
+        self.mailbox.put(job, Later::default());
     }
 
-    /// As [`Worker::show`], during playback: `ahead` are the same views at the frame that will likely be asked for
-    /// next.
-    pub fn play(&self, job: Job, ahead: Vec<ViewJob>) {
-        self.mailbox.put(job, ahead);
+    /// As [`Worker::show`], with what will likely be asked for after that.
+    pub fn show_before(&self, job: Job, later: Later) {
+        self.mailbox.put(job, later);
     }
 
     /// Draws everything with these shaders from the next job on. If one of them is broken, that is reported and the

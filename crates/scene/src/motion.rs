@@ -391,4 +391,6 @@ fn sin_cos_deg(angle_deg: f64) -> (f64, f64) {
 }
 
 #[cfg(test)]
+mod shot_tests;
+#[cfg(test)]
 mod tests;

@@ -64,6 +64,22 @@ fn the_gradient_of_an_affine_map_is_exact_on_a_flat_surface() {
     }
 }
 
+/// Where a surface is not stretched alike to all sides, every edge counts alike, however long: here those to the right and to the left.
+#[test]
+fn the_gradient_is_the_mean_of_what_edges_say_whatever_their_length() {
+    let [right, up, left, down] = [Vec3::X, Vec3::Y, Vec3::X * -3.0, Vec3::Y * -0.5];
+    let mesh = TriangleMesh {
+        positions: vec![Vec3::ZERO, right, up, left, down],
+        normals: vec![Vec3::Z; 5],
+        triangles: vec![[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]],
+        ..TriangleMesh::default()
+    };
+    // The right side is twice as long, the upper one three times, the others as they were.
+    let positions = [Vec3::ZERO, right * 2.0, up * 3.0, left, down];
+    let found = Gradients::new(&mesh, Bonds::All).at(&positions)[0];
+    assert!(found.abs_diff_eq(Mat3::from_diagonal(Vec3::new(1.5, 2.0, 1.0)), 1e-6), "{found}");
+}
+
 #[test]
 fn a_carried_normal_is_as_long_as_the_surface_has_grown() {
     let mesh = TriangleMesh {

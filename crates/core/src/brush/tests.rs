@@ -85,3 +85,75 @@ fn a_picture_with_contrast_makes_a_brush() {
     assert_eq!(marks_of_picture([1, 1], &[white]).len(), VARIANTS as usize);
     assert!(marks_of_picture([64, 32], &light[..10]).is_empty());
 }
+
+/// Whether a mark is dark on light is told by all four borders of its picture: here those that the mark reaches are lighter than the
+/// whole, and the others dark.
+#[test]
+fn a_light_mark_that_reaches_two_borders_of_its_picture_is_no_dark_one() {
+    let upright = |x: usize, y: usize| match (x, y) {
+        (0 | 7, _) => [0, 0, 0, 255],
+        (_, 0 | 63) => [255; 4],
+        _ => [230, 230, 230, 255],
+    };
+    let tall: Vec<[u8; 4]> = (0..8 * 64).map(|index| upright(index % 8, index / 8)).collect();
+    let wide: Vec<[u8; 4]> = (0..64 * 8).map(|index| upright(index / 64, index % 64)).collect();
+    for (size_px, texels, dark) in [([8, 64], tall, [24, 48]), ([64, 8], wide, [128, 11])] {
+        for mark in marks_of_picture(size_px, &texels) {
+            let paint = |[column, row]: [usize; 2]| mark.texels[row * SIZE[0] + column][0];
+            assert!(paint([128, 48]) > 0 && paint(dark) == 0, "{size_px:?} was inverted");
+        }
+    }
+}
+
+/// For each row of all marks of a brush: the first and the last texel with paint, as columns.
+fn ends_of_rows(name: &str) -> Vec<(usize, [usize; 2])> {
+    let rows = |mark: &Mark| -> Vec<(usize, [usize; 2])> {
+        let inked = |row: usize| {
+            let texels = &mark.texels[row * SIZE[0]..][..SIZE[0]];
+            let first = texels.iter().position(|texel| texel[0] > 0)?;
+            Some((row, [first, texels.iter().rposition(|texel| texel[0] > 0)?]))
+        };
+        (0..SIZE[1]).filter_map(inked).collect()
+    };
+    marks_of(name).unwrap().iter().flat_map(rows).collect()
+}
+
+#[test]
+fn a_round_brush_sets_down_and_lifts_off_round() {
+    // Columns from the middle of a mark to where its paint begins or ends, in rows this far from the middle.
+    let reach = |name: &str, end: usize, rows: std::ops::Range<usize>| {
+        let all = ends_of_rows(name);
+        let near = all.iter().filter(|(row, _)| rows.contains(&row.abs_diff(SIZE[1] / 2)));
+        let reach: Vec<f64> = near.map(|(_, ends)| ends[end].abs_diff(SIZE[0] / 2) as f64).collect();
+        reach.iter().sum::<f64>() / reach.len() as f64
+    };
+    for end in [0, 1] {
+        let [round, knife] = ["round", "knife"].map(|name| reach(name, end, 0..6) - reach(name, end, 28..32));
+        assert!(round > 8.0, "end {end} of a round mark is {round} columns longer in its middle");
+        assert!(knife.abs() < 4.0, "end {end} of a knife's mark is {knife} columns longer in its middle");
+    }
+}
+
+/// Paint is pushed aside along the edges.
+#[test]
+fn paint_is_thicker_beside_its_edges() {
+    for name in ["flat", "filbert", "knife"] {
+        let (mut beside, mut within) = ((0.0, 0.0), (0.0, 0.0));
+        for mark in marks_of(name).unwrap() {
+            for column in 60..160 {
+                let height = |row: usize| f64::from(mark.texels[row * SIZE[0] + column][1]);
+                let Some(edge) = (0..SIZE[1]).find(|&row| mark.texels[row * SIZE[0] + column][0] > 0) else {
+                    continue;
+                };
+                for row in edge + 2..=edge + 4 {
+                    beside = (beside.0 + height(row), beside.1 + 1.0);
+                }
+                for row in edge + 9..=edge + 15 {
+                    within = (within.0 + height(row), within.1 + 1.0);
+                }
+            }
+        }
+        let times = (beside.0 / beside.1) / (within.0 / within.1);
+        assert!(times > 1.1, "{name}: {times} times as thick beside its edge");
+    }
+}

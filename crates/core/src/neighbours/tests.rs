@@ -131,3 +131,41 @@ fn threads_do_not_change_the_lists() {
     };
     assert_eq!(on_threads(1), on_threads(3));
 }
+
+/// Of points on a grid, about as many as a list holds lie within the radius.
+#[test]
+fn a_list_is_full_at_its_radius() {
+    let (side, spacing) = (100, 0.3);
+    let radius = full_list_radius((f64::from(side) * spacing).powi(2), (side * side) as usize);
+    let near = (-20..=20).flat_map(|y| (-20..=20).map(move |x| f64::from(x * x + y * y).sqrt() * spacing));
+    let found = near.filter(|&away| away <= radius).count() as f64;
+    assert!((found / MAX_NEIGHBOURS as f64 - 1.0).abs() < 0.1, "{found}");
+    assert!(full_list_radius(1.0, 0).is_finite());
+}
+
+#[test]
+fn arrays_that_no_lists_have_are_refused() {
+    let (positions, normals) = scattered(40, Vec3::ONE);
+    let found = Neighbours::find(&positions, &normals, 0.4);
+    let arrays = found.arrays();
+    let whole = (arrays.slots.to_vec(), arrays.lengths.to_vec(), arrays.indices.to_vec(), arrays.most);
+    type Arrays = (Vec<u32>, Vec<u8>, Vec<u32>, usize);
+    let read =
+        |(slots, lengths, indices, most): Arrays| Neighbours::from_arrays(slots, lengths, indices, most);
+    let again = read(whole.clone()).unwrap();
+    assert!((0..40).all(|particle| again.of(particle) == found.of(particle)));
+    let faults: [fn(&mut Arrays); 6] = [
+        |arrays| arrays.1.truncate(39),
+        |arrays| arrays.2.truncate(39),
+        |arrays| arrays.0[3] = 40,
+        |arrays| arrays.2[3] = 40,
+        |arrays| arrays.1[3] = 51,
+        // As many indices as there would be, but longer lists than any.
+        |arrays| (arrays.3, arrays.2) = (MAX_NEIGHBOURS + 1, vec![0; 40 * (MAX_NEIGHBOURS + 1)]),
+    ];
+    for (number, fault) in faults.iter().enumerate() {
+        let mut arrays = whole.clone();
+        fault(&mut arrays);
+        assert!(read(arrays).is_none(), "fault {number} is taken");
+    }
+}

@@ -165,6 +165,7 @@ fn packed(flags: &[u8; WORD]) -> u64 {
 mod tests {
     use super::super::{SolvedParticles, solve};
     use super::*;
+    use crate::angle::wrap_pi;
     use crate::hash;
     use crate::lift::Lift;
     use crate::screen_map::PixelLens;
@@ -209,6 +210,47 @@ mod tests {
         }
     }
 
+    /// Beside the same formulas in double precision, where the particle is well before the eye.
+    #[test]
+    fn what_is_solved_is_the_projection_and_the_angle_of_the_lift() {
+        for wrapped in [false, true] {
+            // Turned about no axis of its own, so that every number of the map counts.
+            let pose = DAffine3::from_axis_angle(DVec3::new(0.5, 0.7, -0.3).normalize(), 0.9);
+            let view = DMat4::from_translation(DVec3::new(0.3, -0.2, -4.0));
+            let map = ScreenMap::new(view, pose, PixelLens::Perspective { focal_px: 900.0 });
+            let particles = crowd(1000, wrapped);
+            let mut solved = SolvedParticles::default();
+            solve(&particles, &map, &mut solved);
+            let (mut compared, mut angles) = (0, 0);
+            for index in 0..particles.len() {
+                let at = particles.position_of(index);
+                let (px, jacobian) = (map.project(at), map.jacobian(at));
+                let area_px = particles.normal_of(index).dot(jacobian[0].cross(jacobian[1]));
+                let on_screen = particles.lift_of(index).map(jacobian);
+                let depth = f64::from(solved.depth[index]);
+                if depth < 1.0 {
+                    continue;
+                }
+                compared += 1;
+                let found = [solved.x_px[index], solved.y_px[index], solved.area_px[index]].map(f64::from);
+                let size_px = jacobian[0].length() * jacobian[1].length();
+                let off =
+                    [(found[0] - px.x) / 900.0, (found[1] - px.y) / 900.0, (found[2] - area_px) / size_px];
+                assert!(off.iter().all(|off| off.abs() < 1e-4), "particle {index}: {off:?}");
+                let flatness = particles.flatness.get(index).map_or(1.0, |&flatness| f64::from(flatness));
+                let wanted = on_screen.shown_rad(flatness);
+                // Where the sums that the angle is of nearly cancel, single precision says nothing.
+                let beside = wrap_pi(on_screen.shown_rad(flatness - 1e-3) - wanted);
+                if on_screen.kappa() > 0.05 && beside.abs() < 0.01 {
+                    let off = wrap_pi(f64::from(solved.angle_rad[index]) - wanted);
+                    assert!(off.abs() < 1e-3, "particle {index}: the angle is off by {off}");
+                    angles += 1;
+                }
+            }
+            assert!(compared > 500 && angles > 400, "{compared} particles, {angles} angles");
+        }
+    }
+
     #[test]
     fn bits_are_set_where_every_bound_holds() {
         // More than one task, and not a whole number of words.
@@ -216,7 +258,8 @@ mod tests {
         let mut solved = SolvedParticles::default();
         solve(&particles, &map, &mut solved);
         let bounds = Bounds { half_px: [640.0, 360.0], near_far: [2.0, 6.0], most_per_area: 0.15 };
-        let words = ParticleView::new(&map).within(&particles, &bounds);
+        let view = ParticleView::new(&map);
+        let words = view.within(&particles, &bounds);
         let mut portable = vec![0; words.len()];
         let (rows, words_of) = (Rows::new(&map), &mut portable);
         Marking { particles: &particles, first: 0, rows: &rows, bounds: &bounds, words: words_of }.run();
@@ -235,6 +278,9 @@ mod tests {
             ];
             let bit = words[index / WORD] >> (index % WORD) & 1;
             assert_eq!(bit == 1, holds.iter().all(|&holds| holds), "particle {index}");
+            let vectors =
+                [&particles.position, &particles.normal].map(|axes| axes.each_ref().map(|axis| axis[index]));
+            assert_eq!(view.shows(vectors, index as u32, &bounds), bit == 1, "particle {index} alone");
             if let [out] = [0, 1, 2, 3, 4, 5].iter().filter(|&&bound| !holds[bound]).collect::<Vec<_>>()[..] {
                 alone[*out] += 1;
             }

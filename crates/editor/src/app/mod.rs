@@ -265,6 +265,7 @@ impl EditorApp {
                 strokes_of: self.picture_flow.strokes_of(),
                 pictures_per_second: self.picture_flow.pictures_per_second(),
                 driver: &driver,
+                finished: self.picture_flow.finished(),
                 works: &works,
             },
             recent: &recent,

@@ -14,10 +14,13 @@ use super::lights;
 use crate::files::preferences::DriverChoice;
 use crate::viewport::{Framing, Layout, Pictures};
 use crate::window::Waker;
-use crate::worker::{Job, Report, ViewJob, Worker};
+use crate::worker::{Job, Later, Report, ViewJob, Worker};
 
 /// Pictures per second are counted over this time, seconds.
 const SPAN_S: f64 = 1.0;
+
+/// So many frames of the film are asked for at a time; the thread keeps as many as there is room for.
+const MOST_FRAMES: i64 = 1000;
 
 /// What came from the thread in this pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -28,14 +31,23 @@ pub(super) enum News {
     NextOfFilm,
 }
 
+/// What the thread was asked for last.
+#[derive(PartialEq)]
+struct Asked {
+    /// The version of the scene.
+    version: u64,
+    views: Vec<ViewJob>,
+    /// Whether the film is to be finished.
+    finishes: bool,
+}
+
 /// The thread, what it was last asked for, and what it has sent.
 pub(super) struct PictureFlow {
     worker: Option<Worker>,
     driver: String,
     pub(super) pictures: Pictures,
     pub(super) trouble: Option<String>,
-    /// The version of the scene and the views that were asked for last.
-    asked: Option<(u64, Vec<ViewJob>)>,
+    asked: Option<Asked>,
     /// The version of the scene that was prepared last.
     prepared: u64,
     /// The version of the scene that is being prepared, and since when.
@@ -43,6 +55,8 @@ pub(super) struct PictureFlow {
     layout: Layout,
     strokes: usize,
     strokes_of: Vec<(String, usize)>,
+    /// The frames whose exact pictures are kept, and the version of their scene.
+    finished: (Vec<i64>, u64),
     /// When the latest pictures came.
     arrivals: VecDeque<Instant>,
 }
@@ -73,6 +87,7 @@ impl PictureFlow {
             ),
             strokes: 0,
             strokes_of: Vec::new(),
+            finished: (Vec::new(), 0),
             arrivals: VecDeque::new(),
         }
     }
@@ -100,6 +115,13 @@ impl PictureFlow {
     /// The version of the scene that was prepared last.
     pub(super) fn prepared(&self) -> u64 {
         self.prepared
+    }
+
+    /// The frames that play exactly, in order: their pictures are kept.
+    pub(super) fn finished(&self) -> &[i64] {
+        let (frames, version) = &self.finished;
+        let is_shown = self.asked.as_ref().is_some_and(|asked| asked.version == *version);
+        if is_shown { frames } else { &[] }
     }
 
     pub(super) fn pictures_per_second(&self) -> Option<f64> {
@@ -185,6 +207,7 @@ impl PictureFlow {
                     }
                     self.pictures.take(ctx, picture);
                 }
+                Report::Finished(frames, serial) => self.finished = (frames, serial),
                 Report::Failed(words) => {
                     self.preparing = None;
                     self.trouble = Some(words);
@@ -200,12 +223,12 @@ impl PictureFlow {
             self.pictures.of(index).is_some_and(|(_, shown, _)| shown.looks_like(view))
         };
         let asked = self.asked.as_ref();
-        asked.is_some_and(|(_, views)| !views.iter().enumerate().all(shows)) && self.trouble.is_none()
+        asked.is_some_and(|asked| !asked.views.iter().enumerate().all(shows)) && self.trouble.is_none()
     }
 
     /// The version of the scene, if all views that were asked for show it exactly and at rest; otherwise none.
     pub(super) fn at_rest(&self) -> Option<u64> {
-        let (version, views) = self.asked.as_ref()?;
+        let Asked { version, views, .. } = self.asked.as_ref()?;
         let is_done =
             |(index, view): (usize, &ViewJob)| !view.moving && self.pictures.is_exact(index, view, *version);
         views.iter().enumerate().all(is_done).then_some(*version)
@@ -219,20 +242,32 @@ impl PictureFlow {
             return;
         }
         let views = self.views(editor, editor.frame_to_draw());
-        let job = (version, views);
-        if self.asked.as_ref() == Some(&job) {
+        let finishes = finishes(editor, &views);
+        let asked = Asked { version, views, finishes };
+        if self.asked.as_ref() == Some(&asked) {
             return;
         }
         if let Some(worker) = &self.worker {
             let loaded = std::sync::Arc::clone(loaded);
             let ahead = editor.time().playback.upcoming().map(|next| self.views(editor, next));
-            let views = job.1.clone();
+            let film = if finishes { self.film(editor) } else { Vec::new() };
+            let later = Later { ahead: ahead.unwrap_or_default(), film };
+            let views = asked.views.clone();
             if version != self.prepared && self.preparing.is_none_or(|(awaited, _)| awaited != version) {
                 self.preparing = Some((version, Instant::now()));
             }
-            worker.play(Job { loaded, serial: version, views }, ahead.unwrap_or_default());
+            worker.show_before(Job { loaded, serial: version, views }, later);
         }
-        self.asked = Some(job);
+        self.asked = Some(asked);
+    }
+
+    /// The views of the film, from the present frame on.
+    fn film(&self, editor: &Editor) -> Vec<ViewJob> {
+        let course = editor.course();
+        let from = (editor.session.frame.floor() as i64).clamp(course.first, course.last);
+        let frames = (0..course.count().min(MOST_FRAMES))
+            .map(|index| course.first + (from - course.first + index).rem_euclid(course.count()));
+        frames.flat_map(|frame| self.views(editor, frame as f64)).collect()
     }
 
     /// The views to show at a frame.
@@ -257,4 +292,10 @@ impl PictureFlow {
         };
         self.layout.framings().iter().zip(seen).map(view).collect()
     }
+}
+
+/// Whether to finish the film while nothing else is drawn: it was played before, and shows nothing but the film.
+fn finishes(editor: &Editor, views: &[ViewJob]) -> bool {
+    let [view] = views else { return false };
+    !view.moving && view.lights.is_empty() && editor.session.finishes && editor.time().has_played()
 }

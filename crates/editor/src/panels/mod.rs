@@ -126,6 +126,8 @@ pub struct Numbers<'a> {
     pub pictures_per_second: Option<f64>,
     /// The graphics driver: *llvmpipe*.
     pub driver: &'a str,
+    /// The frames whose exact pictures are kept, in order: they play exactly.
+    pub finished: &'a [i64],
     /// Work that runs in the background.
     pub works: &'a [work::Work],
 }

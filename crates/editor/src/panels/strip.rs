@@ -48,6 +48,7 @@ fn range(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     if (Tip { name: "Show keys", key: "", effect, range: "" }).on(response).clicked() {
         asks.push(shown.session_with(|session| session.show_lanes(true)));
     }
+    transport::finishes(ui, shown, asks);
     transport::looped(ui, shown, asks);
     let Timeline { fps, first, last, .. } = &shown.document.scene().timeline;
     for words in [format!("{fps} fps"), format!("{first}\u{2013}{last}")] {
@@ -76,6 +77,7 @@ fn ruler(ui: &mut Ui, rect: Rect, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
             across::number(ui, pos2(x + 4.0, top + 22.0), Align2::LEFT_CENTER, frame);
         }
     }
+    across::finished(ui, clip.clip_rect(), across, line, shown);
     across::drops(ui, across, line + 3.0, shown);
     let reference = across.x(motion::referred_to(scene, &scene.reference).1);
     clip.vline(reference, top + 16.0..=line, (1.0, tokens.viridian));

@@ -11,7 +11,7 @@ use impasto_gl_render::ShaderTexts;
 use impasto_gl_render::context::ContextReport;
 use impasto_painting::Painting;
 
-use super::{Job, Picture, Report, ViewJob};
+use super::{Job, Later, Picture, Report};
 
 /// At most this many failures wait to be polled; further ones are dropped.
 const MOST_FAILURES: usize = 8;
@@ -42,6 +42,7 @@ struct Tray {
     opened: Option<ContextReport>,
     prepared: Option<(Box<(Painting, Picker)>, u64)>,
     pictures: BTreeMap<usize, Picture>,
+    finished: Option<(Vec<i64>, u64)>,
     failures: Vec<String>,
 }
 
@@ -49,19 +50,18 @@ struct Tray {
 pub(super) struct Order {
     pub(super) job: Job,
     pub(super) came: Instant,
-    /// The views that will likely be asked for next, during playback.
-    pub(super) ahead: Vec<ViewJob>,
+    pub(super) later: Later,
     ticket: u64,
 }
 
 impl Mailbox {
-    pub(super) fn put(&self, job: Job, ahead: Vec<ViewJob>) {
+    pub(super) fn put(&self, job: Job, later: Later) {
         let mut orders = lock(&self.orders);
         if orders.closed {
             return;
         }
         let ticket = self.newest.load(Ordering::Relaxed) + 1;
-        orders.job = Some(Order { job, came: Instant::now(), ahead, ticket });
+        orders.job = Some(Order { job, came: Instant::now(), later, ticket });
         self.newest.store(ticket, Ordering::Release);
         self.changed.notify_all();
     }
@@ -125,6 +125,7 @@ impl Mailbox {
             Report::Picture(picture) => {
                 tray.pictures.insert(picture.index, picture);
             }
+            Report::Finished(frames, serial) => tray.finished = Some((frames, serial)),
             Report::Failed(words) => {
                 if tray.failures.len() < MOST_FAILURES && tray.failures.last() != Some(&words) {
                     tray.failures.push(words);
@@ -138,7 +139,9 @@ impl Mailbox {
         let opened = tray.opened.into_iter().map(Report::Opened);
         let prepared = tray.prepared.into_iter().map(|(painting, serial)| Report::Prepared(painting, serial));
         let pictures = tray.pictures.into_values().map(Report::Picture);
-        opened.chain(prepared).chain(pictures).chain(tray.failures.into_iter().map(Report::Failed)).collect()
+        let finished = tray.finished.into_iter().map(|(frames, serial)| Report::Finished(frames, serial));
+        let all = opened.chain(prepared).chain(pictures).chain(finished);
+        all.chain(tray.failures.into_iter().map(Report::Failed)).collect()
     }
 
     pub(super) fn close(&self) {

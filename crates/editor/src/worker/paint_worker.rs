@@ -14,12 +14,16 @@ use impasto_scene::mesh_file::MeshFile;
 
 use super::ahead::Ahead;
 use super::draft::DraftSize;
+use super::film::{Film, Finished};
 use super::mailbox::{Mailbox, Order};
 use super::view_frame::{DrawOptions, frame_of, frame_options, styled};
 use super::{Picture, Report, ViewJob};
 
 /// The exact pictures of a job are drawn when it is this old and no later job has come.
 const REST: Duration = Duration::from_millis(100);
+
+/// The film of a job is finished when the job is this old: who pauses that long is looking.
+const IDLE: Duration = Duration::from_millis(800);
 
 /// Works until the mailbox is closed. If a job panics, that is reported, and the next job gets a new worker.
 pub(super) fn run(mailbox: &Mailbox, driver: Driver, wake: &dyn Fn()) {
@@ -79,6 +83,7 @@ struct PaintWorker {
     exact_s: Option<f64>,
     /// The next frame of the playback, which is computed while the present one is drawn.
     ahead: Ahead,
+    film: Film,
 }
 
 struct Drawn {
@@ -124,6 +129,7 @@ impl PaintWorker {
             turn: 0,
             exact_s: None,
             ahead: Ahead::default(),
+            film: Film::default(),
         }
     }
 
@@ -138,6 +144,7 @@ impl PaintWorker {
         let wanted: Vec<usize> =
             (0..views.len()).filter(|&index| !views[index].size_px.contains(&0)).collect();
         wanted.iter().for_each(|&index| self.redraw_light_icons(order, index, tell));
+        wanted.iter().for_each(|&index| self.show_finished(order, index, tell));
         let drafts = wanted.iter().copied().filter(|&index| !self.shows(order, index));
         let drafts: Vec<usize> = drafts.collect();
         if !drafts.is_empty() && !DraftSize::is_needless(self.exact_s) {
@@ -157,7 +164,7 @@ impl PaintWorker {
             .copied()
             .filter(|&index| (quick || !views[index].moving) && !self.shows_exactly(order, index));
         let exact: Vec<usize> = exact.collect();
-        if exact.is_empty() || (!quick && !mailbox.rests(order, REST)) {
+        if !exact.is_empty() && !quick && !mailbox.rests(order, REST) {
             return;
         }
         for index in exact {
@@ -167,6 +174,65 @@ impl PaintWorker {
                 return;
             }
         }
+        self.finish_film(&painting, order, mailbox, tell);
+    }
+
+    /// Shows the exact picture of a view that is kept, unless it is shown.
+    fn show_finished(&mut self, order: &Order, index: usize, tell: Tell<'_>) {
+        let (view, serial) = (&order.job.views[index], order.job.serial);
+        let Some(Finished { image, strokes, .. }) = self.film.of(view, serial).cloned() else { return };
+        if self.shows_exactly(order, index) {
+            return;
+        }
+        // Drafts go on recalling the last picture that was drawn.
+        let recall = self.drawn[index].take().and_then(|drawn| drawn.recall);
+        self.drawn[index] =
+            Some(Drawn { view: view.clone(), serial, exact: true, strokes: strokes.clone(), recall });
+        self.held_view = None;
+        let (view, (strokes, strokes_of)) = (view.clone(), strokes);
+        tell(Report::Picture(Picture {
+            index,
+            view,
+            serial,
+            image,
+            exact: true,
+            strokes,
+            strokes_of,
+            seconds: 0.0,
+        }));
+    }
+
+    /// Draws the frames of the job's film exactly and keeps them, while nothing else is to be done.
+    fn finish_film(&mut self, painting: &Painting, order: &Order, mailbox: &Mailbox, tell: Tell<'_>) {
+        let (views, serial) = (&order.later.film, order.job.serial);
+        if views.is_empty() {
+            return;
+        }
+        tell(Report::Finished(self.film.frames(views, serial), serial));
+        if !mailbox.rests(order, IDLE) {
+            return;
+        }
+        let give_up = || mailbox.is_stale(order);
+        for view in views {
+            if self.film.of(view, serial).is_some() {
+                continue;
+            }
+            let Some(renderer) = &mut self.renderer else { return };
+            self.held_view = None;
+            renderer.set_billboards(&view.lights);
+            let options = DrawOptions { size_px: view.size_px, is_exact: true, give_up: &give_up };
+            let (frame, picture) = render(renderer, painting, view, None, &options, None);
+            let image = match picture {
+                Ok(Some(picture)) => Arc::new(picture),
+                Ok(None) => return,
+                Err(error) => return tell(Report::Failed(error.to_string())),
+            };
+            let strokes = (frame.strokes.len(), strokes_per_region(&frame, painting.scene().regions.len()));
+            if !self.film.keep(Finished { view: view.clone(), serial, image, strokes }, views) {
+                return;
+            }
+            tell(Report::Finished(self.film.frames(views, serial), serial));
+        }
     }
 
     /// Draws with new shaders from now on, if there are any.
@@ -175,7 +241,10 @@ impl PaintWorker {
         let Some((texts, number)) = mailbox.shaders_after(self.shaders) else { return };
         self.shaders = number;
         match renderer.replace_shaders(&texts) {
-            Ok(()) => self.drawn.clear(),
+            Ok(()) => {
+                self.drawn.clear();
+                self.film.clear();
+            }
             Err(error) => tell(Report::Failed(error.to_string())),
         }
     }
@@ -295,7 +364,7 @@ impl PaintWorker {
         let Some(renderer) = &mut self.renderer else { return false };
         let (view, serial) = (&order.job.views[index], order.job.serial);
         let began = Instant::now();
-        let next = order.ahead.get(index);
+        let next = order.later.ahead.get(index);
         let ahead = self.ahead.take(serial, view, next, options);
         let (view, frame) = ahead.map_or_else(|| (view.clone(), None), |(view, frame)| (view, Some(frame)));
         let recall = self.drawn[index].as_ref().and_then(|drawn| drawn.recall.clone());
@@ -330,6 +399,10 @@ impl PaintWorker {
         self.drawn[index] =
             Some(Drawn { view: view.clone(), serial, exact, strokes: (strokes, strokes_of.clone()), recall });
         let image = Arc::new(picture);
+        if exact && order.later.film.iter().any(|of_film| of_film.looks_like(&view)) {
+            let (view, image, strokes) = (view.clone(), Arc::clone(&image), (strokes, strokes_of.clone()));
+            self.film.keep(Finished { view, serial, image, strokes }, &order.later.film);
+        }
         tell(Report::Picture(Picture { index, view, serial, image, exact, strokes, strokes_of, seconds }));
         true
     }

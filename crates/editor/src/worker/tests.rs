@@ -83,11 +83,11 @@ fn only_the_latest_job_is_taken_and_earlier_ones_are_stale() {
     let loaded = scene();
     let mailbox = Mailbox::default();
     let job = |serial| Job { loaded: Arc::clone(&loaded), serial, views: Vec::new() };
-    mailbox.put(job(1), Vec::new());
+    mailbox.put(job(1), Later::default());
     let first = mailbox.take().unwrap();
     assert!(mailbox.rests(&first, Duration::ZERO));
-    mailbox.put(job(2), Vec::new());
-    mailbox.put(job(3), Vec::new());
+    mailbox.put(job(2), Later::default());
+    mailbox.put(job(3), Later::default());
     assert!(mailbox.is_stale(&first));
     assert!(!mailbox.rests(&first, Duration::from_secs(20)));
     assert_eq!(mailbox.take().unwrap().job.serial, 3);
@@ -99,11 +99,11 @@ fn only_the_latest_job_is_taken_and_earlier_ones_are_stale() {
 fn a_later_job_ends_the_wait_of_the_one_before() {
     let loaded = scene();
     let mailbox = Mailbox::default();
-    mailbox.put(Job { loaded: Arc::clone(&loaded), serial: 1, views: Vec::new() }, Vec::new());
+    mailbox.put(Job { loaded: Arc::clone(&loaded), serial: 1, views: Vec::new() }, Later::default());
     let order = mailbox.take().unwrap();
     std::thread::scope(|scope| {
         let waiting = scope.spawn(|| mailbox.rests(&order, Duration::from_secs(30)));
-        mailbox.put(Job { loaded, serial: 2, views: Vec::new() }, Vec::new());
+        mailbox.put(Job { loaded, serial: 2, views: Vec::new() }, Later::default());
         assert!(!waiting.join().unwrap());
     });
 }
@@ -206,12 +206,43 @@ fn a_film_comes_frame_by_frame_with_the_next_computed_ahead() {
         let views =
             [frame, frame + 1].map(|frame| ViewJob { moving: true, ..view(&loaded, f64::from(frame)) });
         let [now, next] = views;
-        worker.0.play(Job { loaded: Arc::clone(&loaded), serial: 1, views: vec![now.clone()] }, vec![next]);
+        let later = Later { ahead: vec![next], film: Vec::new() };
+        worker.0.show_before(Job { loaded: Arc::clone(&loaded), serial: 1, views: vec![now.clone()] }, later);
         let told = until(
             &worker,
             |report| matches!(report, Report::Picture(picture) if picture.view.frame == now.frame && picture.strokes > 0),
         );
         assert!(pictures(&told).iter().all(|picture| picture.view == now), "frame {frame}");
+    }
+}
+
+#[test]
+fn a_film_is_finished_at_rest_and_then_plays_exactly() {
+    let loaded = scene();
+    let worker = worker();
+    let film: Vec<ViewJob> = [3.0, 4.0, 0.0].map(|frame| view(&loaded, frame)).into();
+    let job = |serial, view: &ViewJob| Job { loaded: Arc::clone(&loaded), serial, views: vec![view.clone()] };
+    worker.0.show_before(job(1, &film[0]), Later { ahead: Vec::new(), film: film.clone() });
+    let is_finished = |report: &Report| matches!(report, Report::Finished(frames, 1) if *frames == [0, 3, 4]);
+    let told = until(&worker, is_finished);
+    assert!(pictures(&told).iter().all(|picture| picture.view.frame == 3.0), "the film itself is not shown");
+    for of_film in [&film[1], &film[2]] {
+        let playing = ViewJob { moving: true, ..of_film.clone() };
+        worker.0.show(job(1, &playing));
+        let told = until(&worker, |report| matches!(report, Report::Picture(_)));
+        let played = pictures(&told)[0];
+        assert!(played.exact && played.strokes > 50, "{} strokes", played.strokes);
+        assert!(bytes(played) == rendered(&loaded, of_film, None));
+    }
+    // Neither another view nor another version of the scene is taken from it.
+    let mut aside = ViewJob { moving: true, ..film[1].clone() };
+    aside.camera.eye[0] += 0.2;
+    let again = ViewJob { moving: true, ..film[2].clone() };
+    for (serial, other) in [(1, &aside), (2, &again)] {
+        worker.0.show(job(serial, other));
+        let is_of_it = |report: &Report| matches!(report, Report::Picture(picture) if picture.strokes > 0);
+        let told = until(&worker, is_of_it);
+        assert!(pictures(&told).iter().all(|picture| picture.seconds > 0.0), "{serial}: it is drawn");
     }
 }
 

@@ -199,6 +199,55 @@ fn a_pose_is_held_for_as_many_frames_as_its_object_says() {
     }
 }
 
+/// What bends an object, and the time that its noise is asked for, are of the frame whose pose it holds.
+#[test]
+fn an_object_that_holds_its_pose_holds_all_that_moves_it() {
+    let mut keys = vec![key(2.0), key(26.0)];
+    keys[1].morph = 0.96;
+    let held = Object { hold: 3, ..object("held", None, keys.clone()) };
+    let mut scene = scene(vec![camera_key(0.0, 0.0)], vec![held, object("free", None, keys)]);
+    (scene.timeline.first, scene.timeline.last, scene.timeline.fps) = (2, 26, 12.0);
+    let close = |found: Vec<f64>, wanted: [f64; 2]| {
+        let is_close = found.len() == 2 && found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12);
+        assert!(is_close, "{found:?} for {wanted:?}");
+    };
+    close(cache_frames_at(&scene, 6.5), [5.0, 6.5]);
+    close(seconds_at(&scene, 6.5), [5.0 / 12.0, 6.5 / 12.0]);
+    close(morphs_at(&scene, 6.5), [0.12, 0.18]);
+}
+
+/// A pose of keys scales and turns, and as a key it is what it was: with an even scale, an uneven one, and one past the limits.
+#[test]
+fn a_pose_comes_back_as_a_key() {
+    for scale in [[1.0; 3], [2.5; 3], [0.5, 3.0, 1.25]] {
+        let stated = ObjectKey {
+            translation: [1.0, -2.0, 3.0],
+            rotation_deg: [20.0, -35.0, 50.0],
+            scale: Scale(scale),
+            ..key(4.0)
+        };
+        let scene = scene(vec![camera_key(0.0, 0.0)], vec![object("a", None, vec![stated.clone()])]);
+        let pose = poses_at(&scene, 4.0)[0];
+        let rotation = rotation_from_euler_deg(DVec3::from(stated.rotation_deg));
+        let step = DVec3::new(0.3, 0.2, -0.7);
+        let wanted = rotation * (DVec3::from(scale) * step);
+        assert!((pose.transform_vector3(step) - wanted).length() < 1e-12, "{scale:?}");
+        let found = key_of_pose(pose, 4.0);
+        assert_eq!((found.frame, found.translation), (4.0, stated.translation));
+        let off = DVec3::from(found.rotation_deg) - DVec3::from(stated.rotation_deg);
+        assert!(off.length() < 1e-9, "{:?}", found.rotation_deg);
+        assert!((DVec3::from(found.scale.0) - DVec3::from(scale)).length() < 1e-12, "{:?}", found.scale);
+    }
+    // An even scale stays one number, whatever rounding does to the lengths of the axes.
+    for angle in 1..40 {
+        let rotation = rotation_from_euler_deg(DVec3::new(1.0, 2.0, 3.0) * f64::from(angle));
+        let Scale([x, y, z]) = key_of_pose(DAffine3::from_mat3(rotation * 0.3), 0.0).scale;
+        assert!(x == y && y == z && (x - 0.3).abs() < 1e-12, "{x} {y} {z}");
+    }
+    let huge = key_of_pose(DAffine3::from_scale(DVec3::splat(1e9)), 0.0);
+    assert_eq!(huge.scale, Scale::even(*limits::KEY_SCALE.end()));
+}
+
 #[test]
 fn euler_angles_come_back() {
     for angles in [[10.0, 20.0, 30.0], [-170.0, 80.0, 5.0], [0.0, 90.0, 40.0], [3.0, -90.0, 0.0]] {

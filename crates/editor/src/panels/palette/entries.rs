@@ -70,6 +70,11 @@ const SWITCHES: &[Switch] = &[
     },
     Switch { name: "Loop", is_on: |session| session.looped, set: |session| session.looped = !session.looped },
     Switch {
+        name: "Finish frames",
+        is_on: |session| session.finishes,
+        set: |session| session.finishes = !session.finishes,
+    },
+    Switch {
         name: "Play in real time",
         is_on: |session| session.pacing == Pacing::RealTime,
         set: |session| session.pacing = Pacing::RealTime,

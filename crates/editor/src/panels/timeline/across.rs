@@ -121,6 +121,21 @@ pub(in crate::panels) fn drops(ui: &Ui, across: FrameScale, top: f32, shown: &Pa
     }
 }
 
+/// Draws a line along the frames that play exactly.
+pub(in crate::panels) fn finished(ui: &Ui, clip: Rect, across: FrameScale, y: f32, shown: &PanelInput<'_>) {
+    let half = (across.right - across.left) / across.span() as f32 / 2.0;
+    let (painter, colour) = (ui.painter().with_clip_rect(clip), Tokens::of(ui).viridian);
+    let mut frames = shown.numbers.finished.iter().copied().peekable();
+    while let Some(first) = frames.next() {
+        let mut last = first;
+        while let Some(next) = frames.next_if_eq(&(last + 1)) {
+            last = next;
+        }
+        let [left, right] = [first, last].map(|frame| across.x(frame as f64));
+        painter.hline(left - half..=right + half, y, (3.0, colour));
+    }
+}
+
 pub(in crate::panels) fn diamond(centre: Pos2, half: f32) -> Vec<Pos2> {
     [vec2(0.0, -half), vec2(half, 0.0), vec2(0.0, half), vec2(-half, 0.0)]
         .map(|corner| centre + corner)

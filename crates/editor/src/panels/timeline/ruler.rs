@@ -66,6 +66,7 @@ pub(super) fn ruler(
             across::number(ui, pos2(x, rect.top() + 8.0), Align2::CENTER_CENTER, frame);
         }
     }
+    across::finished(ui, rect, across, rect.bottom() - 1.5, shown);
     across::drops(ui, across, rect.bottom() - 8.0, shown);
     if response.has_focus() {
         let ring = egui::Stroke::new(2.0, tokens.accent_text);

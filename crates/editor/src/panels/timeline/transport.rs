@@ -110,6 +110,7 @@ pub(super) fn range_fields(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<A
     if (Tip { name: "Hide keys", key: "", effect, range: "" }).on(response).clicked() {
         asks.push(shown.session_with(|session| session.show_lanes(false)));
     }
+    finishes(ui, shown, asks);
     looped(ui, shown, asks);
     let Timeline { fps, first, last, .. } = shown.document.shown().scene.timeline;
     let stored = &shown.document.scene().timeline;
@@ -152,6 +153,16 @@ pub(in crate::panels) fn looped(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut 
     let effect = "Playing begins again at the end of the range.";
     if (Tip { name: "Loop", key: "", effect, range: "" }).on(response).changed() {
         asks.push(shown.session_with(|session| session.looped = looped));
+    }
+}
+
+/// The toggle for painting the film's frames exactly while the window rests.
+pub(in crate::panels) fn finishes(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
+    let mut on = shown.session.finishes;
+    let response = widgets::icon_toggle(ui, icons::FINISH, "Finish frames", &mut on);
+    let effect = "Once you have played, frames are painted exactly while you pause, and then play exactly. A line marks them.";
+    if (Tip { name: "Finish frames", key: "", effect, range: "" }).on(response).changed() {
+        asks.push(shown.session_with(|session| session.finishes = on));
     }
 }
 
