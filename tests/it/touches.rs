@@ -96,8 +96,7 @@ fn a_straight_touch_on_a_plane_lies_where_its_points_are_from_any_view() {
 fn a_touch_turns_with_its_object_and_is_gone_where_that_faces_away() {
     for turn_deg in [7.0, 30.0, 137.0] {
         let mut scene = scene(vec![on_plane(&[[-0.5, 0.3], [0.0, -0.1], [0.4, 0.35]])]);
-        scene.objects[0].keys =
-            vec![ObjectKey { rotation_deg: [0.0, turn_deg, 0.0], ..ObjectKey::at(0.0) }];
+        scene.objects[0].keys = vec![ObjectKey { rotation_deg: [0.0, turn_deg, 0.0], ..ObjectKey::at(0.0) }];
         let still = painted(self::scene(scene.touches.clone()), shapes::sheet(9));
         let painting = painted(scene, shapes::sheet(9));
         let view = camera([0.0, 0.0, 4.0], [0.0; 3]);
@@ -172,12 +171,15 @@ fn touches_hold_on_a_mesh_that_was_exported_again_and_change_no_other_stroke() {
     for (one, other) in coarse.iter().zip(&fine) {
         assert!(one.distance(*other) < 0.01);
     }
-    let [with, without] = [vec![touch()], Vec::new()]
-        .map(|touches| seen(&painted(scene(touches), shapes::sheet(9)), &view));
+    let [with, without] =
+        [vec![touch()], Vec::new()].map(|touches| seen(&painted(scene(touches), shapes::sheet(9)), &view));
     assert_eq!(with.strokes[..without.strokes.len()], without.strokes);
     assert_eq!(with.layers[..without.layers.len()], without.layers);
     let last = with.layers.last().unwrap();
-    assert_eq!((last.kind, last.count as usize), (LayerKind::Touches, with.strokes.len() - without.strokes.len()));
+    assert_eq!(
+        (last.kind, last.count as usize),
+        (LayerKind::Touches, with.strokes.len() - without.strokes.len())
+    );
     // Another touch before it in the list leaves it as it is.
     let more = vec![Touch { name: "other".to_owned(), ..on_plane(&[[0.0, 0.0]]) }, touch()];
     let two = seen(&painted(scene(more), shapes::sheet(9)), &view);
@@ -222,7 +224,8 @@ fn a_curved_touch_is_one_stroke_without_gaps_on_either_driver() {
             let across = (pair[1] - pair[0]).normalize().perp();
             for step in 0..8 {
                 let at = pair[0].lerp(pair[1], f64::from(step) / 8.0);
-                let red = (-5..=5).filter(|&off| redness(&picture, at + across * f64::from(off)) > 60).count();
+                let red =
+                    (-5..=5).filter(|&off| redness(&picture, at + across * f64::from(off)) > 60).count();
                 assert!(red >= 6, "{driver:?} at {at}: {red} of 11 pixels across are red");
             }
         }

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::{ContextReport, Driver, OpenOptions, open};
 use impasto_painting::frame::{
-    Brushes, Finish, Frame, FrameLights, FrameView, LayerKind, LayerRun, Lines, Quality, Stroke, StrokeSource, Style,
+    Brushes, Finish, Frame, FrameLights, FrameView, LayerKind, LayerRun, Lines, Quality, Stroke,
+    StrokeSource, Style,
 };
 use impasto_system::System;
 

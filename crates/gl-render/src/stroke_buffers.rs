@@ -122,8 +122,11 @@ fn resolved_inputs(resolved: &Buffer, first: i32) -> [Attribute<'_>; 2] {
 /// The fields of [`LineVertex`] as shader inputs, from vertex `first` on.
 fn line_inputs(lines: &Buffer, first: i32) -> [Attribute<'_>; 3] {
     let stride = size_of::<LineVertex>() as i32;
-    let fields =
-        [(9, 4, offset_of!(LineVertex, at_px)), (10, 4, offset_of!(LineVertex, from_middle_px)), (11, 2, offset_of!(LineVertex, lean_px))];
+    let fields = [
+        (9, 4, offset_of!(LineVertex, at_px)),
+        (10, 4, offset_of!(LineVertex, from_middle_px)),
+        (11, 3, offset_of!(LineVertex, lean_px)),
+    ];
     fields.map(|(location, components, offset)| Attribute {
         location,
         buffer: lines,

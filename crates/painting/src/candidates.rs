@@ -73,7 +73,12 @@ impl PaintingView<'_> {
                 }
             }
         }
-        Strokes { strokes, sources, layers: layers.into_iter().map(|(_, run)| run).collect(), lines: Lines::default() }
+        Strokes {
+            strokes,
+            sources,
+            layers: layers.into_iter().map(|(_, run)| run).collect(),
+            lines: Lines::default(),
+        }
     }
 
     /// A bit for each particle of a coat: whether it faces the eye and its stroke may be present in the picture, judged

@@ -127,8 +127,9 @@ impl Painting {
             frame_bits: hash::scramble((frame * 1000.0).round() as i64 as u32),
         };
         let coats = self.coats.iter().filter(|coat| wanted(coat));
-        painting_view.coats =
-            coats.map(|coat| painting_view.coat_view(coat, &view, &painting_view.bodies[coat.object])).collect();
+        painting_view.coats = coats
+            .map(|coat| painting_view.coat_view(coat, &view, &painting_view.bodies[coat.object]))
+            .collect();
         painting_view
     }
 

@@ -150,7 +150,8 @@ impl Preparer {
             clock.lap("taken");
         }
         let bodies_laid: Vec<_> = bodies.iter().map(|body| (&body.surface, &*body.regions)).collect();
-        let inputs = TouchInputs { rules: context.rules, bodies: &bodies_laid, coats: &coats, brushes: &brushes };
+        let inputs =
+            TouchInputs { rules: context.rules, bodies: &bodies_laid, coats: &coats, brushes: &brushes };
         let touches = self.touches.lay(scene, &inputs);
         Ok(Painting { bodies, coats, brushes, order, kept, touches, steps: clock.steps, ..plain })
     }
@@ -165,7 +166,8 @@ impl Preparer {
     ) -> Result<Strokes, PrepareError> {
         let &Work { loaded, context, objects, options } = work;
         let go_on = || if (options.give_up)() { Err(PrepareError::GivenUp) } else { Ok(()) };
-        let brushes = self.brushes(brushes::of_names(loaded, brushes::names_of(context.scene, context.rules)));
+        let brushes =
+            self.brushes(brushes::of_names(loaded, brushes::names_of(context.scene, context.rules)));
         clock.lap("brushes");
         go_on()?;
         caches.par_iter_mut().zip(objects).for_each(|(cache, &object)| cache.count(context, object));

@@ -20,6 +20,13 @@ const MARK_LENGTH: f64 = impasto_core::brush::SIZE[0] as f64 / impasto_core::bru
 const STRETCHED: f64 = 1.5;
 const END: f64 = 0.36;
 
+/// By how much a line is narrower at its very ends.
+const LIFTED: f64 = 0.22;
+
+/// A line of this many widths, or more, needs so much more paint at its end.
+const DRY_AFTER: f64 = 12.0;
+const RUNS_DRY: f64 = 0.34;
+
 /// Steps of a touch at a single place.
 const STRAIGHT_STEPS: usize = 8;
 
@@ -81,7 +88,12 @@ impl PaintingView<'_> {
         let index = strokes.strokes.len() as u32;
         let length_px = length_px(&line);
         for run in runs {
-            push_strip(&mut strokes.lines, index, &line[run], &Width { width_px, length_px, taper: touch.taper });
+            push_strip(
+                &mut strokes.lines,
+                index,
+                &line[run],
+                &Width { width_px, length_px, taper: touch.taper },
+            );
         }
         let (stroke, source) = self.touch_stroke(laid, touch, (&anchor, length_px));
         strokes.strokes.push(stroke);
@@ -150,8 +162,9 @@ impl PaintingView<'_> {
 
     /// The angle of the strokes round a touch: the mean of lines, which have no beginning.
     fn angle_round(&self, laid: &LaidTouch) -> f64 {
-        let is_body =
-            |coat: &&crate::painting_view::CoatView<'_>| (coat.coat.object, coat.coat.kind) == (laid.object, LayerKind::Body);
+        let is_body = |coat: &&crate::painting_view::CoatView<'_>| {
+            (coat.coat.object, coat.coat.kind) == (laid.object, LayerKind::Body)
+        };
         let Some(coat) = self.coats.iter().find(is_body) else { return 0.0 };
         let round = laid.round.iter().map(|&index| index as usize).filter(|&index| index < coat.len());
         let angles = round.map(|index| f64::from(self.angle_rad(coat, index, &coat.solved(index))));
@@ -198,6 +211,8 @@ impl PaintingView<'_> {
     ) -> (Stroke, StrokeSource) {
         let strokes = self.strokes_of(laid.rule);
         let layer = strokes.body();
+        // As thick as the lights that Impasto places itself.
+        let thickness = layer.thickness.max(strokes.layer_of(LayerKind::Lights).thickness);
         let byte = |value: f32| value.round().clamp(0.0, 255.0) as u8;
         let stroke = Stroke {
             center_px: anchor.at_px.as_vec2().to_array(),
@@ -211,7 +226,7 @@ impl PaintingView<'_> {
             mark: laid.mark,
             paint: Paint {
                 opacity: byte(touch.opacity as f32 * 255.0),
-                thickness: byte(layer.thickness * Paint::THICKNESS_SCALE),
+                thickness: byte(thickness * Paint::THICKNESS_SCALE),
                 pickup: 0,
                 dryness: byte(0.5 * layer.dryness * 255.0),
             },
@@ -262,7 +277,12 @@ fn anchor(line: &[LinePoint], runs: &[Range<usize>]) -> Option<Anchor> {
         depth: from.depth + (to.depth - from.depth) * t,
         angle_rad: if along.length_squared() > 0.0 { along.to_angle() } else { 0.0 },
         facing: from.facing + (to.facing - from.facing) * t,
-        normal_in_world: from.normal_in_world.lerp(to.normal_in_world, t).normalize_or_zero().as_vec3().to_array(),
+        normal_in_world: from
+            .normal_in_world
+            .lerp(to.normal_in_world, t)
+            .normalize_or_zero()
+            .as_vec3()
+            .to_array(),
     })
 }
 
@@ -282,7 +302,15 @@ struct Width {
 impl Width {
     /// Half the width of the strip at a share of the line.
     fn half_px(&self, share: f64) -> f64 {
-        0.5 * self.width_px * (1.0 + self.taper * (1.0 - 2.0 * share)) / FILL
+        // The hand sets the brush down and lifts it.
+        let pressed = 1.0 - LIFTED * (2.0 * share - 1.0).powi(4);
+        0.5 * self.width_px * pressed * (1.0 + self.taper * (1.0 - 2.0 * share)) / FILL
+    }
+
+    /// How much more paint the mark needs to show towards the end of a line: a long one empties the brush.
+    fn run_dry(&self, share: f64) -> f64 {
+        let widths = self.length_px / self.width_px;
+        RUNS_DRY * (widths / DRY_AFTER).min(1.0) * ((share - 0.35) / 0.65).max(0.0).powi(2)
     }
 
     /// The share of the line that either end of the mark takes.
@@ -335,7 +363,7 @@ fn past(point: &LinePoint, offset_px: DVec2) -> LinePoint {
 }
 
 fn push_pair(lines: &mut Lines, point: &LinePoint, tangent: DVec2, (width, along): (&Width, f64)) {
-    let leave_px = (0.35 * width.width_px + 2.5) * (0.7 / point.slant).max(1.0);
+    let leave_px = (0.5 * width.width_px + 5.0) * (0.7 / point.slant).max(1.0);
     let half_px = width.half_px(point.share);
     for (side, across) in [(-1.0, 0.0), (1.0, 1.0)] {
         let offset = tangent.perp() * (side * half_px);
@@ -347,6 +375,7 @@ fn push_pair(lines: &mut Lines, point: &LinePoint, tangent: DVec2, (width, along
             presence: presence::of_facing(point.facing as f32),
             lean_px: point.slope.dot(point.off_px + offset) as f32,
             leave_px: leave_px as f32,
+            run_dry: width.run_dry(point.share) as f32,
         });
     }
 }

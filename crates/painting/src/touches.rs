@@ -25,6 +25,9 @@ use crate::regions::{BodyRegions, RegionRule};
 const STEPS_BETWEEN: usize = 8;
 const STEPS: std::ops::RangeInclusive<usize> = 24..=192;
 
+/// How often corners of a line are rounded.
+const ROUNDINGS: usize = 6;
+
 /// A touch at a single place lies along the mean of so many strokes round it: single ones stray.
 const ROUND: usize = 7;
 
@@ -137,9 +140,8 @@ impl TouchInputs<'_> {
             .collect();
         let round = if places.len() == 1 { self.round(object, &places[0]) } else { Vec::new() };
         let own = touch.color.map(|color| {
-            let [r, g, b] = linear(color).map(|channel| {
-                (impasto_core::color::srgb_from_linear(channel) * 255.0).round() as u32
-            });
+            let [r, g, b] = linear(color)
+                .map(|channel| (impasto_core::color::srgb_from_linear(channel) * 255.0).round() as u32);
             u32::from(crate::frame::Stroke::AS_IT_IS) << 24 | b << 16 | g << 8 | r
         });
         LaidTouch {
@@ -181,21 +183,43 @@ fn places_of(points: &[TouchPoint], surface: &BodySurface) -> Vec<TouchPlace> {
         .filter(|(at, normal)| at.is_finite() && normal.is_finite())
         .collect();
     let positions: Vec<DVec3> = given.iter().map(|(at, _)| *at).collect();
+    let Some(near) = Near::of(surface, &positions) else { return Vec::new() };
+    // The mesh may be another one than when the points were set: first they are put onto it.
+    let given: Vec<(DVec3, DVec3)> = given
+        .into_iter()
+        .filter_map(|(at, normal)| near.place(at, normal).map(|place| (place.position, normal)))
+        .collect();
+    let positions: Vec<DVec3> = given.iter().map(|(at, _)| *at).collect();
     let steps = (STEPS_BETWEEN * given.len().saturating_sub(1)).clamp(*STEPS.start(), *STEPS.end());
     let path = smooth_path(&positions, steps);
-    let Some(near) = Near::of(surface, &positions) else { return Vec::new() };
     if path.is_empty() {
         return given.first().and_then(|&(at, normal)| near.place(at, normal)).into_iter().collect();
     }
     // Which way the surface faces is taken from the two points that are nearest.
-    path.into_iter()
-        .filter_map(|at| {
+    let onto = |path: &[DVec3]| -> Vec<TouchPlace> {
+        let place = |&at: &DVec3| {
             let weight = |&(point, normal): &(DVec3, DVec3)| {
                 normal.normalize_or_zero() / (at.distance_squared(point) + 1e-12)
             };
             near.place(at, given.iter().map(weight).sum())
-        })
-        .collect()
+        };
+        path.iter().filter_map(place).collect()
+    };
+    // Faces of a coarse mesh would show as corners of the line.
+    let mut path: Vec<DVec3> = onto(&path).iter().map(|place| place.position).collect();
+    for _ in 0..ROUNDINGS {
+        path = rounded(&path);
+    }
+    onto(&path)
+}
+
+/// A line with each point but the ends drawn half-way to the middle of its neighbours.
+fn rounded(path: &[DVec3]) -> Vec<DVec3> {
+    let mut rounded = path.to_vec();
+    for (index, three) in path.windows(3).enumerate() {
+        rounded[index + 1] = 0.25 * three[0] + 0.5 * three[1] + 0.25 * three[2];
+    }
+    rounded
 }
 
 /// The triangles round a touch.

@@ -127,8 +127,11 @@ fn aim(at_px: DVec2, around: &Surroundings) -> ToolOutput {
 
 /// The words of the status line while no drag is under way.
 pub(super) fn waiting_words(options: &ToolOptions) -> String {
-    let [click, shift] =
-        if options.touch_erases { ["[Drag] erase", "lay"] } else { ["[Click] one stroke  [Drag] a long one", "erase"] };
+    let [click, shift] = if options.touch_erases {
+        ["[Drag] erase", "lay"]
+    } else {
+        ["[Click] one stroke  [Drag] a long one", "erase"]
+    };
     format!("{click}  [Shift] {shift}  [Ctrl] select  [F] width  [Middle] orbit")
 }
 
@@ -204,16 +207,13 @@ impl Drag {
         });
         // The ring is as wide as the stroke: from points of the window to pixels of the scene's own size.
         let scale = f64::from(around.scene().size.1) / around.view.size_px.y.max(1.0);
-        let width_px = (2.0 * options.radius_px * scale).clamp(
-            *limits::TOUCH_WIDTH_PX.start(),
-            *limits::TOUCH_WIDTH_PX.end(),
-        );
+        let width_px = (2.0 * options.radius_px * scale)
+            .clamp(*limits::TOUCH_WIDTH_PX.start(), *limits::TOUCH_WIDTH_PX.end());
         let width_px = (width_px * 10.0).round() / 10.0;
         let ratio = Touch::USUAL_LENGTH_PX / Touch::USUAL_WIDTH_PX;
-        let length_px = (width_px * ratio).round().clamp(
-            *limits::TOUCH_LENGTH_PX.start(),
-            *limits::TOUCH_LENGTH_PX.end(),
-        );
+        let length_px = (width_px * ratio)
+            .round()
+            .clamp(*limits::TOUCH_LENGTH_PX.start(), *limits::TOUCH_LENGTH_PX.end());
         Touch {
             width_px,
             length_px: if kept.len() == 1 { length_px } else { Touch::USUAL_LENGTH_PX },

@@ -326,9 +326,8 @@ fn selected_touch(editor: &Editor, scene: &Scene, sight: &Sight<'_>) -> Option<G
     let touch = scene.touches.iter().find(|touch| touch.name == *name)?;
     let object = scene.objects.iter().position(|object| object.name == touch.on)?;
     let pose = sight.poses.get(object)?;
-    let place = |at: DVec3, normal: DVec3| {
-        lifted(&(*pose * sight.picker.now_from_rest(object, at)), at, normal)
-    };
+    let place =
+        |at: DVec3, normal: DVec3| lifted(&(*pose * sight.picker.now_from_rest(object, at)), at, normal);
     let handles: Vec<[DVec3; 2]> =
         touch.points.iter().map(|point| place(point.at.into(), point.normal.into())).collect();
     Some(GuideCurve { selected: true, ..GuideCurve::seen(&handles, &handles, sight) })

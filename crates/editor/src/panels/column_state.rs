@@ -51,9 +51,8 @@ pub fn open_add_menu(ctx: &Context) {
 /// Begins to rename the active item in its row of the tree. Returns whether its name can be changed.
 pub fn rename(ctx: &Context, document: &Document) -> bool {
     let active = document.selection().active();
-    let named = active.filter(|item| {
-        matches!(item, Item::Object(_) | Item::Region(_) | Item::Light(_) | Item::Touch(_))
-    });
+    let named = active
+        .filter(|item| matches!(item, Item::Object(_) | Item::Region(_) | Item::Light(_) | Item::Touch(_)));
     ColumnState::with(ctx, |state| {
         state.renaming = named.map(|item| (item.clone(), item.name().to_owned()));
     });

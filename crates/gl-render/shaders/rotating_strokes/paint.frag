@@ -12,6 +12,7 @@ flat in vec4 body;
 flat in vec4 own;
 flat in vec4 plane;
 #ifdef LINE
+in float run_dry;
 in vec4 line;
 #endif
 #ifdef SHAPED
@@ -128,7 +129,7 @@ void main() {
     float least = paint.a;
 #ifdef LINE
     // Where the surface turns away the brush leaves less and less of its mark.
-    least = mix(1.0 + mark.z, least, smoothstep(0.0, 1.0, 2.0 * line.y));
+    least = mix(1.0 + mark.z, least + run_dry, smoothstep(0.0, 1.0, 2.0 * line.y));
 #endif
     float alpha = smoothstep(least - mark.z, least + mark.z, texel.r - STEEPNESS * past_end);
 #ifdef LINE

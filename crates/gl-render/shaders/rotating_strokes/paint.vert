@@ -18,7 +18,7 @@ layout(location = 8) in vec2 shape;          // taper, bend in radians
 #ifdef LINE
 layout(location = 9) in vec4 corner_of_line; // px; along and across the mark
 layout(location = 10) in vec4 middle_of_line; // from the line's middle to the corner in px; of the middle depth and presence
-layout(location = 11) in vec2 lean;          // depth of the plane less that of the middle, how far paint may lie off it; px
+layout(location = 11) in vec3 lean;          // depth of the plane less that of the middle, how far paint may lie off it; px; how dry it runs
 #endif
 
 uniform vec2 size_px;
@@ -51,6 +51,7 @@ flat out vec4 own;               // depth and id of the body, how much of the st
 flat out vec4 plane;             // of the stroke, in px: its depth's slope along x and y, the depth of its middle less the stroke's own,
                                  // how far paint may lie off it
 #ifdef LINE
+out float run_dry;               // how much more paint the mark needs to show
 out vec4 line;                   // depth, presence, depth of the plane less that in px, how far paint may lie off it
 #endif
 #ifdef SHAPED
@@ -190,7 +191,8 @@ void main() {
 #ifdef LINE
     mark_at = corner_of_line.zw;
     from_center_px = middle_of_line.xy;
-    line = vec4(middle_of_line.zw, lean);
+    line = vec4(middle_of_line.zw, lean.xy);
+    run_dry = lean.z;
     level = max(log2(mark_rows / (1.05 * size.y * MARGIN)), 0.0);
 #endif
     mark = vec4(float(marks.w & 65535u), level, soft, normal_and_bow.w);

@@ -40,4 +40,6 @@ pub struct LineVertex {
     pub lean_px: f32,
     /// How far the surface may leave that plane before paint ends, pixels of depth.
     pub leave_px: f32,
+    /// How much more paint than elsewhere the mark needs to show here, because the brush runs dry; of a whole mark.
+    pub run_dry: f32,
 }

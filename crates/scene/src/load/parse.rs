@@ -354,7 +354,9 @@ fn what_goes_into(field: &str) -> Option<&'static str> {
         "layer" => "a whole number, as in 1 or -1",
         "size" => "two whole numbers, as in (1280, 720)",
         "fps" | "frame" | "roll_deg" | "turn_deg" | "fov_y_deg" | "near" | "far" | "height" | "intensity"
-        | "gloss" | "radius" | "strength" | "by" | "width_px" | "length_px" | "opacity" | "period_secs" => A_NUMBER,
+        | "gloss" | "radius" | "strength" | "by" | "width_px" | "length_px" | "opacity" | "period_secs" => {
+            A_NUMBER
+        }
         "eye" | "target" | "position" | "translation" | "rotation_deg" | "at" | "normal" => {
             "three numbers, as in (0, 1.5, -2)"
         }

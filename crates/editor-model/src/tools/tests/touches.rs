@@ -18,7 +18,11 @@ fn touches(world: &World) -> &[Touch] {
 fn a_click_places_one_stroke_and_a_drag_a_long_one() {
     let mut world = World::new();
     let aimed = world.hover(Tool::Touch, LEFT);
-    assert!(aimed.status.starts_with("[Click] one stroke  [Drag] a long one  [Shift] erase"), "{}", aimed.status);
+    assert!(
+        aimed.status.starts_with("[Click] one stroke  [Drag] a long one  [Shift] erase"),
+        "{}",
+        aimed.status
+    );
     world.drag(Tool::Touch, &[LEFT], NONE);
     assert_eq!((world.document.undo_count(), world.document.undo_text()), (1, Some("Lay touch")));
     assert_eq!(world.document.selection().active(), Some(&Item::Touch("touch".to_owned())));

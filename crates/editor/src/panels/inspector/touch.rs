@@ -4,7 +4,7 @@ use egui::Ui;
 use impasto_core::brush;
 use impasto_editor_model::Item;
 use impasto_editor_model::command::{Command, Edit, Touches};
-use impasto_scene::document::{Touch};
+use impasto_scene::document::Touch;
 use impasto_scene::limits::{TOUCH_LENGTH_PX, TOUCH_WIDTH_PX};
 
 use super::Asker;
@@ -108,10 +108,8 @@ fn numbers(ui: &mut Ui, asker: &mut Asker<'_, '_>, [touch, stored]: [&Touch; 2])
             set(stored, "length", |touch| touch.length_px = to.unwrap_or(Touch::USUAL_LENGTH_PX))
         });
     }
-    let opacity = Number {
-        default: Some(1.0),
-        ..Number::share("Touch opacity", "How far it covers what is below.")
-    };
+    let opacity =
+        Number { default: Some(1.0), ..Number::share("Touch opacity", "How far it covers what is below.") };
     asker.number(ui, &opacity, [touch.opacity, stored.opacity], |to| {
         set(stored, "opacity", |touch| touch.opacity = to.unwrap_or(1.0))
     });

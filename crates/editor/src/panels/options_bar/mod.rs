@@ -10,13 +10,13 @@ use impasto_editor_model::Item;
 use impasto_editor_model::session::{Mode, Tool, ToolOptions};
 
 use self::settings::{BarPlace, Control, Setting};
-use impasto_scene::document::Color;
 use super::tool_names::face;
 use super::top_bar::WIDE;
 use super::{Ask, PanelInput, divider, row, row_from_right, text_width, within};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, NumberField};
+use impasto_scene::document::Color;
 
 /// The width of the line between groups of settings, with the space on either side.
 const DIVIDER: f32 = 9.0 + measure::GAP;

@@ -277,10 +277,8 @@ fn touch(options: &ToolOptions) -> Vec<Setting> {
         |options: &mut ToolOptions| &mut options.touch_radius_px,
         "Half the width of the stroke, as the ring shows it.",
     );
-    let mut settings = vec![
-        at(BarPlace::Always, "", does),
-        apart(at(BarPlace::Always, "Radius", Control::Number(radius))),
-    ];
+    let mut settings =
+        vec![at(BarPlace::Always, "", does), apart(at(BarPlace::Always, "Radius", Control::Number(radius)))];
     if !options.touch_erases {
         let from = choice!(touch_from_picture: [
             false => "Colour", "Touch in a colour";
@@ -288,7 +286,8 @@ fn touch(options: &ToolOptions) -> Vec<Setting> {
         ]);
         settings.push(apart(at(BarPlace::Always, "", from)));
         if !options.touch_from_picture {
-            let color = Control::Colour { name: "Colour of touches", get: |options| &mut options.touch_color };
+            let color =
+                Control::Colour { name: "Colour of touches", get: |options| &mut options.touch_color };
             settings.push(at(BarPlace::Always, "", color));
         }
         let opacity = number(

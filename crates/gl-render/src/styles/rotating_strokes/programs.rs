@@ -49,11 +49,9 @@ impl StrokePrograms {
         if self.line_paint.is_none() {
             let source = match quality {
                 Quality::Exact => LINE_PAINT,
-                Quality::Draft => ProgramSource {
-                    uniforms: &[PAINT_UNIFORMS],
-                    defined: &["LINE", "DRAFT"],
-                    ..DRAFT_PAINT
-                },
+                Quality::Draft => {
+                    ProgramSource { uniforms: &[PAINT_UNIFORMS], defined: &["LINE", "DRAFT"], ..DRAFT_PAINT }
+                }
             };
             self.line_paint = Some(Program::new(gpu, FILES, &source)?);
         }
@@ -133,15 +131,8 @@ const RESOLVE: ProgramSource<'static> = ProgramSource {
     )
 };
 
-const PAINT_UNIFORMS: &[&str] = &[
-    "size_px",
-    "mark_rows",
-    "mark_bounds",
-    "brush_marks",
-    "surface",
-    "units_per_px_at_1",
-    "orthographic",
-];
+const PAINT_UNIFORMS: &[&str] =
+    &["size_px", "mark_rows", "mark_bounds", "brush_marks", "surface", "units_per_px_at_1", "orthographic"];
 
 /// What a billboard needs, and a line does not.
 const OF_BILLBOARDS: &[&str] = &["view_from_world", "kind"];
@@ -155,8 +146,11 @@ const LINE_PAINT: ProgramSource<'static> =
     ProgramSource { uniforms: &[PAINT_UNIFORMS, OF_EXACT], defined: &["LINE"], ..DRAFT_PAINT };
 
 /// Drafts pick up no paint.
-const DRAFT_PAINT: ProgramSource<'static> =
-    ProgramSource::new("rotating_strokes/paint.vert", Some("rotating_strokes/paint.frag"), &[PAINT_UNIFORMS, OF_BILLBOARDS]);
+const DRAFT_PAINT: ProgramSource<'static> = ProgramSource::new(
+    "rotating_strokes/paint.vert",
+    Some("rotating_strokes/paint.frag"),
+    &[PAINT_UNIFORMS, OF_BILLBOARDS],
+);
 
 pub(super) const SOFTEN: ProgramSource<'static> =
     ProgramSource::screen("rotating_strokes/soften.frag", &[&["height", "step_px"]]);
