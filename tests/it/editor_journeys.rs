@@ -342,7 +342,7 @@ fn touches_are_laid_by_hand() {
     let [long, one] = &laid.touches[..] else { panic!("{:?}", laid.touches) };
     assert!(long.points.len() > 1 && one.points.len() == 1);
     assert!(laid.touches.iter().all(|touch| touch.on == "apple"));
-    assert_eq!(erased.touches, [one.clone()]);
+    assert_eq!(erased.touches, std::slice::from_ref(one));
     let bare = |scene: Scene| Scene { touches: Vec::new(), ..scene };
     assert_eq!(bare(laid), before, "nothing else changed");
 }
