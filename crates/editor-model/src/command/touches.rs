@@ -3,6 +3,7 @@
 use impasto_scene::document::{Scene, Touch};
 use impasto_scene::limits;
 
+use super::region::in_file;
 use super::{Done, counted, unlocked_object};
 use crate::names;
 use crate::refusal::Refusal;
@@ -32,7 +33,8 @@ impl Touches {
             Self::Lay(touches) => lay(scene, touches),
             Self::Set { name, touch, what } => {
                 let stored = touch_mut(scene, name)?;
-                *stored = Touch { name: name.clone(), on: stored.on.clone(), ..Touch::clone(touch) };
+                let (name, on) = (name.clone(), stored.on.clone());
+                *stored = Touch { name, on, color: touch.color.map(in_file), ..Touch::clone(touch) };
                 Ok(Done::new(format!("Set {name} {what}")))
             }
             Self::Erase(names) => {
@@ -60,7 +62,8 @@ fn lay(scene: &mut Scene, touches: &[Touch]) -> Result<Done, Refusal> {
     for touch in touches {
         unlocked_object(scene, &touch.on)?;
         let name = names::unique(&touch.name, scene.touches.iter().map(|touch| touch.name.as_str()));
-        scene.touches.push(Touch { name: name.clone(), ..touch.clone() });
+        let color = touch.color.map(in_file);
+        scene.touches.push(Touch { name: name.clone(), color, ..touch.clone() });
         last = Some(name);
     }
     let Some(last) = last else { return Err(Refusal::new("Nothing to paint here")) };

@@ -22,7 +22,7 @@ const SEED: &str = r##"#![enable(implicit_some)]
         (name: "s", turn_deg: 7, hidden: true, locked: true, color: "#008df9", on: Several("leaf", [Whole, Flood((at: (0, 0, 1), normal: (0, 0, 1)), 30), Dabs([(at: (0, 0, 1), normal: (0, 0, 1), radius: 1, take_away: true)])]),
          guides: [(mode: Smooth, points: [(at: (0, 0, 1), normal: (0, 0, 1), turn_deg: 30), (at: (1, 0, 1), normal: (0, 0, 1))], radius: 1)],
          amounts: [(of: Width, object: Some("leaf"), dabs: [(at: (0, 0, 1), normal: (0, 0, 1), radius: 1, by: 1.5)])])],
-    touches: [(name: "glint", on: "leaf", points: [(at: (0, 0, 1), normal: (0, 0, 1)), (at: (1, 0, 1), normal: (0, 0, 1))], width_px: 20, color: Some("#fff2cc"), opacity: 0.9, taper: 0.5, brush: Some("round"))],
+    touches: [(name: "glint", on: "leaf", points: [(at: (0, 0, 1), normal: (0, 0, 1))], color: Some("#fff2cc"), taper: 0.5)],
     style: RotatingStrokes(solver: Tangent, underpainting: false),
 )
 "##;
