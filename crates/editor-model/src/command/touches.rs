@@ -33,8 +33,9 @@ impl Touches {
             Self::Lay(touches) => lay(scene, touches),
             Self::Set { name, touch, what } => {
                 let stored = touch_mut(scene, name)?;
-                let (name, on) = (name.clone(), stored.on.clone());
-                *stored = Touch { name, on, color: touch.color.map(in_file), ..Touch::clone(touch) };
+                let on = stored.on.clone();
+                let color = touch.color.map(in_file);
+                *stored = Touch { name: name.clone(), on, color, ..Touch::clone(touch) };
                 Ok(Done::new(format!("Set {name} {what}")))
             }
             Self::Erase(names) => {
