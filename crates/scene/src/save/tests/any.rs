@@ -425,7 +425,8 @@ fn any_touch() -> impl Strategy<Value = Touch> {
 }
 
 pub(super) fn any_scene() -> impl Strategy<Value = Scene> {
-    let style = any_style();
+    // The large parts are boxed: all by value, they would fill the stack of a test's thread.
+    let style = any_style().boxed();
     let background_key =
         (number(), any_color(), ease()).prop_map(|(frame, color, ease)| BackgroundKey { frame, color, ease });
     let background = (any_color(), prop::collection::vec(background_key, 0..3));
@@ -435,12 +436,12 @@ pub(super) fn any_scene() -> impl Strategy<Value = Scene> {
     let head = (any::<(u32, u32)>(), any::<u32>(), background, timeline, any_reference(), style);
     let lists = (
         prop::collection::vec(any_light(), 0..3),
-        prop::collection::vec(any_object(), 0..4),
-        prop::collection::vec(any_region(), 0..3),
+        prop::collection::vec(any_object().boxed(), 0..4),
+        prop::collection::vec(any_region().boxed(), 0..3),
         prop::collection::vec(any_reference(), 0..3),
         prop::collection::vec(any_touch(), 0..3),
     );
-    (head, any_camera(), lists, any_strokes()).prop_map(
+    (head, any_camera(), lists, any_strokes().boxed()).prop_map(
         |(
             (size, seed, ((background, background_keys), exposure), timeline, reference, style),
             camera,
