@@ -1,4 +1,5 @@
-// nanoflann: a kd-tree, asked for all within the radius, then the nearest of them. POINTS RADIUS MOST FOUND
+// nanoflann's kd-tree finds all points within the radius; the nearest MOST of them are kept.
+// Arguments: POINTS RADIUS MOST FOUND.
 #include <nanoflann.hpp>
 
 #include "rounds.hpp"
@@ -13,7 +14,7 @@ struct Cloud {
 using Metric = nanoflann::L2_Simple_Adaptor<float, Cloud>;
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<Metric, Cloud, 3, uint32_t>;
 
-// Keeps all within the radius, in no order.
+// Collects all points within the radius, in no order.
 struct Within {
   using DistanceType = float;
   using IndexType = uint32_t;

@@ -60,7 +60,7 @@ inline std::vector<uint32_t> morton_order(const std::vector<float> &points) {
   return std::vector<uint32_t>(keys.begin(), keys.end());
 }
 
-/// Says that all is ready, then does the task as often as each line asks and says how long that took.
+/// Prints that it is ready. Then for each line `go N` it does the task N times and prints how long that took.
 template <class Task> int serve(Task task) {
   std::puts("{\"ready\": true}");
   std::fflush(stdout);

@@ -53,7 +53,7 @@ points, of_triangle = answer_of(answer)
 a, b, c = (vertices[triangles[of_triangle, corner]] for corner in range(3))
 normals = numpy.cross(b - a, c - a)
 normals /= numpy.maximum(numpy.linalg.norm(normals, axis=1, keepdims=True), 1e-30)
-# Point and normal by turns.
+# Point and normal alternate.
 numpy.stack([points, normals], axis=1).astype("<f4").tofile(found)
 del answer, points
 serve(task, secs)

@@ -1,4 +1,5 @@
-// Eigen's umeyama for each particle: its neighbours in the reference and in this picture. POSITIONS REFERENCE LISTS ROWS ANGLES
+// Eigen's umeyama solves each particle's turn from its neighbours in the reference and in this picture.
+// Arguments: POSITIONS REFERENCE LISTS ROWS ANGLES.
 #include <cmath>
 
 #include <Eigen/Dense>

@@ -70,8 +70,9 @@ impl Bench {
         self.table.rows.push(row);
     }
 
-    /// Checks that `bytes` of memory are free for the largest input, 10,000,000 particles. If they are not, adds a row to the
-    /// table that says why the task `what` was not measured at that size. If the free memory is not known, it counts as enough.
+    /// Returns whether `bytes` of memory are free for the largest input, 10,000,000 particles. If not, adds a row to
+    /// the table that says why the task `what` was not measured at that size. Free memory of unknown size counts as
+    /// enough.
     pub fn has_memory(&mut self, what: &str, bytes: u64) -> bool {
         let enough = machine::free_bytes().is_none_or(|free| free >= bytes);
         if !enough {

@@ -1,5 +1,5 @@
-//! Measures what a body that bends costs in a frame: its vertices by joints, how it is strained, and its particles carried and solved.
-//! Each beside the floor that memory sets.
+//! Measures what a body that bends costs in a frame, beside the floor that memory sets: its vertices moved by joints,
+//! its deformation gradients, its particles carried and solved, and a point cache.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -39,7 +39,7 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
     ensure!(bent.positions.iter().all(|at| at.is_finite()), "a vertex is nowhere");
     let contenders = vec![
         Contender::here("Impasto", "", || bend.at(&pose)),
-        // Position, normal, four weights and four joints of two bytes; position and normal.
+        // In: position, normal, four weights and four joints of two bytes. Out: position and normal.
         Streams::new(mesh.positions.len(), 12, 6).contender(),
     ];
     let figures = race(&bench.pace(false), contenders)?;
@@ -49,7 +49,7 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
     let strain = || Carrier::new(&bent.positions, &gradients.at(&bent.positions));
     let contenders = vec![
         Contender::here("Impasto", "", strain),
-        // Six neighbours with three numbers each, and their positions; position and F.
+        // In: six edges of three numbers, M⁻¹ and the position. Out: position and F.
         Streams::new(mesh.positions.len(), 6 * 3 + 9 + 3, 12).contender(),
     ];
     let figures = race(&bench.pace(false), contenders)?;
@@ -86,7 +86,7 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
             }
             sum
         }),
-        // Place, number, normal and height (8) of all, once.
+        // Place, number, normal and height (8) of every particle in, one number out.
         Streams::new(places.len(), 8, 1).contender(),
     ];
     let figures = race(&bench.pace(false), contenders)?;
@@ -109,12 +109,12 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
     point_cache(bench)
 }
 
-/// Columns and rows of points of a cloth: 160,801 points.
+/// Points along each side of a cloth, which has 160,801 points.
 const SIDE: usize = 401;
 
 const SAMPLES: usize = 32;
 
-/// Measures a frame of a point cache: its samples read, vertices, normals and F at each.
+/// Measures a frame of a point cache: a sample is read, and vertices, normals and F are made from it.
 fn point_cache(bench: &mut Bench) -> anyhow::Result<()> {
     let folder = std::env::temp_dir().join(format!("impasto-bench-{}", std::process::id()));
     std::fs::create_dir_all(&folder)?;
@@ -125,7 +125,8 @@ fn point_cache(bench: &mut Bench) -> anyhow::Result<()> {
                 frame = (frame + 7.0) % SAMPLES as f64;
                 painting.bent_at(frame)
             }),
-            // The sample in bytes and in points; position, normal, and F with the position again.
+            // In: the sample as bytes and as points, and six edges of three numbers. Out: position and normal, then
+            // position and F.
             Streams::new(SIDE * SIDE, 3 + 3 + 6 * 3, 6 + 16).contender(),
         ];
         race(&bench.pace(false), contenders)
@@ -168,7 +169,7 @@ fn cloth_of(folder: &Path) -> anyhow::Result<Painting> {
     )?;
     let loaded = load(&scene, &LoadOptions::default()).map_err(|report| anyhow!("{report}"))?;
     let painting = Preparer::default().prepare_plain(&Arc::new(loaded))?;
-    // What is measured once for a surface does not count.
+    // A first call, because what is computed once for a surface is not to be timed.
     painting.bent_at(1.0);
     Ok(painting)
 }
@@ -200,7 +201,7 @@ fn bar() -> (TriangleMesh, Bend) {
     (mesh, Bend { bound, skin: Some(skin), ..Bend::default() })
 }
 
-/// Joint after joint turns a little more than the one before.
+/// A pose in which each joint turns a little more than the one before.
 fn rolled_up() -> BendPose {
     let mut world = DAffine3::IDENTITY;
     let joints = (0..JOINTS).map(|joint| {

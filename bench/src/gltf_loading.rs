@@ -1,5 +1,5 @@
-//! Measures how long a glTF file of a million triangles takes: to our mesh, every number checked, beside the `gltf` crate, which hands
-//! out the same numbers.
+//! Measures how long it takes to read a glTF file of a million triangles into our mesh, with every number checked.
+//! Beside it, the `gltf` crate hands out the same numbers.
 
 use std::path::Path;
 
@@ -24,7 +24,7 @@ fn ours(path: &Path) -> anyhow::Result<MeshFile> {
     read.map(|(file, _)| file).map_err(|report| anyhow::anyhow!("{report}"))
 }
 
-/// Positions, normals and corners, as the crate reads them.
+/// Positions, normals and corners, as the `gltf` crate reads them.
 type Lists = (Vec<[f32; 3]>, Vec<[f32; 3]>, Vec<u32>);
 
 fn theirs(path: &Path) -> anyhow::Result<Lists> {
@@ -44,7 +44,7 @@ fn area(corners: impl Iterator<Item = [Vec3; 3]>) -> f64 {
     corners.map(|[a, b, c]| f64::from((b - a).cross(c - a).length()) * 0.5).sum()
 }
 
-/// Measures both.
+/// Measures both readers.
 pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
     let path = bench.peers.folder()?.join("million.glb");
     if !path.is_file() {

@@ -66,7 +66,7 @@ fn area(corners: impl Iterator<Item = [Vec3; 3]>) -> f64 {
     corners.map(|[a, b, c]| f64::from((b - a).cross(c - a).length()) * 0.5).sum()
 }
 
-/// Measures both.
+/// Measures both readers.
 pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
     let path = file(&bench.peers.folder()?)?;
     let (mesh, models) = (ours(&path)?, theirs(&path)?);

@@ -63,7 +63,7 @@ fn one(bench: &mut Bench, scene: &PaperScene, renderer: &mut Result<Renderer, St
     row.goals.extend(most_secs(scene).map(Goal::AtMost));
     bench.push(row);
 
-    // The model alone, as in the paper, which has nothing round it.
+    // The model without the rest of our scene: the paper's scenes hold the model only.
     let model = alone_with_particles(&loaded, scene.object, scene.particles as u64);
     let total = prepare(Arc::clone(&model))?.particle_total();
     let contenders = vec![Contender::here("Impasto", "", || prepare(Arc::clone(&model)))];

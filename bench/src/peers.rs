@@ -1,5 +1,5 @@
 //! Builds and runs peers, the programs that Impasto is timed beside: C++ from `bench/peers/*.cpp`, Python from
-//! `bench/peers/*.py`. They talk with the benchmark so:
+//! `bench/peers/*.py`. They talk with the benchmark like this:
 //!
 //! ```text
 //! start: arguments name files of little-endian f32 and u32

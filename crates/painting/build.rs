@@ -1,5 +1,5 @@
-//! Tells the program's own state apart, for what is kept on disk: a hash of the sources that preparing is made of, and of the compiler.
-//! What another state of the program kept is not found.
+//! Puts a hash of the sources that preparing depends on, and of the compiler, into `IMPASTO_SOURCES`. It is part of the
+//! key of what is kept on disk, so that nothing is found there that other sources have made.
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ fn main() {
     let mut hash = Fnv(0xcbf2_9ce4_8422_2325);
     for name in CRATES {
         let sources = crates.join(name).join("src");
-        // Beside crates that come packaged there is only the version, which names the sources of all of them.
+        // A packaged crate has no sources of other crates beside it; its version stands for all of them.
         if !sources.is_dir() {
             continue;
         }
@@ -31,7 +31,7 @@ fn main() {
     println!("cargo:rustc-env=IMPASTO_SOURCES={:016x}", hash.0);
 }
 
-/// FNV-1a, 64 bits: it only has to tell states of one program apart.
+/// FNV-1a, 64 bits: it only has to tell builds of one program apart.
 struct Fnv(u64);
 
 impl Fnv {

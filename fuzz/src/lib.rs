@@ -19,7 +19,7 @@ pub fn folder(target: &str) -> PathBuf {
     folder
 }
 
-/// Holds that all strokes of a painting are finite, at frames near and far.
+/// Asserts that all strokes of a painting are finite, at frames near and far.
 ///
 /// # Panics
 /// Where one is not.

@@ -1,5 +1,5 @@
-//! Commands of the editor, in any order: each is refused and changes nothing, or taken, and its undo and redo are exact. What they leave
-//! is a scene that reads back as it is.
+//! Fuzzes commands of the editor, in any order. Each is refused and changes nothing, or it is applied and its undo and
+//! redo are exact. The scene that they leave is equal after it was saved and read again.
 
 #![no_main]
 

@@ -1,4 +1,5 @@
-//! Scenes with every mesh replaced by a small one: what the checks let through gives finite strokes at any time.
+//! Fuzzes scenes whose meshes are replaced by a small one: a scene that passes the checks has finite strokes at any
+//! time.
 
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! glTF files, text or binary: they are read or refused, and what is read can be posed at any time.
+//! Fuzzes glTF files, text or binary: they are read or refused, and what is read can be posed at any time.
 
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! Guides and painted amounts on any mesh: however its faces lie and whatever a gesture looks like, strokes are finite.
+//! Fuzzes guides and painted amounts on any mesh: however its faces lie and a gesture runs, strokes are finite.
 
 #![no_main]
 
@@ -19,7 +19,7 @@ fn folder() -> &'static PathBuf {
     FOLDER.get_or_init(|| impasto_fuzz::folder("guides"))
 }
 
-/// Numbers made from bytes, zeros where there are no more.
+/// Numbers made from bytes, zeros once there are no more.
 struct Numbers<'a>(std::slice::Iter<'a, u8>);
 
 impl Numbers<'_> {
@@ -27,7 +27,8 @@ impl Numbers<'_> {
         self.0.next().copied().unwrap_or(0)
     }
 
-    /// A coordinate from -4 to 4 with few digits, so that many meet: points in one place, straight rows, flat faces.
+    /// A coordinate from -4 to 4 in coarse steps, so that many are equal: points in one place, straight rows, flat
+    /// faces.
     fn coordinate(&mut self) -> f64 {
         f64::from(self.byte() as i8) / 32.0
     }

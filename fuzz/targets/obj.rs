@@ -1,4 +1,5 @@
-//! OBJ files, and behind the first zero byte the MTL file that they may name as `m.mtl`: they are read or refused, and what is read is sound.
+//! Fuzzes OBJ files: they are read or refused, and what is read is sound. The bytes after the first zero byte are the
+//! MTL file `m.mtl`, which the OBJ file may name.
 
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! Pictures for textures and brushes: they are read or refused, and have the pixels that they claim.
+//! Fuzzes pictures for textures and brushes: they are refused, or read with as many pixels as their size says.
 
 #![no_main]
 

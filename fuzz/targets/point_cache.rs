@@ -1,4 +1,4 @@
-//! Point caches of a mesh of four points: they move it, or are refused.
+//! Fuzzes point caches of a mesh of four points: they are refused, or move its points to finite places.
 
 #![no_main]
 

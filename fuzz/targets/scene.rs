@@ -1,4 +1,4 @@
-//! Scene texts: they are read or refused; what is read is checked; and what is saved reads back equal.
+//! Fuzzes scene texts: they are refused, or read and checked; a scene that is saved and read again is equal.
 
 #![no_main]
 
@@ -14,7 +14,7 @@ fuzz_target!(|bytes: &[u8]| {
     let findings = check::check(&scene);
     let saved = save::to_ron(&scene);
     let again = load::parse(path, &saved).unwrap_or_else(|report| panic!("{report}\n{saved}"));
-    // Not a number is not equal to itself.
+    // A scene with NaN differs from itself: then the saved texts are compared.
     if again != scene {
         let saved_again = save::to_ron(&again);
         assert!(saved == saved_again, "{saved}\n{saved_again}");

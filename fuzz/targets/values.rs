@@ -1,5 +1,5 @@
-//! `PATH=VALUE` lines as `--set` and `impasto set` take them, and lists of frames: each is taken or refused, a text that took one reads
-//! back, and the rest of it is as it was.
+//! Fuzzes `PATH=VALUE` lines as `--set` and `impasto set` take them, lists of frames, and file patterns. A value is
+//! taken or refused; a scene text that took one can be read, and the rest of it is unchanged.
 
 #![no_main]
 

@@ -1,5 +1,6 @@
-# Makes shots in a real Blender, exports each as OUT/NAME.glb, and writes what Blender itself says of every frame as OUT/NAME.json:
-# field of view, and where vertices are in the world and in a picture of 640 by 360 pixels. Run: python shots.py OUT (with bpy).
+# Makes shots in a real Blender, exports each as OUT/NAME.glb, and writes what Blender itself says of every frame as
+# OUT/NAME.json: field of view, and where vertices are in the world and in a picture of 640 by 360 pixels.
+# Run: python shots.py OUT (with bpy).
 import bpy, json, math, os, sys
 from bpy_extras.object_utils import world_to_camera_view
 
@@ -191,6 +192,6 @@ for make in (nested, constrained, layered, mirrored, bending):
         filepath=os.path.join(OUT, make.__name__ + '.glb'), export_cameras=True, export_lights=True,
         export_animation_mode='SCENE', export_pointer_animation=True, export_anim_scene_split_object=False,
         export_force_sampling=True)
-# Blender 4.2 as a module falls over while it ends, after an export.
+# Blender 4.2 as a module crashes when it exits after an export.
 sys.stdout.flush()
 os._exit(0)

@@ -1,4 +1,4 @@
-//! Tests of painted amounts: what a dab makes of the strokes that it reaches, and that it leaves all others as they are.
+//! Tests of painted amounts: what a dab makes of the strokes that it reaches, and that all others stay as they are.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -62,8 +62,8 @@ fn share(painting: &Painting, particle: u32, from: Vec3) -> f64 {
 fn a_stroke_in_the_middle_of_a_dab_is_as_much_wider_and_those_outside_stay_to_the_bit() {
     let plain = painted(scene(20_000, Vec::new()), shapes::sheet(20));
     let before = body(&plain);
-    // The dab lies on a particle, so that its stroke shows the whole factor. Of those near the middle the one with the lowest rank is
-    // there however wide strokes are.
+    // The dab lies on a particle, so that the stroke there shows the whole factor. It is the first particle near the
+    // middle: its rank is low, so its stroke is there however wide strokes are.
     let half = SIZE_PX.map(|side| side as f32 * 0.5);
     let off = |stroke: &Stroke| (stroke.center_px[0] - half[0]).hypot(stroke.center_px[1] - half[1]);
     let middle = *before.iter().find(|(_, stroke)| off(stroke) < 30.0).unwrap().0;
@@ -230,7 +230,7 @@ fn painted_flatness_lets_strokes_follow_the_surface_where_it_is_painted() {
     for (particle, stroke) in &now {
         let r = share(&painting, *particle, at);
         if r >= 1.0 {
-            // Where strokes of a body may follow it, angles of all of them are rounded otherwise.
+            // If some strokes of a body may follow the surface, the angles of all are rounded differently.
             let (angle_rad, was) = (flat[particle].angle_rad, flat[particle]);
             assert!((stroke.angle_rad - angle_rad).abs() < 1e-6);
             assert_eq!(Stroke { angle_rad, ..*stroke }, was);
@@ -243,7 +243,7 @@ fn painted_flatness_lets_strokes_follow_the_surface_where_it_is_painted() {
         }
     }
     assert!(near > 0 && turned > 50, "{near} {turned}");
-    // More than quite flat there is nothing.
+    // Strokes cannot be flatter than 1.
     let flatter = of(vec![(Amount::Flatness, dab(at, 4.0))], 1.0);
     assert_eq!(seen(&flatter), flat);
 }

@@ -1,4 +1,5 @@
-//! Tests of what EXR files hold beside the colour. Oracles: closed forms, brute force at more samples, and the picture itself.
+//! Tests of what EXR files hold beside the colour. Oracles: closed forms, brute force at more samples, and the picture
+//! itself.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -100,7 +101,7 @@ fn colour_and_layers_give_the_picture_which_no_data_changes() {
             for channel in 0..3 {
                 let linear = if alpha > 0.0 { planes[channel][index] / alpha } else { 0.0 };
                 let encoded = srgb_from_linear(linear) * 255.0;
-                // Where little is covered, 16 bits of a premultiplied colour are few.
+                // Where alpha is small, 16 bits of a premultiplied colour are coarse.
                 let most = if alpha > 0.1 { 1.0 } else { 8.0 };
                 let off = (encoded - f32::from(pixel[channel])).abs();
                 assert!(
@@ -243,8 +244,8 @@ fn motion_is_where_the_surface_was_and_will_be() {
     }
 }
 
-/// On moving scenes: the place that a pixel shows, carried with its rigid object to the next frame and projected there, is where the
-/// vector leads.
+/// On moving scenes, the motion vector of a pixel leads to where the pixel's surface point is in the next frame. That
+/// place is found by moving the point with its rigid object and projecting it.
 #[test]
 fn motion_leads_to_the_same_point_of_the_surface_in_the_next_frame() {
     let mut renderer = pictures::renderer(Driver::Auto);
@@ -275,7 +276,8 @@ fn motion_leads_to_the_same_point_of_the_surface_in_the_next_frame() {
     }
 }
 
-/// Mattes of objects beside what their shapes cover, counted at 4 x 4 places a pixel, and their sum beside alpha.
+/// Compares the mattes of objects with what their shapes cover, counted at 4 × 4 places a pixel. Where a body is, the
+/// mattes must sum to 1.
 #[test]
 fn mattes_cover_what_is_painted() {
     let mut renderer = pictures::renderer(Driver::Auto);
@@ -446,7 +448,7 @@ fn paint_is_lit_anew_and_a_file_that_is_none_is_one_error() {
     let done = run(&["a.exr", "--light", "1,0.5,0.5", "-o", "lit.png"]);
     assert!(done.status.success() && path.join("lit.png").exists(), "{}", said(&done));
     let whole = std::fs::read(path.join("a.exr")).unwrap();
-    // A head that claims a picture of 10,000 x 10,000: its data window ends there.
+    // A header that claims a picture of 10,000 x 10,000: the end of its data window is changed.
     let window = whole.windows(11).position(|name| name == b"dataWindow\0").unwrap() + 11 + 6 + 4 + 8;
     let mut huge = whole.clone();
     huge[window..window + 8].copy_from_slice(&[9999u32.to_le_bytes(), 9999u32.to_le_bytes()].concat());

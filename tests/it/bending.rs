@@ -1,5 +1,5 @@
-//! Tests of bodies that bend: strokes turn as closed forms say, particles suffice where a body stretches, nothing depends on what was
-//! asked before, and bad skins are told.
+//! Tests of bodies that bend: strokes turn as closed forms say, particles suffice where a body stretches, nothing
+//! depends on what was asked before, and bad skins are told.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -18,7 +18,7 @@ use impasto_tests::shapes;
 
 const SIZE_PX: [u32; 2] = [640, 360];
 
-/// A sheet from −1 to 1 with many cells, or a round bar along X.
+/// A round bar along X, from −1.2 to 1.2.
 fn bar(radius: f64) -> TriangleMesh {
     const ALONG: u32 = 96;
     const AROUND: u32 = 48;
@@ -75,8 +75,9 @@ fn lines_apart_deg(a: f64, b: f64) -> f64 {
     off.min(std::f64::consts::PI - off).to_degrees()
 }
 
-/// How far strokes are from the turn of a map of space that bends a mesh, degrees: of each stroke that the reference states wholly and
-/// that faces the eye after. `reference` is the frame in whose picture directions are stated.
+/// Bends a mesh by a map of space, and compares how strokes turn with how the map turns. Returns the differences in
+/// degrees, sorted, of the strokes that face the eye in both frames. `reference` is the frame in whose picture
+/// directions are stated: 0, in which the mesh is straight, or 10, in which it is bent.
 fn errors(mesh: &TriangleMesh, map: &dyn Fn(DVec3) -> DVec3, scene: Scene, reference: f64) -> Vec<f64> {
     let target = shapes::moved(mesh, map);
     let painting = prepare(shapes::morphing(scene, [mesh.clone(), target])).expect("the scene is good");
@@ -168,7 +169,7 @@ fn a_stated_angle_shows_in_the_reference_whatever_the_rest() {
     }
 }
 
-/// What is off its surface is as far off it where the reference has the body bent.
+/// Strokes that are raised above the surface show as stated also where the reference shows the body bent.
 #[test]
 fn raised_strokes_show_as_stated_in_a_bent_reference() {
     let target = shapes::moved(&shapes::sheet(32), stretched);
@@ -228,7 +229,7 @@ fn the_paper_s_sum_agrees_on_a_bent_body() {
     assert!(apart.len() > 200 && p50 <= 0.37 && p95 <= 1.95, "{p50} {p95}");
 }
 
-/// Strokes on a body that stretches threefold are as many for each pixel as on the body at rest.
+/// A body that stretches threefold has as many strokes a pixel as at rest.
 #[test]
 fn a_stretched_body_has_no_fewer_strokes_a_pixel() {
     let wide = |at: DVec3| DVec3::new(3.0 * at.x, at.y, at.z);
@@ -248,7 +249,7 @@ fn a_stretched_body_has_no_fewer_strokes_a_pixel() {
     assert!(rest > 100.0 && (wide / rest / 3.0 - 1.0).abs() < 0.015, "{rest} {wide}");
 }
 
-/// Shadows are cast from wherever a body may be, also between the frames that stand for the timeline.
+/// The bounds of shadows hold every place of a body, also between the frames of the timeline that are sampled.
 #[test]
 fn shadows_reach_as_far_as_a_morph_goes() {
     let mut scene = morphing_scene(7.0);
@@ -290,7 +291,7 @@ fn a_collapsed_or_mirrored_body_paints_numbers() {
 
 #[test]
 fn an_uneven_scale_turns_strokes_as_its_map_says() {
-    // A sheet that keys stretch: the same as one that is modelled so.
+    // A sheet that keys stretch is like one that is modelled stretched.
     let scales = [1.5, 0.6, 1.0];
     let mut keyed = morphing_scene(30.0);
     keyed.objects[0].morph = None;
@@ -313,7 +314,7 @@ fn an_uneven_scale_turns_strokes_as_its_map_says() {
     assert!(apart.len() > 300 && worst < 3e-5, "{worst} degrees of {}", apart.len());
 }
 
-/// A copy of the shot of the parade, changed; returns what reading it says.
+/// Reads a changed copy of the parade's shot. Returns whether it was read, and its warnings or errors.
 fn changed_parade(change: impl FnOnce(&mut serde_json::Value, &mut Vec<u8>)) -> (bool, String) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("parade.glb");
@@ -332,7 +333,7 @@ fn changed_parade(change: impl FnOnce(&mut serde_json::Value, &mut Vec<u8>)) -> 
     }
 }
 
-/// The bytes of an attribute of the skinned mesh.
+/// The bytes of an accessor.
 fn bytes_of<'a>(root: &serde_json::Value, bin: &'a mut [u8], accessor: &serde_json::Value) -> &'a mut [u8] {
     let accessor = &root["accessors"][accessor.as_u64().expect("an index") as usize];
     let view = &root["bufferViews"][accessor["bufferView"].as_u64().expect("a view") as usize];

@@ -1,7 +1,8 @@
-//! Tests against a real Blender, which makes shots, exports them, and says where everything is (`tests/blender/shots.py`), and reads our
-//! EXR files in its compositor (`tests/blender/compositing.py`).
+//! Tests against a real Blender. It makes shots, exports them, and says where everything is (`tests/blender/shots.py`).
+//! It also reads our EXR files in its compositor (`tests/blender/compositing.py`).
 //!
-//! They run where `IMPASTO_BPY` names a Python that has Blender as a module (`pip install bpy`), and are skipped elsewhere.
+//! The tests run where `IMPASTO_BPY` names a Python that has Blender as a module (`pip install bpy`), and are skipped
+//! elsewhere.
 
 use std::path::Path;
 use std::process::Command;
@@ -54,14 +55,14 @@ fn vertices(painting: &Painting, index: usize, frame: f64) -> Vec<DVec3> {
     positions.iter().map(|at| pose.transform_point3(at.as_dvec3())).collect()
 }
 
-/// The largest difference of a vertex in the picture, over all frames and objects, pixels; of the field of view, radians; and of a vertex
-/// in the world, in sizes of its object.
+/// The largest differences from Blender over all frames and objects: of a vertex in the picture, pixels; of the field
+/// of view, radians; of a vertex in the world, in sizes of its object.
 fn differences(shot: &Path, frames: &[Value]) -> [f64; 3] {
     let loaded = load(shot, &LoadOptions::default()).unwrap_or_else(|report| panic!("{report}"));
     let painting = Preparer::default().prepare_plain(&Arc::new(loaded.clone())).unwrap();
     let (mut most_px, mut most_rad, mut most_share, mut compared) = (0.0f64, 0.0f64, 0.0f64, 0);
     for (index, object) in loaded.scene.objects.iter().enumerate() {
-        // Which of our vertices is which of Blender's is found once: then they must stay together.
+        // Our vertices are matched with Blender's in one frame. In all others the pairs must stay together.
         let Some(shown) = frames.iter().find(|truth| !places(truth, &object.name).is_empty()) else {
             panic!("Blender shows no {:?}", object.name)
         };
@@ -128,7 +129,8 @@ fn shots_stand_where_blender_has_them() {
     }
 }
 
-/// The shots of `tests/blender/extension/shots.py`, as the extension exports them: with point caches, cuts, lens shift and instances.
+/// The shots of `tests/blender/extension/shots.py`, as the extension exports them: with point caches, cuts, lens shift
+/// and instances.
 #[test]
 fn what_the_extension_exports_stands_where_blender_has_it() {
     let Some(python) = std::env::var_os("IMPASTO_BPY") else {
@@ -152,7 +154,8 @@ fn what_the_extension_exports_stands_where_blender_has_it() {
     }
 }
 
-/// The Cryptomatte node finds an object with a name in two scripts by its name, and gives the coverage that the file states.
+/// The Cryptomatte node finds an object by its name, which is in two scripts, and gives the coverage that the file
+/// states.
 #[test]
 fn the_compositor_reads_passes_and_mattes() {
     let Some(python) = std::env::var_os("IMPASTO_BPY") else {

@@ -82,7 +82,7 @@ fn render_writes_whole_frames_by_their_pattern() {
     for name in folder.names("out") {
         assert!(is_whole_png(&folder.path("out").join(name)));
     }
-    // Existing frames stay; the missing ones are rendered, and so are those that were cut.
+    // Existing frames stay; those that are missing or cut short are rendered.
     std::fs::write(folder.path("out/f_01.png"), MINE).unwrap();
     std::fs::remove_file(folder.path("out/f_02.png")).unwrap();
     let first = std::fs::read(folder.path("out/f_00.png")).unwrap();
@@ -275,7 +275,7 @@ fn what_takes_more_memory_than_the_process_may_have_is_refused_and_does_not_end_
             "a picture of 8192x8192 takes about 4544 MiB while it is drawn, and ",
         ),
         ("--frames 0 --set objects[0].particles=16000000", "MiB may be taken"),
-        // The user's word does not lift the limit.
+        // `--memory` does not lift the limit of the process.
         ("--frames 0 --set objects[0].particles=16000000 --memory 8G", "MiB may be taken"),
     ] {
         let output = limited(arguments);
@@ -284,7 +284,7 @@ fn what_takes_more_memory_than_the_process_may_have_is_refused_and_does_not_end_
     }
     let strokes = run("strokes scene.ron -o s.csv --size 8192x8192");
     assert_eq!(code(&strokes), 3, "{}", words(&strokes.stderr));
-    // Who serves refuses the order, and lives on.
+    // `serve` refuses the order, and goes on.
     let order = r#"{"command":"render","id":1,"frames":"0","output":"f.exr","size":[8192,8192]}"#;
     let served = run(&format!("serve scene.ron <<'END'\n{order}\n{{\"command\":\"quit\"}}\nEND\n"));
     let said = words(&served.stdout);
@@ -293,7 +293,7 @@ fn what_takes_more_memory_than_the_process_may_have_is_refused_and_does_not_end_
     assert_eq!(code(&served), 0, "{said}");
 }
 
-/// As where a share goes away, or a disk is full.
+/// A folder in the way of a frame stands for a full disk, or a network share that goes away.
 #[test]
 fn a_frame_that_cannot_be_written_ends_the_render_and_those_before_it_stay() {
     let folder = Folder::new();
@@ -395,7 +395,7 @@ fn info_doctor_and_completions_answer() {
     for shell in ["bash", "zsh", "fish"] {
         assert!(words(&folder.run(&["completions", shell]).stdout).contains("impasto"), "{shell}");
     }
-    // Who does not read on, and a device that is full.
+    // A reader that stops reading is no error, but a full device is.
     for (command, wanted) in [("completions zsh", "0"), ("info cube.obj", "0"), ("check cube.obj", "0")] {
         let piped = format!("{} {command} | true; echo ${{PIPESTATUS[0]}}", impasto().display());
         let output =

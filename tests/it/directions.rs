@@ -1,5 +1,5 @@
-//! Tests of painted directions: strokes show as they were combed, they stay so when more is painted or sampled, and strokes
-//! that the reference never saw join them.
+//! Tests of painted directions: strokes show as they were combed, keep their angles when more is painted or sampled,
+//! and strokes that the reference never saw agree with their neighbours.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;

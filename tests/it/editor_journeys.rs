@@ -249,7 +249,7 @@ fn amounts_are_painted() {
     editor.wait_for_title("apple.ron - Impasto");
     let painted = read(folder.path(), "apple.ron");
     std::fs::copy(folder.path().join("apple.ron"), folder.path().join("painted.ron")).unwrap();
-    // What is under the ring goes, and one step of the history brings it back.
+    // With Shift the brush erases what is under its ring. One undo brings it back.
     screen.xdotool(&["keydown", "shift"]);
     comb(&mut editor, [-10, 40], [10, 90]);
     screen.xdotool(&["keyup", "shift"]);
@@ -320,7 +320,7 @@ fn touches_are_laid_by_hand() {
     editor.wait_for_title("apple.ron - Impasto");
     let laid = read(folder.path(), "apple.ron");
     std::fs::copy(folder.path().join("apple.ron"), folder.path().join("laid.ron")).unwrap();
-    // Across the long one with Shift: it goes, and one step of the history brings it back.
+    // A drag with Shift across the long touch erases it. One undo brings it back.
     screen.xdotool(&["keydown", "shift"]);
     comb(&mut editor, [-70, 0], [-20, 10]);
     screen.xdotool(&["keyup", "shift"]);

@@ -30,13 +30,13 @@ fn work_outlives_a_kill_soon_after_an_edit() {
     let folder = folder();
     let before = read(folder.path(), "apple.ron");
     std::fs::create_dir(folder.path().join("config")).unwrap();
-    // As it is by itself, but for the seconds.
+    // The default settings, except that a copy is made after one second.
     std::fs::write(folder.path().join("config/editor.ron"), "(copy_after_secs: 1)").unwrap();
     let mut editor = EditorWindow::open(&screen, "killed", folder.path(), "apple.ron");
     move_the_apple(&mut editor);
     wait_for("a copy of the work", || {
         let copies = std::fs::read_dir(folder.path().join("config/recovery")).ok()?.flatten();
-        // A copy that is still being written has another ending.
+        // A copy that is still being written ends in `.part`.
         let whole =
             copies.map(|copy| copy.path()).filter(|path| path.extension().is_none_or(|end| end != "part"));
         let mut texts = whole.filter_map(|path| std::fs::read_to_string(path).ok());

@@ -1,4 +1,4 @@
-//! A scene far from the world's origin is painted as the same scene there.
+//! Tests that a scene far from the world's origin is painted like the same scene at the origin.
 
 use glam::DVec3;
 use impasto_gl_render::Renderer;
@@ -8,7 +8,7 @@ use impasto_scene::document::{Light, LightKind, ObjectKey, Scale};
 use impasto_tests::pictures::renderer;
 use impasto_tests::shapes;
 
-/// A ball before a tilted sheet under a lamp, all moved by `by`, at its two frames.
+/// The pictures (RGBA) of two frames of a ball before a tilted sheet under a lamp, all moved by `by`.
 fn painted(renderer: &mut Renderer, by: DVec3) -> Vec<Vec<u8>> {
     let at = |place: [f64; 3]| (DVec3::from(place) + by).to_array();
     let mut scene = shapes::scene(["sheet", "ball"].map(|name| shapes::object(name, 3000)).into());
@@ -45,7 +45,7 @@ fn a_scene_far_away_is_painted_as_one_at_the_origin() {
         for (near, far) in near.iter().zip(painted(&mut renderer, by)) {
             let differs = |(near, far): (&u8, &u8)| near.abs_diff(*far) > 2;
             let count = near.iter().zip(&far).filter(|pair| differs(*pair)).count();
-            // The places of vertices are rounded otherwise, which moves an edge of a stroke by a thousandth of a pixel.
+            // Vertices are rounded differently, which moves an edge of a stroke by a thousandth of a pixel.
             assert!(count * 2000 < near.len(), "{by}: {count} of {} differ", near.len());
         }
     }

@@ -102,7 +102,7 @@ fn a_pack_holds_what_the_shot_needs_and_nothing_else_and_paints_the_same() {
     good(here, &["render", "pack/scene.ron", "-f", "3", "-o", "b.png"]);
     let bytes = |name: &str| std::fs::read(here.join(name)).unwrap();
     assert!(bytes("a.png") == bytes("b.png"));
-    // A .tar file holds the same, with nothing of this machine, and is the same from anywhere.
+    // A .tar file holds the same files and no path of this machine. It does not depend on the working directory.
     good(here, &["pack", "shot/scene.ron", "--asset-dir", "library", "-o", "one.tar"]);
     good(&here.join("shot"), &["pack", "scene.ron", "--asset-dir", "../library", "-o", "../two.tar"]);
     assert!(bytes("one.tar") == bytes("two.tar"));
@@ -129,7 +129,7 @@ fn what_is_no_whole_pack_is_told_and_nothing_is_left() {
     std::fs::write(here.join("pack/far/mats/o.mtl"), "newmtl b\n").unwrap();
     let said = refused(here, &["pack", "--check", "pack"]);
     assert!(said.contains("far/mats/o.mtl (its content has changed)"), "{said}");
-    // All that is wrong is told, not the first alone.
+    // All faults are reported, not only the first.
     std::fs::remove_file(here.join("pack/scene.ron")).unwrap();
     let said = refused(here, &["pack", "--check", "pack"]);
     assert!(said.contains("o.mtl (its content") && said.contains("scene.ron (it is not there)"), "{said}");
@@ -146,7 +146,7 @@ fn what_is_no_whole_pack_is_told_and_nothing_is_left() {
             .contains("let the name end in .tar")
     );
     assert!(!here.join("pack.zip").exists());
-    // Two files at one place: a name of the scene, and one beside a file of a further folder.
+    // Two files that would get one place in the pack: one beside the scene, and one from the asset folder.
     std::fs::write(here.join("library/top.obj"), SHEET).unwrap();
     std::fs::write(here.join("library/sheet.mtl"), "newmtl a\nKd 1 0 0\n").unwrap();
     std::fs::write(here.join("shot/here.obj"), SHEET).unwrap();
@@ -158,7 +158,7 @@ fn what_is_no_whole_pack_is_told_and_nothing_is_left() {
         let words = refused(here, &["pack", "shot/two.ron", "--asset-dir", "library", "-o", output]);
         assert!(words.contains("would lie at one place, sheet.mtl"), "{words}");
     }
-    // A scene with errors, and an output that is read.
+    // A scene with errors, and an output that is also an input.
     std::fs::write(here.join("shot/bad.ron"), SCENE.replace("300", "-3")).unwrap();
     assert!(refused(here, &["pack", "shot/bad.ron", "-o", "bad"]).contains("bad.ron:"));
     std::fs::remove_file(here.join("shot/bad.ron")).unwrap();
@@ -212,13 +212,13 @@ fn the_tasks_of_a_slurm_script_paint_all_frames_once() {
     good(here, &["render", "it's a pack/scene.ron", "-o", "whole/f.png", "--size", "24x16"]);
     assert_eq!(files(&here.join("out")).len(), 6);
     assert!(files(&here.join("out")) == files(&here.join("whole")));
-    // Again: what is there stays; what was lost is painted.
+    // A second run keeps the frames that are there and paints the missing one.
     let stamp = || std::fs::metadata(here.join("out/f_0001.png")).unwrap().modified().unwrap();
     let before = stamp();
     std::fs::remove_file(here.join("out/f_0002.png")).unwrap();
     assert!(task(here, "job.sh", 0).status.success());
     assert!(stamp() == before && files(&here.join("out")) == files(&here.join("whole")));
-    // A picture of someone else is left as it is, and told of.
+    // A picture that Impasto did not make is left as it is, with a warning.
     let mut foreign = png::Encoder::new(std::fs::File::create(here.join("out/f_0001.png")).unwrap(), 1, 1);
     foreign.set_color(png::ColorType::Grayscale);
     foreign.write_header().unwrap().write_image_data(&[0]).unwrap();
@@ -255,7 +255,7 @@ fn frames_of_another_state_are_not_taken_for_this_ones() {
     for more in [&["--size", "64x32"][..], &["--alpha"], &["--set", "strokes.scale=2"], &["--bits", "16"]] {
         assert!(!is_taken(more), "{more:?}");
     }
-    // A comment in the scene is no other state; what it says, a mesh and a texture are.
+    // A comment in the scene makes no other state. A changed field, mesh or texture does.
     std::fs::write(here.join("shot/scene.ron"), format!("// mine\n{SCENE}")).unwrap();
     assert!(is_taken(&[]));
     std::fs::write(here.join("shot/scene.ron"), SCENE.replace("roll_deg: 30", "roll_deg: 31")).unwrap();
@@ -329,7 +329,7 @@ fn a_template_is_one_that_runners_take_and_odd_ones_are_refused() {
         said.lines().step_by(2).collect::<Vec<_>>(),
         ["openjd_progress: 50.0", "openjd_progress: 100.0"]
     );
-    // The runner itself, where it is there.
+    // The runner itself checks the template, if it is installed.
     match Command::new("openjd").current_dir(here).args(["check", "job/template.yaml"]).output() {
         Ok(done) => assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stdout)),
         Err(_) => eprintln!("skipped: there is no openjd here (pip install openjd-cli)"),

@@ -1,4 +1,4 @@
-//! Tests that a picture is the same however little a renderer keeps of it. Huge pictures are drawn so.
+//! Tests that a picture is the same however little of it a renderer keeps, as it does for huge pictures.
 
 use impasto_gl_render::context::Driver;
 use impasto_gl_render::{Keeps, Renderer};
@@ -9,7 +9,7 @@ use impasto_tests::scenes::painting_with;
 
 const SIZES_PX: [[u32; 2]; 2] = [[160, 91], [121, 70]];
 
-/// All that is asked of a picture, whatever was kept of it.
+/// All data that can be read back of a picture, whatever was kept.
 #[derive(PartialEq)]
 struct Told {
     rgba8: Vec<u8>,

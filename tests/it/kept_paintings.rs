@@ -1,5 +1,5 @@
-//! Tests of what is kept on disk: a painting that was kept equals, bit for bit, one that is prepared from nothing, and nothing but
-//! whole bytes of the same scene is ever taken.
+//! Tests of paintings kept on disk: a kept painting equals, bit for bit, one prepared from nothing, and only undamaged
+//! bytes of the same scene are ever taken.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -25,7 +25,7 @@ const OPTIONS: FrameOptions = FrameOptions::new([320, 240]);
 struct Shelf(Mutex<HashMap<KeptKey, Vec<u8>>>);
 
 impl Shelf {
-    /// Prepares a scene with what is kept here, and keeps what was made.
+    /// Prepares a scene, taking a kept painting from here if there is one, and keeps what was made.
     fn prepare(&self, preparer: &mut Preparer, loaded: &Arc<LoadedScene>) -> Painting {
         let find = |key: &KeptKey| boxed(self.0.lock().unwrap().get(key).cloned());
         let painting = prepare_with(preparer, loaded, &find);
@@ -85,7 +85,7 @@ fn what_is_kept_equals_what_is_prepared_and_every_edit_has_a_key_of_its_own() {
             Kept::NotThere(key) | Kept::Taken(key, _) => *key,
             other => panic!("{name}: {other:?}"),
         };
-        // What was kept of any state before is not taken for this one.
+        // Nothing kept of an earlier state is taken for this one.
         assert_eq!(is_taken(&made), *name == "nothing", "{name}");
         assert_eq!(before.is_some_and(|(other, _)| other == key), *name == "nothing", "{name}");
         before = Some((key, name));
@@ -93,7 +93,7 @@ fn what_is_kept_equals_what_is_prepared_and_every_edit_has_a_key_of_its_own() {
         let taken = shelf.prepare(&mut Preparer::default(), loaded);
         assert!(is_taken(&taken), "{name}: {:?}", taken.kept());
         assert_same(name, &taken, cold, &[0.0, 7.5]);
-        // What is taken is kept as it was.
+        // A painting that was taken is written again as the same bytes.
         assert_eq!(bytes(&taken, &key), shelf.0.lock().unwrap()[&key], "{name}");
     }
 }
@@ -110,7 +110,7 @@ fn edits_after_a_start_from_what_was_kept_give_the_same_bits() {
         let edited = preparer.prepare(Arc::clone(&next.loaded)).unwrap();
         assert_same(next.name, &edited, &next.cold, &[7.5]);
     }
-    // A preparer that knows another state may take what was kept as well, and go on.
+    // A preparer that knows another state can take a kept painting too, and prepare further edits from it.
     let [first, second, third] = [0, 8, 9].map(|index| &versions()[index]);
     let mut preparer = Preparer::default();
     preparer.prepare(Arc::clone(&first.loaded)).unwrap();
@@ -190,7 +190,7 @@ fn a_mesh_a_texture_and_a_brush_that_change_change_the_key() {
     assert_eq!(own, key(&Arc::new(elsewhere)), "where the file lies does not matter");
 }
 
-/// A scene that is prepared at once, with every kind of array.
+/// A scene that is prepared quickly, but with every kind of array.
 fn small(solver: Solver) -> Arc<LoadedScene> {
     let mut scene = shapes::scene(vec![shapes::object("ball", 120)]);
     scene.style = Style::default();
@@ -222,14 +222,14 @@ fn bytes_that_are_cut_changed_or_foreign_are_made_anew() {
     let mut longer = whole.clone();
     longer.push(0);
     assert!(unfit("longer", longer).0.contains("damaged"));
-    // Everywhere, and at every byte of the header.
+    // Flipped bits: spread over all bytes, and one in every byte of the header.
     let spread = (0..200).map(|number| (number * 7919 * 64 + number * 31) % (whole.len() * 8));
     for bit in spread.chain((0..88).map(|byte| byte * 8 + byte % 8)) {
         let mut flipped = whole.clone();
         flipped[bit / 8] ^= 1 << (bit % 8);
         unfit(&format!("bit {bit}"), flipped);
     }
-    // A version and a key that are wrong, but whose checksum is right, and a header that claims more than there is.
+    // Headers with a right checksum but a wrong version, a wrong key, or a claim of more bytes than there are.
     let with = |at: usize, value: &[u8]| {
         let mut bytes = whole.clone();
         bytes[at..at + value.len()].copy_from_slice(value);
@@ -276,7 +276,7 @@ fn strokes(folder: &Path, more: &[&str]) -> Output {
     strokes_with(folder, more, "")
 }
 
-/// `variable` is the folder that the environment names.
+/// Like [`strokes`], with `variable` as the folder that the environment names.
 fn strokes_with(folder: &Path, more: &[&str], variable: &str) -> Output {
     let mut command = Command::new(impasto());
     command.env("IMPASTO_CACHE", variable);
@@ -313,7 +313,7 @@ fn eight_processes_share_one_folder() {
     assert!(kept.len() == 1 && kept[0].ends_with(".prepared"), "{kept:?}");
     together();
     assert_eq!(names(&folder.path().join("kept")), kept);
-    // One that is damaged is replaced, with one line.
+    // A damaged file is replaced, with one line of warning.
     let file = folder.path().join("kept").join(&kept[0]);
     let whole = std::fs::read(&file).unwrap();
     std::fs::write(&file, &whole[..whole.len() / 2]).unwrap();

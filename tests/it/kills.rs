@@ -1,4 +1,5 @@
-//! Kills at any moment: what is written is as it was, or new, and never half. `IMPASTO_KILLS` says how many kills of each kind.
+//! Tests of kills at any moment: a file is then as before or new, never half written. `IMPASTO_KILLS` sets the number
+//! of kills of each kind.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -18,7 +19,7 @@ const SCENE: &str = r#"#![enable(implicit_some)]
 )
 "#;
 
-/// A folder with a scene of a built-in mesh.
+/// A folder with a scene of a sphere.
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("scene.ron"), SCENE).unwrap();
@@ -63,7 +64,7 @@ fn command(folder: &Path, arguments: &[&str]) -> Command {
     command
 }
 
-/// Runs to the end, and says how long it took.
+/// Runs the command to its end. Returns how long it took.
 fn run(folder: &Path, arguments: &[&str]) -> Duration {
     let start = Instant::now();
     assert!(command(folder, arguments).status().unwrap().success(), "{arguments:?}");
@@ -75,7 +76,8 @@ fn kills() -> u32 {
     std::env::var("IMPASTO_KILLS").ok().and_then(|text| text.parse().ok()).unwrap_or(8)
 }
 
-/// Runs and kills, so and so often, at moments spread over the time that a run takes. Returns how many were still running.
+/// Starts and kills the command [`kills`] times, at moments spread over `takes`, the time of a whole run. Calls `check`
+/// after each kill. Returns how many runs had not ended by themselves.
 fn killed(folder: &Path, arguments: &[&str], takes: Duration, mut check: impl FnMut()) -> u32 {
     let mut hit = 0;
     for index in 0..kills() {
@@ -178,7 +180,7 @@ fn what_is_kept_is_there_whole_or_not_at_all() {
             std::fs::remove_file(kept.join(name)).unwrap();
         }
     });
-    // What was left over stands in nobody's way.
+    // The leftovers of killed runs are in nobody's way.
     run(folder.path(), &strokes("kept"));
     assert!(files(&kept) == whole);
 }

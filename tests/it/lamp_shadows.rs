@@ -1,4 +1,5 @@
-//! Tests of the shadow of a lamp, which the brightest one casts where there is no sun: where a ball's shadow ends on a floor is known.
+//! Tests of the shadow that the brightest lamp casts where there is no sun. Where a ball's shadow ends on a floor is
+//! known from geometry.
 
 use impasto_aovs::{Drawn, read};
 use impasto_frame_files::exr_file::Samples;
@@ -14,7 +15,8 @@ const SIDE_PX: u32 = 400;
 /// The height of the picture in world units.
 const HEIGHT: f64 = 4.0;
 
-/// A floor at z = 0 under a ball of radius 0.3 at z = 0.6, seen from above; how much of the light arrives at places of the floor.
+/// The share of the light that arrives at places (x, y) of a floor at z = 0. A ball of radius 0.3 hangs over it at
+/// z = 0.6.
 fn shadow_at(renderer: &mut Renderer, lights: Vec<Light>, places: &[[f64; 2]]) -> Vec<f32> {
     let mut scene = shapes::scene(["floor", "ball"].map(|name| shapes::object(name, 100)).into());
     scene.camera.lens = Lens::Orthographic { height: HEIGHT, near: 0.1, far: 20.0 };
@@ -43,7 +45,8 @@ fn lamp(kind: LightKind, position: [f64; 3]) -> Light {
 #[test]
 fn a_ball_casts_the_shadow_that_geometry_says() {
     let mut renderer = renderer(Driver::Auto);
-    // Seen from (1.2, 0, 1.8), the middle of the ball is before (−0.6, 0), and its limb 2.546 tan(10.18°) = 0.457 beside that.
+    // From the lamp at (1.2, 0, 1.8) the ball's middle lies before the place (−0.6, 0). The shadow ends to the side of
+    // that by 2.546 tan(10.18°) = 0.457.
     let near = [1.2, 0.0, 1.8];
     let spot = Light {
         direction: Some([-0.4, 0.0, -1.0]),
@@ -58,7 +61,7 @@ fn a_ball_casts_the_shadow_that_geometry_says() {
         let lit = found[3..].iter().all(|&arrives| arrives > 0.95);
         assert!(dark && lit, "{:?}: {found:?}", light.kind);
     }
-    // From far away it is nearly that of a sun: a radius of 0.3 across, and its middle at (−0.6, 0).
+    // From far away the shadow is nearly that of a sun: it reaches 0.3 to either side of its middle at (−0.6, 0).
     let places = [[-0.6, 0.0], [-0.6, 0.26], [-0.6, 0.36], [-0.6, -0.36], [0.0, 1.0]];
     let far = shadow_at(&mut renderer, vec![lamp(LightKind::Point, [30.0, 0.0, 30.6])], &places);
     assert!(

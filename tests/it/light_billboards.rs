@@ -47,7 +47,8 @@ fn shown_at(frame: &Frame, position: Vec3) -> [f32; 2] {
     [(at.x * 0.5 + 0.5) * SIZE_PX[0] as f32, (0.5 - at.y * 0.5) * SIZE_PX[1] as f32]
 }
 
-/// The middle of the pixels that differ, half the size of the box round them, and the sum of their differences.
+/// The middle of the box round the pixels that differ, half the size of that box, and the sum of the differences.
+/// `None` if no pixel differs.
 fn difference(a: &Picture, b: &Picture) -> Option<([f32; 2], [f32; 2], f64)> {
     let (mut low, mut high, mut sum) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2], 0.0);
     for (index, (a, b)) in a.rgba8.chunks(4).zip(b.rgba8.chunks(4)).enumerate() {
@@ -199,7 +200,7 @@ fn icons_come_and_go_without_the_picture_being_drawn_again() {
     egl.set_billboards(&[]);
     assert!(egl.with_other_billboards().unwrap().unwrap() == bare, "they leave nothing behind");
     assert!(egl.render(&frame).unwrap() == bare);
-    // After a picture that was given up there is none to draw icons over.
+    // After a picture was given up, there is no picture to draw icons over.
     assert_eq!(egl.render_unless(&frame, &mut || true).unwrap(), None);
     assert_eq!(egl.with_other_billboards().unwrap(), None);
 }

@@ -37,7 +37,8 @@ impl Folder {
         words
     }
 
-    /// Runs `impasto movie` with these arguments, which must be refused in one line that has these words, and leave nothing.
+    /// Runs `impasto movie` with these arguments. It must exit with `code`, print one line that contains all `parts`,
+    /// and leave no file.
     fn refused(&self, arguments: &[&str], code: i32, parts: &[&str]) {
         let before = self.names();
         let output = self.command(&[&["movie"], arguments].concat()).output().unwrap();
@@ -99,7 +100,7 @@ fn decoded(path: &Path, decoder: &[&str]) -> Vec<u8> {
     output.stdout
 }
 
-/// A value that ffprobe tells of the movie's pictures.
+/// A field of the movie's video stream, as ffprobe prints it.
 fn told(path: &Path, entry: &str) -> String {
     let mut command = Command::new("ffprobe");
     command.args(["-v", "error", "-select_streams", "v:0", "-of", "csv=p=0"]);
@@ -249,7 +250,7 @@ fn an_interrupt_between_frames_leaves_no_movie() {
     use std::os::unix::fs::PermissionsExt as _;
     let folder = Folder::new();
     folder.three_frames();
-    // A stand-in for ffmpeg that has its encoder, takes its time and says when it began.
+    // A stand-in for ffmpeg: it lists the encoder, writes the file `began` when it starts, and reads slowly.
     let programs = folder.path("programs");
     std::fs::create_dir(&programs).unwrap();
     let script = "#!/bin/sh\ncase \"$*\" in *-encoders*) echo ' V libx264 H.264'; exit;; esac\n\
@@ -314,7 +315,7 @@ fn a_scene_is_painted_into_a_transparent_movie() {
     // Without --alpha nothing is transparent.
     folder.run(&["render", "scene.ron", "-f", "0", "-o", "b.mov"]);
     assert_eq!(told(&folder.path("b.mov"), "pix_fmt"), "yuv444p12le");
-    // VP9 blurs edges a little: what is far from one is compared.
+    // VP9 blurs edges a little, so only pixels away from edges are compared.
     folder.run(&["render", "scene.ron", "--alpha", "-f", "0", "-o", "a.webm"]);
     let shown = alphas(&decoded(&folder.path("a.webm"), &["-c:v", "libvpx-vp9"]));
     let width = SIZE_PX[0] as usize;

@@ -1,5 +1,5 @@
-//! Tests of noise-displaced materials. What the technique's source (a paper) claims is compared with the paper's own
-//! shader, rewritten line by line in `seed`; other tests cover what goes beyond the paper.
+//! Tests of noise-displaced materials. Vertices and layers are compared with the shader of the source paper, rewritten
+//! line by line in `seed`. Other tests cover what goes beyond the paper.
 
 mod material;
 mod normals;

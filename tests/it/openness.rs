@@ -1,5 +1,5 @@
-//! Tests how far the plain render's openness pass looks. Its radius is 5.5 % of the picture's height. A
-//! straight wall is seen by its taps from up to 0.83 radii away.
+//! Tests how far the plain render's openness pass looks. Its radius is 5.5 % of the picture's height. The pass's taps
+//! see a straight wall from up to 0.83 radii away.
 
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::Driver;

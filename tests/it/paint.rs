@@ -221,7 +221,7 @@ fn extreme_settings_still_give_a_picture() {
     }
 }
 
-/// The standard deviation of luma after its mean over a few pixels is taken away, where the picture shows the body's inside.
+/// The standard deviation of green from its mean over 9 × 9 pixels, over the pixels where `inside` holds.
 fn roughness(rgba8: &[u8], width: usize, inside: impl Fn(usize, usize) -> bool) -> f64 {
     let luma = |x: usize, y: usize| f64::from(rgba8[(y * width + x) * 4 + 1]);
     let (mut sum, mut count) = (0.0, 0.0);
@@ -300,13 +300,14 @@ fn paint_ends_at_a_crease() {
     let mean = |rows: Range<usize>| rows.clone().map(row).sum::<f64>() / rows.len() as f64;
     let (lit, dark) = (mean(104..116), mean(218..230));
     let share = |rows: Range<usize>| (mean(rows) - dark) / (lit - dark);
-    // Both are within half a stroke, 40 rows, of the crease at row 166. Strokes that ran on gave 0.87 and 0.28.
+    // Strokes from the other side of the crease, at row 166, would reach both ranges of rows. When they ran on, the
+    // shares were 0.87 and 0.28.
     assert!(share(122..150) > 0.95, "dark strokes run on over the top: {}", share(122..150));
     assert!(share(178..200) < 0.18, "light strokes run on over the front: {}", share(178..200));
 }
 
-/// The paint is a surface: its normal leans against the slope of its height. Paint of height 1 is 1.6 px thick, and stands 2.2 times as
-/// steep in the light of the room, so that a stroke's furrows are seen.
+/// The normal of the paint is that of its height field. Paint of height 1 is 1.6 px thick, and its slopes are
+/// exaggerated 2.2 times, so that light shows a stroke's furrows.
 #[test]
 fn the_normal_of_the_paint_is_that_of_its_height() {
     const STEEPNESS: f64 = 2.2 * 1.6;
@@ -332,7 +333,7 @@ fn the_normal_of_the_paint_is_that_of_its_height() {
             size_px: size_px.map(|side| side as usize),
             values: surface.normal_and_height.iter().map(|pixel| f64::from(pixel[3].to_f32())).collect(),
         };
-        // How steep the normals say the paint is, beside heights at the corners of a square of 1.2 px; rows go down.
+        // Compares the slopes that the normals have with those between the corners of a square of 1.2 px. Rows go down.
         let (mut both, mut alone, mut off) = (0.0, 0.0, 0.0);
         for (x, y) in
             (2..size_px[1] as usize - 2).flat_map(|y| (2..size_px[0] as usize - 2).map(move |x| (x, y)))

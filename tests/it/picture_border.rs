@@ -6,8 +6,8 @@ use impasto_painting::FrameOptions;
 use impasto_scene::motion;
 use impasto_tests::scenes;
 
-/// A wider picture of the same view shows the strokes whose centres lie beside a narrower one. Those that reach into the
-/// narrower one are there too, however long chance made them.
+/// A stroke whose centre lies beside the picture is drawn if it reaches into it, however long chance made it. A wider
+/// picture of the same view shows which strokes these are.
 #[test]
 fn long_strokes_that_reach_into_the_picture_are_there() {
     let painting =

@@ -1,5 +1,5 @@
-//! Tests of point caches: vertices stand where the file says, however the object is placed, held or shared; what does not fit is refused,
-//! and what is lost later is told.
+//! Tests of point caches: vertices stand where the file says, however the object is placed, held or shared. A cache
+//! that does not fit is refused, and one that is lost later is reported.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -24,7 +24,7 @@ const PLATE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 0\ng square\nf 1 
 const REST: [[f32; 3]; 5] =
     [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]];
 
-/// Writes a scene of these objects beside the plate and a cache for it.
+/// Writes the plate, a cache for it, and a scene of these objects. Returns the scene's path.
 fn scene(folder: &Path, cache: &[u8], objects: &str) -> PathBuf {
     std::fs::write(folder.join("plate.obj"), PLATE).expect("written");
     std::fs::write(folder.join("plate.pc2"), cache).expect("written");
@@ -64,7 +64,7 @@ fn raised(heights: [[f32; 5]; 3]) -> Vec<u8> {
     pc2(&heights.map(raise), 5)
 }
 
-/// Points 0 and 4 part, and the others stay.
+/// Points 0 and 4 move apart, and the others stay.
 const PARTING: [[f32; 5]; 3] = [[0.0; 5], [1.0, 0.0, 0.0, 0.0, -1.0], [2.0, 0.0, 0.0, 0.0, -2.0]];
 
 /// Where each point of the file is at a frame, by the vertices of an object.
@@ -95,7 +95,7 @@ fn a_cache_moves_the_points_of_its_file() {
     assert_eq!(painting.faults(), Vec::<String>::new());
 }
 
-/// F at a point of the file.
+/// The deformation gradient at a point of the file.
 fn gradient(painting: &Painting, point: u32, frame: f64) -> DMat3 {
     let mesh = &painting.surface(0).mesh;
     let of_vertex = &painting.loaded().meshes["plate.obj"].points.as_ref().expect("points").of_vertex;
@@ -108,14 +108,14 @@ fn gradient(painting: &Painting, point: u32, frame: f64) -> DMat3 {
     painting.carried(0, &place, frame).expect("it is bent").gradient
 }
 
-/// Two sheets that lie on each other at rest are carried each by its own edges.
+/// Where two sheets lie on each other at rest, each is carried by its own edges.
 #[test]
 fn points_that_part_have_their_own_gradient() {
     let folder = tempfile::tempdir().expect("a folder");
     let painting = prepared(&scene(folder.path(), &raised(PARTING), &moved("plate", "")));
     let mesh = &painting.surface(0).mesh;
     assert!(mesh.normals.iter().all(|normal| *normal == Vec3::Z), "the faces look the same way");
-    // At point 4 there is one triangle, to points 1 and 2, which stay while it goes down.
+    // Point 4 has one triangle, with points 1 and 2. They stay while point 4 goes down.
     let below = gradient(&painting, 4, 2.0);
     assert!(below.x_axis.abs_diff_eq(DVec3::new(1.0, 0.0, 1.0), 1e-5), "{below}");
     assert!(below.y_axis.abs_diff_eq(DVec3::Y, 1e-5), "{below}");
@@ -182,7 +182,7 @@ fn a_cache_is_placed_as_its_mesh_is() {
             assert!(at.abs_diff_eq(expected, 1e-6), "point {point} at frame {frame}: {at} {expected}");
         }
     }
-    // Above the plate is up, threefold.
+    // Up from the plate is Y in the scene, scaled by 3.
     assert_eq!(points(&painting, 0, 2.0)[0], Vec3::new(0.0, 3.0, 0.0));
 }
 
@@ -330,7 +330,7 @@ fn who_draws_frames_tells_of_a_lost_cache() {
     );
 }
 
-/// Of a cache this long only some samples are read before it is used, and not the second.
+/// When a cache this long is loaded, only some of its samples are checked. The second is not one of them.
 #[test]
 fn commands_tell_of_a_sample_that_is_no_shape() {
     const SAMPLES: i32 = 4_500_000;

@@ -1,5 +1,5 @@
-//! Tests of drafts with a recall: they draw the strokes that were present in the picture before, and some of the
-//! others.
+//! Tests of drafts with a recall: they draw the strokes that were present in the previous picture, and only some of
+//! the others.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;

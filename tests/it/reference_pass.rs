@@ -1,4 +1,5 @@
-//! Tests of the pass that finds and lights surfaces, on which every style stands: sheets from behind, holes, and parallel rays.
+//! Tests of the reference pass, which finds and lights surfaces for every style: sheets seen from behind, holes, and
+//! parallel rays.
 
 use std::sync::Arc;
 
@@ -34,7 +35,7 @@ fn drawn(renderer: &mut Renderer, loaded: Arc<LoadedScene>) -> Picture {
     renderer.render(&prepare(loaded).unwrap().at(0.0, &FrameOptions::new(SIZE_PX))).unwrap()
 }
 
-/// Turned about, with the light and the eye, a sheet is lit from behind as it was from the front, at any slant of the light.
+/// A sheet seen and lit from behind is as bright as one seen and lit from the front, at any slant of the light.
 #[test]
 fn the_back_of_a_sheet_is_lit_as_its_front() {
     let mut renderer = renderer(Driver::Egl);
@@ -49,7 +50,7 @@ fn the_back_of_a_sheet_is_lit_as_its_front() {
         let back = middle(-1.0, [-across, 0.0, 1.0]);
         assert!(front > 80.0, "the front is lit: {front}");
         assert!((front - back).abs() < 1.0, "the front is {front}, the back {back}");
-        // What shines on the other side lights neither.
+        // Light on the far side does not shine through.
         for (side, sunshine) in [(1.0, [across, 0.0, 1.0]), (-1.0, [across, 0.0, -1.0])] {
             let from_beyond = middle(side, sunshine);
             assert!(from_beyond < 1.0, "light shines through: {from_beyond}");
@@ -57,7 +58,8 @@ fn the_back_of_a_sheet_is_lit_as_its_front() {
     }
 }
 
-/// A sheet whose texture's alpha rises from 0 at the left to 1 at the right is there where alpha is no less than the material's cutoff.
+/// The alpha of the sheet's texture rises from 0 at the left to 1 at the right. The sheet is there where alpha is at
+/// least the material's cutoff.
 #[test]
 fn a_hole_ends_where_alpha_is_the_cutoff() {
     const TEXELS: u32 = 256;
@@ -75,7 +77,7 @@ fn a_hole_ends_where_alpha_is_the_cutoff() {
         }
         drawn(&mut renderer, loaded.into());
         let ids = renderer.read_reference().body_id;
-        // A texel's own alpha is in its middle, and between two middles alpha goes over evenly.
+        // A texel has its own alpha at its centre. Between two centres alpha is interpolated linearly.
         let share = (cutoff * f64::from(TEXELS - 1) + 0.5) / f64::from(TEXELS);
         let px_per_unit = f64::from(SIZE_PX[1]) / HEIGHT;
         let first = 160.0 + px_per_unit * (2.0 * share - 1.0);
@@ -97,7 +99,7 @@ fn highlight(renderer: &mut Renderer, lens: &Lens, distance: f64) -> Vec<f64> {
     let [glazed, matt] = [1.0, 0.0].map(|gloss| {
         let mut ball = shapes::object("ball", 100);
         ball.keys = vec![ObjectKey { scale: Scale::even(1.1), ..ObjectKey::at(0.0) }];
-        // Dark, so that the shoulder leaves the highlight as it is.
+        // Dark, so that the soft shoulder for bright light does not compress the highlight.
         ball.material = Some(MaterialOverride {
             color: Some(Color([0.15; 3])),
             gloss: Some(gloss),
@@ -111,7 +113,7 @@ fn highlight(renderer: &mut Renderer, lens: &Lens, distance: f64) -> Vec<f64> {
     glazed.iter().zip(&matt).map(|(glazed, matt)| glazed - matt).collect()
 }
 
-/// Parallel rays are those of an eye that is far away: a highlight, which depends on where the eye is, is the same.
+/// A highlight depends on where the eye is. In parallel rays it is the same as for an eye far away.
 #[test]
 fn a_highlight_in_parallel_rays_is_that_for_a_far_eye() {
     const FAR: f64 = 400.0;

@@ -1,4 +1,5 @@
-//! Tests of strokes as drawn: orientation, size, order, colour, coverage and occlusion, from pixels and from strokes read back.
+//! Tests of strokes as drawn: orientation, size, order, colour, coverage and occlusion, from pixels and from strokes
+//! read back.
 
 use std::sync::Arc;
 
@@ -19,8 +20,8 @@ fn unlit(color: [f32; 3]) -> Option<MaterialOverride> {
     Some(MaterialOverride { color: Some(Color(color)), unlit: true, ..Default::default() })
 }
 
-/// A frame with these strokes and nothing else, on a black background. The strokes lie on two bodies far behind them,
-/// body 1 left of the middle and body 2 right of it, flat and unlit in these `colors`.
+/// A frame with these strokes and nothing else, on a black background. The strokes belong to two flat, unlit bodies of
+/// these `colors` far behind them: body 1 left of the middle, body 2 right of it.
 fn lone_strokes(size_px: [u32; 2], strokes: Vec<Stroke>, colors: [[f32; 3]; 2]) -> Frame {
     let halves = [("left", -50.0, colors[0]), ("right", 50.0, colors[1])].map(|(name, x, color)| {
         let mut half = shapes::object(name, 1);
@@ -456,7 +457,7 @@ fn egl_and_osmesa_draw_the_same_bytes() {
     let (a, b) = (egl.render(&frame).unwrap(), osmesa.render(&frame).unwrap());
     assert!(a.rgba8.chunks(4).any(|pixel| pixel[0] > 200 && pixel[2] < 60), "there is paint to compare");
     assert!(a == b, "EGL and OSMesa differ");
-    // The same frame after another of a different size.
+    // The same frame again, after a frame of another size.
     egl.render(&painting.at(0.0, &options([64, 400]))).unwrap();
     assert!(egl.render(&frame).unwrap() == a, "what was drawn before must not matter");
     let mut other = frame.clone();

@@ -1,4 +1,5 @@
-//! Tests of how a shot looks: alpha, repeats, what hides, lights as bright as where they were made, the sky, the camera, the rate.
+//! Tests of how a shot looks: alpha, texture wrapping, visibility, brightness as in the program that made it, sky,
+//! camera and frame rate.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -68,11 +69,13 @@ fn a_shot_is_as_bright_as_where_it_was_made_within_limits() {
         light(&loaded(&home.shot()))
     };
     let watts = |watts: f64| lit(watts * 683.0);
-    // A usual sun stays: a white wall is as bright as there. Twice the sun is twice the light.
+    // A usual sun keeps its brightness: a white wall is as bright as in the program that made the shot. Light grows in
+    // proportion to the sun.
     let [usual, around, day] = watts(3.0);
     assert!((usual - 3.0 * 0.455).abs() < 1e-3 && (around / usual - 0.11).abs() < 1e-3, "{usual} {around}");
     assert!((watts(2.0)[0] * 1.5 / usual - 1.0).abs() < 1e-3);
-    // A burning one is dimmed; a moon is lifted, and stays a moon; numbers that are no lux are a usual sun.
+    // A very bright sun is dimmed to the upper limit, and a moon is lifted but stays dim. An intensity too small for
+    // lux is lifted to the upper limit.
     let [burning, ..] = watts(1000.0);
     let [moon, _, night] = watts(0.05);
     assert!((burning - 1.7).abs() < 1e-3 && (lit(1.0)[0] - 1.7).abs() < 1e-3, "{burning}");
@@ -97,7 +100,7 @@ fn the_world_lights_and_shows_as_its_sidecar_tells() {
     let sun = 3.0 * 0.455;
     for (channel, tint) in [0xcfu8, 0xdc, 0xf2].into_iter().enumerate() {
         let linear = |encoded: f32| f64::from(linear_from_srgb(encoded));
-        // What surfaces give each other, and a half of the sphere of the world's light.
+        // The light that surfaces give each other, and half a sphere of the world's light.
         let wanted =
             0.11 * sun * linear(f32::from(tint) / 255.0) + world[channel] * std::f64::consts::PI * 0.455;
         let found = ambient.intensity * linear(ambient.color.0[channel]);
@@ -106,7 +109,7 @@ fn the_world_lights_and_shows_as_its_sidecar_tells() {
         assert!((shown - world[channel]).abs() < 0.005, "{channel}: {shown}");
     }
     assert!((light(&lit)[0] - sun).abs() < 1e-3, "the sun is what it was");
-    // A black world leaves what surfaces give each other; a burning one dims all.
+    // With a black world, only the light that surfaces give each other is left. A very bright world dims the sun.
     let [_, dark, sky] = light(&with_world([0.0; 3]));
     assert!((dark / sun - 0.11 * linear_peak()).abs() < 1e-3 && sky == 0.0, "{dark} {sky}");
     let [dimmed, ..] = light(&with_world([100.0; 3]));
@@ -206,8 +209,9 @@ fn instances_share_one_surface() {
     assert!(Arc::ptr_eq(ball, far) && !Arc::ptr_eq(ball, cube));
 }
 
-/// A shot of one quad before the eye that fills its picture; its texture, of 2 by 1 pixels, is green at the left and has no alpha at the
-/// right. The quad hides from one second to the next, in an animation "Blink"; another, "Slide", moves it.
+/// Writes a shot of one quad that fills the picture. Its texture of 2 by 1 pixels is green and opaque at the left and
+/// transparent at the right. The animation "Blink" hides the quad from second 1 to second 2. "Slide" moves it in that
+/// time.
 fn write_card(path: &Path, alpha_mode: &str, wrap_code: u32) {
     let mut bin = Vec::new();
     let corners = [[-1.0f32, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
@@ -265,7 +269,7 @@ fn write_card(path: &Path, alpha_mode: &str, wrap_code: u32) {
     std::fs::write(path, glb::bytes(&root, bin)).unwrap();
 }
 
-/// The share of painted pixels in each of four columns of a picture of this shot.
+/// The mean alpha, 0..1, of each of four columns of a picture of this shot.
 fn painted(path: &Path, settings: &[(&str, &str)], frame_at: f64) -> [f64; 4] {
     let overrides = settings.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
     let options = LoadOptions { overrides, ..LoadOptions::default() };
@@ -325,7 +329,7 @@ fn one_animation_of_several_plays_and_what_hides_is_hidden() {
         std::fs::write(&scene, text("Blink")).unwrap();
         [0.0, 24.0, 48.0].map(|frame| painted(&scene, &[], frame).iter().sum::<f64>())
     };
-    // Nine units aside, the card is out of the picture; the blink alone leaves it where it is.
+    // 9 units to the side, the card is outside the picture. "Blink" does not move it.
     assert!(slid < 0.05 && still > 3.8 && hidden < 0.05 && shown > 3.8, "{slid} {still} {hidden} {shown}");
     std::fs::write(&scene, text("Blnk")).unwrap();
     let told = loaded(&scene).warnings.iter().map(ToString::to_string).collect::<String>();

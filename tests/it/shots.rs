@@ -1,4 +1,5 @@
-//! Tests of shots: what a glTF file brings into a scene, what the scene overrides, and what stays when the file is exported again.
+//! Tests of shots: what a glTF file brings into a scene, what the scene overrides, and what stays when the file is
+//! exported again.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -78,7 +79,7 @@ fn a_shot_brings_objects_camera_light_and_frames_and_none_is_saved() {
     let pose = motion::poses_at(&shot.scene, 16.0)[0];
     let x = pose.transform_vector3(DVec3::X);
     assert!((x.z.atan2(x.x).to_degrees() + 30.0).abs() < 1e-4, "{x}");
-    // What is saved names the file, and nothing in it.
+    // The saved scene names the file, and nothing that is in it.
     let text = save::to_ron(&shot.scene);
     assert!(text.contains("shot: \"shot.glb\""), "{text}");
     assert!(["objects", "camera", "timeline", "lights"].iter().all(|field| !text.contains(field)), "{text}");
@@ -86,7 +87,7 @@ fn a_shot_brings_objects_camera_light_and_frames_and_none_is_saved() {
     assert_eq!(names(&again), names(&shot));
     assert_eq!(again.scene.lights, shot.scene.lights);
     assert_eq!(save::to_ron(&again.scene), text);
-    // Two nodes of one mesh share it.
+    // Two nodes with the same mesh share it.
     let mesh = |index: usize| &shot.meshes[&shot.scene.objects[index].mesh];
     assert!(Arc::ptr_eq(mesh(0), mesh(2)) && !Arc::ptr_eq(mesh(0), mesh(1)));
     // It is painted.
@@ -124,13 +125,13 @@ fn a_scene_overrides_a_shot_by_name_and_what_is_gone_stays_in_the_file() {
         "{said:?}"
     );
     assert!(said.iter().any(|line| line.contains("there is no object \"Bal\"")), "{said:?}");
-    // Frames are times at the scene's own rate, and keys of its own lie over the track.
+    // Frames count at the scene's own rate, and an object's keys in the scene replace the shot's track.
     assert_eq!((scene.scene.timeline.first, scene.scene.timeline.last), (3, 7));
     let poses = motion::poses_at(&scene.scene, 8.0);
     assert_eq!(poses[0].translation, DVec3::new(0.0, 2.0, 0.0));
     let x = poses[1].transform_vector3(DVec3::X);
     assert!((x.z.atan2(x.x).to_degrees() + 30.0).abs() < 1e-4, "frame 8 at 12 a second is 2/3 s");
-    // An object that was deleted would come back, so it is stated as hidden.
+    // A deleted object would come back from the shot, so it is saved as hidden.
     let mut edited = scene.scene.clone();
     edited.objects.retain(|object| object.name != "Far");
     let text = save::to_ron(&edited);
@@ -197,7 +198,7 @@ fn a_painting_survives_a_new_export() {
         "direction: Angle(20)",
         "direction: Around((0.2, 1, 0.1)), strokes: (angle_jitter_deg: 0, swing_deg: 0, contour: 0)",
     );
-    // For each place on the ball, its strokes' angle.
+    // The centre and the angle of each stroke on the ball.
     let angles = |scene: LoadedScene| -> Vec<([f32; 2], f32)> {
         let body = 1 + names(&scene).iter().position(|name| *name == "Ball").unwrap() as u32;
         let frame = prepare(Arc::new(scene)).unwrap().at(4.0, &FrameOptions::new([640, 360]));
@@ -222,7 +223,8 @@ fn a_painting_survives_a_new_export() {
     differences.sort_by(f64::total_cmp);
     assert!(differences.len() > 50, "{}", differences.len());
     let [median, p95] = [50, 95].map(|share| differences[differences.len() * share / 100]);
-    // Near the limb the coarse ball's facets turn strokes by a degree or two; a lost direction would be tens of degrees off.
+    // Near the silhouette the coarse ball's facets turn strokes by a degree or two. A lost direction would be off by
+    // tens of degrees.
     assert!(median < 0.5 && p95 < 3.0, "{median} {p95}");
 }
 
@@ -245,7 +247,8 @@ fn what_a_shot_moves_is_posed_once_it_has_own_keys() {
     for (frame, before) in before.iter().enumerate() {
         assert!(pose(&document, frame as f64).abs_diff_eq(*before, 1e-6), "{frame}");
     }
-    // An even turn about one axis needs two keys; where it comes to 90 degrees about Y, angles are rough, so there may be a third.
+    // A steady turn about one axis needs two keys. At 90 degrees about Y its angles are imprecise, so there may be a
+    // third.
     assert!(document.scene().objects[0].keys.len() <= 3);
     document.apply(&Command::Time(Time::OwnKeys(KeyOf::Camera))).unwrap();
     assert_eq!(document.scene().camera.keys.len(), 2);

@@ -1,5 +1,5 @@
-//! Tests of what the sidecar of a shot says (frame rate, range, collections, exposure), of shifted lenses, and of `impasto serve` and
-//! `impasto set`, by which Blender uses all of it.
+//! Tests of a shot's sidecar (frame rate, range, collections, exposure), of shifted lenses, and of `impasto serve` and
+//! `impasto set`, which the Blender extension runs.
 
 use std::io::{BufRead as _, BufReader, Write as _};
 use std::path::Path;
@@ -72,7 +72,7 @@ fn a_bad_sidecar_is_one_error_with_its_place() {
         (r#"{"version": 1, "world": [0.5, -1, 0]}"#, "shot.impasto.json:", "`world`"),
         (r#"{"version": 1, "caches": {"Ball": "../../etc/passwd"}}"#, "", "folder"),
         (r#"{"version": 1, "caches": {"Ball": "gone.pc2"}}"#, "", "gone.pc2"),
-        // A cache for a mesh that does not say which points it has.
+        // A cache that is no PC2 file.
         (r#"{"version": 1, "caches": {"Ball": "shot.glb"}}"#, "", "PC2"),
     ] {
         let folder = home(sidecar);
@@ -84,7 +84,7 @@ fn a_bad_sidecar_is_one_error_with_its_place() {
     }
 }
 
-/// The planes of depth, light and shadow of a scene through a camera.
+/// The depth, light and shadow planes of a scene at frame 12, seen through its camera after `change`.
 fn planes(
     renderer: &mut impasto_gl_render::Renderer,
     scene: &Path,
@@ -112,16 +112,16 @@ fn planes(
         .collect()
 }
 
-/// A lens that is shifted by whole pixels gives the same picture, moved: depth, light and shadow stay with what they are of.
+/// A lens shifted by whole pixels gives the same picture, moved: depth, light and shadow move with the surfaces.
 #[test]
 fn a_shifted_lens_moves_the_picture_and_nothing_else() {
-    // How open a place is, is looked at through a pattern that lies on the picture: it must fall on itself.
+    // Even, because openness is computed at every second pixel: the same places must be computed again.
     const BY_PX: [i32; 2] = [32, -16];
     let scene = root().join("scenes/lane.ron");
     let mut renderer = renderer(Driver::Auto);
     let still = planes(&mut renderer, &scene, |_| {});
     let moved = planes(&mut renderer, &scene, |camera| {
-        // Half of 180 pixels.
+        // A shift counts in half heights of the picture, which is 180 pixels high.
         camera.shift = DVec2::new(f64::from(BY_PX[0]), f64::from(BY_PX[1])) / 90.0;
     });
     assert!(still.len() >= 5, "{:?}", still.iter().map(|(name, _)| name).collect::<Vec<_>>());
@@ -137,7 +137,7 @@ fn a_shifted_lens_moves_the_picture_and_nothing_else() {
                 off += usize::from((own - other).abs() > 0.02 * own.abs().max(0.2));
             }
         }
-        // Edges of bodies, and of shadows, whose map is fitted to what is seen.
+        // Pixels at edges of bodies may differ, and at edges of shadows, since the shadow map is fitted to the view.
         assert!(off * 100 < count * 2, "{name}: {off} of {count} pixels differ");
     }
 }
@@ -146,7 +146,7 @@ fn run(arguments: &[&str]) -> std::process::Output {
     Command::new(impasto()).args(arguments).output().unwrap()
 }
 
-/// A program that speaks with `impasto serve`.
+/// A running `impasto serve`, and its stdout.
 struct Asking(std::process::Child, BufReader<std::process::ChildStdout>);
 
 impl Asking {
@@ -165,7 +165,7 @@ impl Asking {
         writeln!(self.0.stdin.as_mut().unwrap(), "{line}").unwrap();
     }
 
-    /// The next answer with one of these events.
+    /// Waits for the next answer with one of these events, and returns it.
     fn hear(&mut self, events: &[&str]) -> Value {
         loop {
             let mut line = String::new();
@@ -197,7 +197,7 @@ fn serve_gives_the_pixels_of_render_and_goes_on_after_errors() {
     for frame in 1..=3 {
         let heard = asking.hear(&["frame", "error"]);
         assert_eq!((&heard["frame"], &heard["id"]), (&json!(frame), &json!(4)));
-        // The file after the next waits until this one is taken.
+        // The file after the next one is not written until this one is taken.
         let after = folder.path().join(format!("plain_{:02}.exr", frame + 2));
         assert!(!after.exists());
         asking.say(r#"{"command": "taken"}"#);
@@ -224,7 +224,7 @@ fn serve_gives_the_pixels_of_render_and_goes_on_after_errors() {
         };
         assert_eq!(read("plain"), read("own"));
     }
-    // A scene that breaks is an error with its place; mended, it is painted again.
+    // A scene that becomes wrong is reported with the place of its error. Once mended, it is painted again.
     let text = std::fs::read_to_string(&scene).unwrap();
     std::fs::write(&scene, text.replace("size", "sise")).unwrap();
     asking.say(&order("later_##.exr", false));
@@ -267,7 +267,7 @@ fn set_writes_one_field_and_leaves_the_text() {
         (found.strokes.scale, found.regions[1].strokes.coverage, found.regions[0].turn_deg),
         (Some(2.0), Some(3.0), 7.0)
     );
-    // An item goes before another, and is taken out again.
+    // `[1]+=` inserts an item before item 1, and an empty value removes an item.
     let names = || {
         let scene = load(&scene, &LoadOptions::default()).unwrap().scene;
         scene.regions.iter().map(|region| region.name.clone()).collect::<Vec<_>>()
@@ -276,7 +276,7 @@ fn set_writes_one_field_and_leaves_the_text() {
     assert_eq!(names(), ["a", "c", "b"]);
     assert!(set(&[r#"regions.a+=(name: "d", on: Everything)"#, "regions[0]=", "regions.c="]).0);
     assert_eq!(names(), ["a", "b"]);
-    // Taken out again, one by one, nothing is left of them.
+    // Once all values are removed, the text is as before, but for white space.
     assert!(
         set(&[
             "strokes.scale=",
@@ -289,7 +289,7 @@ fn set_writes_one_field_and_leaves_the_text() {
     );
     let without = |text: &str| text.split_whitespace().collect::<String>();
     assert_eq!(without(&text()), without(&before));
-    // What does not make sense is refused, and the file is as it was.
+    // Wrong values are refused, and the file stays as it was.
     for wrong in
         ["strokes.scale=1e9", "strokes.skale=1", "strokes.scale=many", "regions+=3", "size+=1", "nothing"]
     {

@@ -1,4 +1,4 @@
-//! OBJ files that strangers wrote, each with what is told of it and what is read.
+//! Tests of odd OBJ files such as users bring: what they are warned of, and what is read.
 
 use glam::Vec3;
 use impasto_scene::assets::AssetFolders;
@@ -17,7 +17,7 @@ fn read(text: &str, materials: &str) -> (MeshFile, Vec<Problem>) {
     obj::read(&path, folder.path(), &AssetFolders::default()).unwrap_or_else(|report| panic!("{report}"))
 }
 
-/// Reads a text, of which there is one warning, and it says this.
+/// Reads a text that must cause exactly one warning, with these words in it.
 fn read_with_one_warning(text: &str, materials: &str, says: &str) -> MeshFile {
     let (mesh, warnings) = read(text, materials);
     assert!(warnings.len() == 1 && warnings[0].to_string().contains(says), "{warnings:?}");
@@ -33,12 +33,12 @@ fn normals_that_run_along_their_faces_are_made_anew() {
         "{:?}",
         mesh.mesh.normals
     );
-    // One sliver with such normals beside a large face, as smoothing makes them, stays as it is.
+    // One sliver with such normals beside a large face keeps them, since smoothing makes such slivers.
     let sliver = "v 1 0 0\nv 1 0.001 0\nv 1 0 0.001\nvn 0 0 1\n";
     let text = format!("{QUAD}{sliver}f 1//1 2//1 3//1 4//1\nf 5//1 6//1 7//1\n");
     let (mesh, warnings) = read(&text, "");
     assert!(warnings.is_empty() && mesh.mesh.normals.iter().all(|normal| *normal == Vec3::Z));
-    // Normals that lean far over, as on a chamfer, are the file's own.
+    // Normals that lean far over, as on a chamfer, are kept.
     let (mesh, warnings) = read(&format!("{QUAD}vn 0.9 0 0.44\nf 1//1 2//1 3//1 4//1\n"), "");
     assert!(warnings.is_empty() && mesh.mesh.normals.iter().all(|normal| normal.x > 0.8));
 }
@@ -49,7 +49,7 @@ fn faces_that_lie_on_each_other_are_read_once_where_they_are_many() {
     let mesh =
         read_with_one_warning(&times(40), "", "lies on another one with the same corners (118 such faces)");
     assert_eq!(mesh.mesh.triangles.len(), 2);
-    // A face and its back, as double-sided models have them, are two; and a few doubled faces harm nobody.
+    // A face and its back, as in double-sided models, are both kept, and so are a few doubled faces.
     let (mesh, warnings) = read(&format!("{QUAD}f 1 2 3 4\nf 4 3 2 1\nf 1 2 3 4\n"), "");
     assert!(warnings.is_empty() && mesh.mesh.triangles.len() == 6);
     let both = format!("{QUAD}{}", "f 1 2 3\nf 3 2 1\n".repeat(60));

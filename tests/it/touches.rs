@@ -1,5 +1,5 @@
-//! Tests of touches, the strokes placed by hand: they lie where they were put and go where the surface goes, nothing that is in front of
-//! them lets them through, and a long one is one stroke.
+//! Tests of touches, the strokes placed by hand: they lie where they were put, move with the surface, are hidden by
+//! what is in front of them, and a long one is one stroke.
 
 use std::f64::consts::PI;
 
@@ -54,7 +54,7 @@ fn middle(frame: &Frame) -> Vec<DVec2> {
     pairs[1..pairs.len() - 1].to_vec()
 }
 
-/// Where a camera shows a place, pixels from the lower left; by the axes of the camera alone.
+/// Where a camera shows a place, in pixels from the lower left, computed from the camera's axes alone.
 fn shown(camera: &CameraPose, at: DVec3) -> DVec2 {
     let gaze = (camera.target - camera.eye).normalize();
     let right = gaze.cross(DVec3::Y).normalize();
@@ -137,7 +137,7 @@ fn a_touch_rides_on_a_body_that_bends() {
     for (was, now) in rest.iter().zip(&bent) {
         let at = (*was - DVec2::new(320.0, 180.0)) * (4.0 / focal);
         let wanted = shown(&view, bowed(at.extend(0.0)));
-        // Between its vertices the target is flat.
+        // The target is flat between its vertices, so it differs a little from `bowed`.
         assert!(now.distance(wanted) < 0.4, "{now}, not {wanted}");
     }
 }
@@ -180,7 +180,7 @@ fn touches_hold_on_a_mesh_that_was_exported_again_and_change_no_other_stroke() {
         (last.kind, last.count as usize),
         (LayerKind::Touches, with.strokes.len() - without.strokes.len())
     );
-    // Another touch before it in the list leaves it as it is.
+    // Another touch before it in the list does not change it.
     let more = vec![Touch { name: "other".to_owned(), ..on_plane(&[[0.0, 0.0]]) }, touch()];
     let two = seen(&painted(scene(more), shapes::sheet(9)), &view);
     assert_eq!(two.strokes.last(), with.strokes.last());
@@ -193,7 +193,7 @@ fn redness(picture: &Picture, at: DVec2) -> i32 {
     i32::from(picture.rgba8[first]) - i32::from(picture.rgba8[first + 1])
 }
 
-/// Grey bodies on which red shows.
+/// Makes all bodies grey, so that red shows on them.
 fn grey(mut scene: Scene) -> Scene {
     for object in &mut scene.objects {
         object.material = Some(impasto_scene::document::MaterialOverride {
@@ -219,7 +219,7 @@ fn a_curved_touch_is_one_stroke_without_gaps_on_either_driver() {
     for driver in [Driver::Egl, Driver::Osmesa] {
         let mut renderer = renderer(driver);
         let picture = renderer.render(&frame).unwrap();
-        // All along, but for its ends, which are ragged, it is there across most of its width.
+        // Except at its ragged ends, the touch is there across most of its width.
         for pair in line[4..line.len() - 4].windows(2) {
             let across = (pair[1] - pair[0]).normalize().perp();
             for step in 0..8 {
@@ -283,7 +283,7 @@ fn a_touch_goes_behind_its_own_body_and_its_paint_lies_on_top() {
     assert!(strips >= 1 && frame.lines.vertices.iter().all(|v| v.at_px.iter().all(|at| at.is_finite())));
     let on_front = shown(&view, DVec3::new(-0.3, 0.2, (1.0f64 - 0.13).sqrt()));
     assert!(redness(&picture, on_front) > 60, "it is not seen on the front");
-    // What lies at the back shows through nowhere: there the front has no touch.
+    // A place of the front that has no touch.
     let behind = shown(&view, DVec3::new(0.5, -0.3, 0.8));
     assert!(redness(&picture, behind) < 30);
     let from_behind = seen(&painting, &camera([0.0, 0.0, -4.0], [0.0; 3]));

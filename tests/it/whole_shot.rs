@@ -1,5 +1,5 @@
-//! Tests of what must be steady over a whole shot: chatter, steps and flicker are seen, boil keeps its limits, paint ends between
-//! pixels.
+//! Tests of steadiness over a whole shot: chatter, steps and flicker are measured, boil and keys keep their limits, and
+//! paint covers pixels in part.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -54,7 +54,8 @@ fn drawn(renderer: &mut Renderer, frame: Frame) -> Drawn {
     Drawn { luma, strokes, reference: renderer.read_reference(), frame }
 }
 
-/// Chatter in percent, steps, and flickering pixels in percent, of eight frames; `fault` may change the frames with odd numbers.
+/// Chatter in percent, steps, and flickering pixels in percent over eight frames. `fault` may change the frames with
+/// odd numbers.
 fn found(painting: &Painting, fault: impl Fn(&mut Frame)) -> [f64; 3] {
     let mut renderer = renderer(Driver::Egl);
     let (mut chatter, mut steps, mut flicker) = (Chatter::default(), Steps::default(), Flicker::default());
@@ -94,7 +95,7 @@ fn chatter_steps_and_flicker_see_what_boils() {
     let painting = painted(&ball(|_| ()), SceneVersion::Board);
     let calm = found(&painting, |_| ());
     assert!(calm[0] < 1.0 && calm[1] == 0.0 && calm[2] < 1.0, "{calm:?}");
-    // Light that comes and goes changes all colours to and fro, but no stroke.
+    // Flickering light changes all colours back and forth, but no stroke comes or goes.
     let flashing = found(&painting, |frame| {
         frame.lights.ambient_above *= 1.3;
         frame.lights.ambient_below *= 1.3;
@@ -169,7 +170,7 @@ fn boil_lays_strokes_anew_on_twos_and_lets_none_come_or_go() {
     }
     assert!(moved > 400 && first.len().abs_diff(unmoved.len()) < unmoved.len() / 20, "{moved}");
     assert!(most_px > 0.02 && most_px < 0.5, "{most_px}");
-    // Measures leave it out.
+    // Measures turn boil off.
     let measured = painted(
         &ball(|scene| {
             scene.objects[0].keys.clear();
@@ -200,7 +201,7 @@ fn keys_of_strokes_let_them_come_and_go_by_rank_and_none_pops() {
         }
     }
     assert!(largest_step < 0.35, "{largest_step}");
-    // Half as long and half as wide: four times as many, and no place has fewer than it wants.
+    // Strokes half as long and half as wide are four times as many.
     let bodies = |strokes: &BTreeMap<StrokeKey, Stroke>| -> f32 {
         let of_body = strokes.iter().filter(|(key, _)| key.kind == LayerKind::Body);
         of_body.map(|(_, stroke)| presence::of_supply(stroke.supply_ln)).sum()

@@ -1,4 +1,4 @@
-//! Test files, good and hostile: a small corpus that is made here, and a large one if `IMPASTO_CORPUS` names its folder.
+//! Test files, good and hostile: a small corpus made here, and a large one in the folder that `IMPASTO_CORPUS` names.
 
 use std::fmt::Write as _;
 use std::io::Write as _;

@@ -17,7 +17,8 @@ pub struct Node<'a> {
     pub turn_deg: f32,
 }
 
-/// Writes a shot of two seconds: these nodes (those of one mesh share it), a camera at (0, 0, 6) that looks down −Z, and a sun. Keys are linear.
+/// Writes a shot of two seconds: these nodes, a camera at (0, 0, 6) that looks down −Z, and a sun. Nodes with the same
+/// mesh share it. Keys are linear.
 pub fn write(path: &Path, nodes: &[Node<'_>]) {
     let mut bin = Vec::new();
     let (mut views, mut accessors) = (Vec::new(), Vec::new());
@@ -86,7 +87,7 @@ pub fn write(path: &Path, nodes: &[Node<'_>]) {
     std::fs::write(path, bytes(&root, bin)).expect("written");
 }
 
-/// Writes a shot anew: `change` gets the file's document and its bytes.
+/// Rewrites a shot: `change` edits its JSON document and its binary buffer.
 pub fn edit(path: &Path, change: impl FnOnce(&mut Value, &mut Vec<u8>)) {
     let file = std::fs::read(path).expect("a shot");
     let number = |at: usize| u32::from_le_bytes(file[at..at + 4].try_into().expect("four bytes")) as usize;
@@ -98,7 +99,7 @@ pub fn edit(path: &Path, change: impl FnOnce(&mut Value, &mut Vec<u8>)) {
     std::fs::write(path, bytes(&root, bin)).expect("written");
 }
 
-/// The bytes of a `.glb`.
+/// The bytes of a `.glb` file with this JSON document and binary buffer.
 pub fn bytes(root: &Value, mut bin: Vec<u8>) -> Vec<u8> {
     let mut text = root.to_string().into_bytes();
     text.resize(text.len().next_multiple_of(4), b' ');

@@ -119,7 +119,7 @@ impl Screen {
         path
     }
 
-    /// Runs xdotool; returns what it prints, or `None` if it fails.
+    /// Runs xdotool; returns what it prints, or `None` if it fails or takes too long.
     pub fn try_xdotool(&self, arguments: &[&str]) -> Option<String> {
         let mut process = Command::new("xdotool")
             .args(arguments)
@@ -181,7 +181,7 @@ impl Drop for Screen {
     }
 }
 
-/// How a process ended; `None` where it had to be killed.
+/// Waits for a process to end, and returns its status; `None` if it had to be killed after `most`.
 fn wait_or_kill(process: &mut Child, most: Duration) -> Option<std::process::ExitStatus> {
     let began = Instant::now();
     while began.elapsed() < most {

@@ -118,7 +118,7 @@ fn push_polygon(mesh: &mut TriangleMesh, triangles: &[[u32; 3]]) {
     }
 }
 
-/// An object for a test's own scene.
+/// An object with the mesh `{name}.obj` and this many particles.
 pub fn object(name: &str, particles: u64) -> Object {
     Object { particles: Some(particles), ..Object::new(name, format!("{name}.obj")) }
 }
@@ -207,7 +207,7 @@ pub fn loaded(scene: Scene, meshes: impl IntoIterator<Item = TriangleMesh>) -> A
     })
 }
 
-/// A mesh with its vertices moved; normals by the faces round them.
+/// A mesh with its vertices moved by `by`, and with normals computed from its faces.
 pub fn moved(mesh: &TriangleMesh, by: impl Fn(DVec3) -> DVec3) -> TriangleMesh {
     let positions: Vec<Vec3> = mesh.positions.iter().map(|at| by(at.as_dvec3()).as_vec3()).collect();
     let mut normals = vec![Vec3::ZERO; positions.len()];

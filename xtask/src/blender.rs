@@ -1,4 +1,5 @@
-//! `cargo xtask blender`: builds the extension, installs it into a throw-away profile of real Blenders, and runs its tests there.
+//! `cargo xtask blender`: builds the extension, installs it into a throw-away profile of each Blender, and runs its
+//! tests there.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -13,12 +14,12 @@ const VERSIONS: [&str; 3] = ["5.0.1", "4.5.15", "4.2.23"];
 /// Names a Python that has Blender as a module already.
 const OWN_PYTHON: &str = "IMPASTO_BPY";
 
-/// Whether Blenders that are not there are fetched.
+/// Whether missing Blenders are fetched.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fetch {
     /// Fetched by pip: about 1 GB on the disk for each.
     Yes,
-    /// Only those that are there are tried.
+    /// Only Blenders that this machine has are tried.
     No,
 }
 
@@ -46,7 +47,7 @@ pub fn run(root: &Path, fetch: Fetch) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// A Python with this Blender; `None` where there is none and none can be had.
+/// A Python with this Blender; `None` if there is none and it is not, or cannot be, fetched.
 fn python_with(folder: &Path, version: &str, fetch: Fetch) -> Option<PathBuf> {
     let place = folder.join(format!("bpy-{version}"));
     let python = place.join("bin/python");
@@ -113,7 +114,7 @@ fn succeed(mut command: Command, what: &str) -> anyhow::Result<()> {
 /// Builds, validates, installs and tests with one Blender.
 fn test(root: &Path, folder: &Path, interpreter: &Path) -> anyhow::Result<()> {
     const FIND: &str = "import bpy, os, glob; print(glob.glob(os.path.dirname(bpy.__file__) + '/**/bl_pkg/cli/blender_ext.py', recursive=True)[0])";
-    // Importing bpy adds folders of its own to the path of the module: its place is asked for in the site-packages.
+    // Importing bpy changes where the module seems to lie, so its folder is found through the site-packages.
     let find = FIND.replace(
         "os.path.dirname(bpy.__file__)",
         "[p for p in __import__('sys').path if p.endswith('site-packages')][0] + '/bpy'",

@@ -1,5 +1,5 @@
-//! `cargo xtask faults`: plants faults in shaders, one at a time, and sees that a test notices each. The tests are built once: the faulty file
-//! is handed to their renderers in a folder.
+//! `cargo xtask faults`: plants faults in shaders, one at a time, and checks that a test notices each. The tests are
+//! built once; their renderers read the faulty file from a folder.
 
 mod list;
 #[cfg(test)]
@@ -91,7 +91,8 @@ fn plant(
 
 const SHADERS: &str = "crates/gl-render/shaders";
 
-/// The program of the integration tests, built with the features of the whole workspace, so that nothing is built twice.
+/// The program of the integration tests, built with the features of the whole workspace, so that nothing is built
+/// twice.
 fn built_tests(root: &Path) -> anyhow::Result<PathBuf> {
     let arguments =
         ["test", "--locked", "--workspace", "--test", "it", "--no-run", "--message-format", "json"];
@@ -107,7 +108,7 @@ fn built_tests(root: &Path) -> anyhow::Result<PathBuf> {
     program.context("cargo did not say where the tests are")
 }
 
-/// Runs the tests whose names have one of these parts; the names of those that failed.
+/// Runs the tests whose names contain one of `tests`. Returns the names of those that failed.
 fn failing(root: &Path, program: &Path, folder: &Path, tests: &[&str]) -> anyhow::Result<Vec<String>> {
     let done =
         Command::new(program).args(tests).env(PLANTED, folder).current_dir(root.join("tests")).output()?;

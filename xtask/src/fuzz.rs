@@ -1,4 +1,5 @@
-//! `cargo xtask fuzz`: runs the fuzz targets of `fuzz/`, led by coverage, on what the repository and the corpus have of each kind.
+//! `cargo xtask fuzz`: runs the fuzz targets of `fuzz/`, guided by coverage. Each begins with the files of its kind in
+//! the repository and the corpus.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -7,13 +8,13 @@ use anyhow::{Context as _, bail};
 
 use crate::steps::{self, cargo, target_folder};
 
-/// Minutes for each target, where nobody says how many.
+/// Minutes for each target, unless `--minutes` says how many.
 const MINUTES: u64 = 30;
 
-/// Larger files are slow to change, and find nothing more.
+/// Larger files are left out: they are slow to mutate, and find nothing more.
 const MOST_BYTES: u64 = 64 << 10;
 
-/// An input that takes longer, seconds, is a find; so is one that takes more memory, MiB.
+/// An input that takes more than so many seconds, or more than so many MiB of memory, is a find.
 const SLOW_S: u64 = 20;
 const MOST_MIB: u64 = 2048;
 

@@ -1,6 +1,6 @@
-//! `cargo xtask measure`: measures the shipped scenes and writes the table of docs/techniques/rotating_strokes.md anew; with
-//! `--shots`, measures every frame of their shots and writes the table of docs/steadiness.md. With names, only those scenes are
-//! measured; the others keep what was last measured of them (in `out/measure` and `out/shots`).
+//! `cargo xtask measure`: measures the shipped scenes and writes the table of docs/techniques/rotating_strokes.md anew;
+//! with `--shots`, measures every frame of their shots and writes the table of docs/steadiness.md. If scenes are named,
+//! only those are measured; for the others the last reports (in `out/measure` and `out/shots`) are used.
 
 use std::fmt::Write as _;
 use std::path::Path;

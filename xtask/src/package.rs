@@ -1,5 +1,5 @@
-//! `cargo xtask package`: makes what people install, in `target/package/`: a Debian package, an archive for any Linux, and a
-//! wheel that carries the program for pip.
+//! `cargo xtask package`: makes what people install, in `target/package/`: a Debian package, an archive for any Linux,
+//! and a wheel by which pip installs the program.
 
 mod changelog;
 mod licences;

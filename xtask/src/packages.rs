@@ -1,5 +1,5 @@
-//! Makes sure that the system has what rendering and the tests need. It looks for the files of libraries and programs, not
-//! for installed packages. If some are missing, it installs their packages with apt-get, where the system has it.
+//! Makes sure that the system has what rendering and the tests need. It looks for the files of libraries and programs,
+//! not for installed packages. If some are missing, it installs their packages with apt-get, where the system has it.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -83,8 +83,8 @@ const WINDOW_TESTS: &[Need] = &[
     program_of("xdotool", &["xdotool"]),
 ];
 
-/// What `cargo xtask package` needs: it packs an archive, finds out which libraries the program is linked with, and makes a
-/// place for the tool that makes wheels.
+/// What `cargo xtask package` needs: it packs an archive, finds out which libraries the program is linked with, strips
+/// the program, and makes a Python environment for the tool that makes wheels.
 pub const PACKAGING: &[Need] = &[
     program_of("zstd", &["zstd"]),
     program_of("dpkg-dev", &["dpkg-shlibdeps"]),
@@ -156,8 +156,8 @@ pub fn ensure(root: &Path, needs: &[&[Need]], install: Install) -> anyhow::Resul
     }
 }
 
-/// What of the missing things is to be installed. A retired one is wanted only where the system still packages it: else
-/// everything goes on without it.
+/// The missing things that are to be installed. A retired one is among them only if the system still packages it;
+/// otherwise the work goes on without it.
 fn wanted(missing: Vec<&Need>, packages: impl Fn(&Need) -> bool) -> Vec<&Need> {
     let (retired, mut wanted): (Vec<&Need>, Vec<&Need>) = missing.into_iter().partition(|need| need.retired);
     for need in retired {

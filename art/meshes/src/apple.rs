@@ -1,4 +1,4 @@
-//! The mesh `apple`: as the first model of the source paper, an apple of 550 polygons.
+//! Makes the mesh `apple`, of 550 polygons like the first model of the source paper.
 
 use std::f64::consts::TAU;
 
@@ -75,7 +75,8 @@ fn skin_point(radius: f64, height: f64, angle: f64) -> DVec3 {
     DVec3::new(spread * angle.cos() + lean, height + foot + shoulder, -spread * angle.sin() - 0.4 * lean)
 }
 
-/// Streaks from the stem to the calyx: yellow in the cavity, orange on one cheek, crimson on the other.
+/// The material of a face of the skin, streaked from the stem to the calyx: yellow in the cavity, orange on one cheek,
+/// crimson on the other.
 fn blush(row: usize, segment: usize, rows: usize, segments: usize) -> &'static str {
     let down = row as f64 / rows as f64;
     let round = segment as f64 / segments as f64;

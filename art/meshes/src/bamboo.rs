@@ -15,8 +15,8 @@ const TWIGS: Look = Look { group: "twigs", material: "twig" };
 const LEAVES: Look = Look { group: "leaves", material: "leaf" };
 const PALE_LEAVES: Look = Look { group: "pale leaves", material: "pale leaf" };
 
-/// A twig: whether it is on the paler stalk, how far along the stalk it begins, where it ends from there in X and Y,
-/// and the angles at which its leaves hang.
+/// A twig: whether it is on the paler stalk, how far along the stalk it begins (0..1), how far it reaches from there in
+/// X and Y, and the angles at which its leaves hang, radians.
 struct Twig {
     is_pale: bool,
     along: f64,

@@ -37,7 +37,7 @@ const fn fold(crest: [f64; 3], [width, height]: [f64; 2], reach: f64, lean: f64)
     Fold { crest, width, height, reach, lean }
 }
 
-/// From the cloth's left edge to its right one. They begin under the fruit and spread towards the hem.
+/// The folds, from the cloth's left edge to its right one. They begin under the fruit and spread towards the hem.
 const FOLDS: [Fold; 7] = [
     fold([0.010, 0.030, 0.07], [0.052, 0.026], 0.12, -0.4),
     fold([0.105, 0.130, 0.19], [0.070, 0.074], 0.26, 0.7),

@@ -11,8 +11,8 @@ const DEPTH: f64 = 1.0;
 const EAVES: f64 = 0.82;
 const RIDGE: f64 = 1.46;
 
-/// A cottage of 1.7 by 1 without its lean-to, 1.86 high at the top of the chimney. Its door looks towards +Z, its ridge runs along
-/// X.
+/// A cottage of 1.7 by 1 without its lean-to, 1.86 high at the top of the chimney. Its door looks towards +Z, its ridge
+/// runs along X.
 pub fn cottage() -> PolyMesh {
     let mut mesh = PolyMesh::new(
         "cottage",

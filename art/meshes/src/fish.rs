@@ -196,9 +196,9 @@ fn middle_fins(mesh: &mut PolyMesh, shape: &Shape) {
     );
 }
 
-/// The two surface points of a fin, on its +Z and on its −Z side, round a point of the plane between them. The fin gets thinner
-/// towards its edges and has shallow ridges, its rays. `out` runs from the root (0) to the free edge (1), `aside` from the
-/// fin's centre line (0) to either edge (1); `rays` is the phase of the ridges, radians.
+/// The two surface points of a fin, on its +Z and on its −Z side, round a point `middle` of the plane between them. The
+/// fin gets thinner towards its edges and has shallow ridges, its rays. `out` runs from the root (0) to the free edge
+/// (1), `aside` from the fin's centre line (0) to either edge (1). `rays` is the phase of the ridges, radians.
 fn flat_fin(middle: [f64; 3], [out, aside, rays]: [f64; 3], thickness: f64) -> [DVec3; 2] {
     let thick = thickness * (1.0 - 0.7 * out) * (1.0 - 0.5 * aside) * (1.0 + 0.12 * rays.sin());
     let middle = DVec3::from_array(middle);

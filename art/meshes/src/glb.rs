@@ -41,7 +41,7 @@ pub struct Node<'a> {
     pub turn: DQuat,
 }
 
-/// What the corners of a mesh have beside their positions.
+/// How a mesh is coloured.
 pub enum Coat<'a> {
     /// The materials of its palette.
     Palette,
@@ -54,7 +54,8 @@ pub enum Coat<'a> {
 }
 
 impl Glb {
-    /// Adds a material of this linear base colour, 0..=1; with a texture (an index of [`Glb::texture`]), multiplied. Returns its index.
+    /// Adds a material with this linear base colour, 0..=1. `texture`, an index that [`Glb::texture`] returned, is
+    /// multiplied with it. Returns the material's index.
     pub fn material(&mut self, name: &str, color: [f64; 3], texture: Option<usize>, roughness: f64) -> usize {
         let [red, green, blue] = color;
         let mut pbr = json!({
@@ -85,7 +86,7 @@ impl Glb {
     /// Adds a mesh; its polygons are cut into fans. Returns its index.
     ///
     /// # Errors
-    /// It has more points than 16 bits count, or a colour of its palette is none.
+    /// It has more points than 16 bits can count, or a colour of its palette cannot be read.
     pub fn mesh(&mut self, mesh: &PolyMesh, coat: &Coat<'_>) -> anyhow::Result<usize> {
         let attributes = json!({ "POSITION": self.positions(mesh)? });
         let primitives = self.primitives(mesh, coat, attributes)?;
@@ -99,8 +100,8 @@ impl Glb {
         Ok(self.vectors(&mesh.positions))
     }
 
-    /// Adds what the corners of a mesh have beside these attributes, its materials and its faces: one primitive for each
-    /// material.
+    /// Adds the materials and faces of a mesh and the attributes of its coat. Returns one primitive for each material
+    /// that has faces; all have these attributes and those of the coat.
     fn primitives(
         &mut self,
         mesh: &PolyMesh,
@@ -166,14 +167,15 @@ impl Glb {
         }
     }
 
-    /// Lets what a node has at `path` follow two accessors: times, and values.
+    /// Adds an animation channel: what a node has at `path` follows an accessor of times and one of values.
     fn channel(&mut self, node: usize, path: &str, [input, output]: [usize; 2]) {
         let sampler = self.samplers.len();
         self.samplers.push(json!({ "input": input, "output": output }));
         self.channels.push(json!({ "sampler": sampler, "target": { "node": node, "path": path } }));
     }
 
-    /// The file, seen by a camera of this vertical field of view in a picture of 16 by 9. Nodes show the camera as `("camera", 0)`.
+    /// The bytes of the file. It has one camera, with this vertical field of view and a picture of 16 by 9; a node that
+    /// is the camera has `("camera", 0)` in [`Node::is`].
     pub fn finish(self, fov_y_rad: f64) -> Vec<u8> {
         let mut root = json!({
             "asset": { "version": "2.0", "generator": "cargo xtask meshes" },

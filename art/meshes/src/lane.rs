@@ -14,7 +14,7 @@ const FPS: f64 = 24.0;
 const LAST: usize = 48;
 const BALL_RADIUS: f64 = 0.3;
 
-/// Candela of a lamp of one watt, as exporters write it.
+/// The candela that exporters write for a lamp of one watt.
 const PER_WATT: f64 = 683.0 / (2.0 * TAU);
 
 /// The bytes of `lane.glb`.
@@ -46,7 +46,7 @@ fn add(shot: &mut Glb, name: &str, mesh: usize, place: DVec3, turn_deg: f64) -> 
     shot.node(Node { name, is: ("mesh", json!(mesh)), place, turn })
 }
 
-/// A floor of 14 by 12 with a texture of flagstones.
+/// Adds a floor of 14 by 12 units with a texture of flagstones. Returns the index of its mesh.
 fn paving(shot: &mut Glb) -> anyhow::Result<usize> {
     const SIDES: [usize; 2] = [28, 24];
     const SIDE_PX: u32 = 64;
@@ -78,12 +78,12 @@ fn paving(shot: &mut Glb) -> anyhow::Result<usize> {
         DVec3::new(at.x, 0.0, at.y)
     };
     floor.sheet(SIDES, place, |_, _| Look { group: "floor", material: "flagstones" });
-    // A sheet's points run row by row.
+    // The texture repeats every 2.4 units.
     let uvs: Vec<DVec2> = floor.positions.iter().map(|point| DVec2::new(point.x, point.z) / 2.4).collect();
     shot.mesh(&floor, &Coat::Texture(material, &uvs))
 }
 
-/// A ball in stripes of vertex colours.
+/// Adds a ball that is striped by vertex colours. Returns the index of its mesh.
 fn ball(shot: &mut Glb) -> anyhow::Result<usize> {
     const SIDES: [usize; 2] = [24, 48];
     let mut ball = PolyMesh::new("ball", "A striped ball.", &[]);
@@ -131,7 +131,7 @@ fn walking() -> Vec<(f64, DVec3, DQuat)> {
         .collect()
 }
 
-/// The turn of what looks or shines along −Z, with Y up.
+/// The rotation that points −Z, the way cameras look and lights shine, along `along`, and keeps Y upwards.
 fn looking(along: DVec3) -> DQuat {
     let back = -along.normalize();
     let right = DVec3::Y.cross(back).normalize();

@@ -43,7 +43,7 @@ use poly_mesh::PolyMesh;
 /// Where the meshes are kept, from the repository's root.
 const FOLDER: &str = "scenes/meshes";
 
-/// Writes every shipped mesh, an OBJ and its MTL, the shots, and what moves point by point.
+/// Writes every shipped mesh (an OBJ file and its MTL file), the shots, and the flag's point cache.
 fn main() -> anyhow::Result<()> {
     let folder = folder();
     std::fs::create_dir_all(&folder).with_context(|| format!("cannot make {}", folder.display()))?;

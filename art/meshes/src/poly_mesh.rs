@@ -84,7 +84,7 @@ impl PolyMesh {
     /// Adds a closed surface round an axis: `rows` bands of `segments` faces each, from one pole to the other.
     ///
     /// `point(row, segment)` is called for rows 0 to `rows`; segments turn counter-clockwise seen from the first pole.
-    /// The first and the last row are single points: for them it is called with segment 0 only. `look(row, segment)`
+    /// The first and the last row are single points: for them `point` gets segment 0 only. `look(row, segment)`
     /// gives group and material of the face between `row` and `row + 1`.
     pub fn lathe(
         &mut self,

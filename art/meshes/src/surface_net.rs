@@ -132,7 +132,7 @@ pub fn weave(
     first..mesh.positions.len()
 }
 
-/// The mean of the places where the skin crosses the edges of a cell.
+/// The mean of the places where the skin crosses the edges of a cell; `None` if it crosses no edge.
 fn crossing(grid: &Grid, samples: &Samples, cell: [usize; 3]) -> Option<DVec3> {
     let corner = |bits: usize| [cell[0] + (bits & 1), cell[1] + (bits >> 1 & 1), cell[2] + (bits >> 2)];
     let (mut sum, mut count) = (DVec3::ZERO, 0.0);

@@ -1,4 +1,4 @@
-//! A body in two views: the input of all who race at solving for angles, and the sums that their answers are checked
+//! A body in two views: the input of all contenders that solve for angles, and the sums that their answers are checked
 //! against.
 
 use std::path::{Path, PathBuf};
@@ -126,8 +126,8 @@ impl SolveScene {
         [self.now.row_x, self.now.row_y, self.now.row_w].map(|row| row.as_vec4().to_array())
     }
 
-    /// The angle of each particle, as `angle` computes it from the particle's neighbours. It gets their offsets p in
-    /// the reference, their offsets c in this picture, and their weights w.
+    /// The angle of each particle, computed by `angle`. This function gets the particle's index and, for each of its
+    /// neighbours, the offset p in the reference, the offset c in this picture, and the weight w.
     fn angles(&self, angle: impl Fn(usize, &[(DVec2, DVec2, f64)]) -> f64 + Sync) -> Vec<f32> {
         let one = |particle: usize| {
             let position = |index: usize| self.positions[index].as_dvec3();

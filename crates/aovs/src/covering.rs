@@ -11,22 +11,22 @@ use rayon::prelude::*;
 use crate::cryptomatte::{Matte, id_bits};
 use crate::drawn::{Drawn, Found};
 
-/// Less than this of a pixel is not kept.
+/// Shares of a pixel below this are dropped.
 const LEAST_SHARE: f32 = 1.0 / 1024.0;
 
-/// A stroke that shows no more than this of any pixel is in no list of names.
+/// A stroke is listed by name only if it covers more than this of some pixel.
 const LEAST_NAMED: f32 = 1.0 / 255.0;
 
-/// The region of strokes that no region of the scene claims.
+/// Names, among the regions, the strokes that are in no region of the scene.
 const NO_REGION: &str = "everything else";
 
 /// What shows in each pixel, top row first.
 pub(crate) struct Covering {
     /// The strokes.
     pub(crate) shares: PixelShares,
-    /// How much shows the toned ground under the paint.
+    /// The share of each pixel that shows the toned ground.
     pub(crate) ground: Vec<f32>,
-    /// The body that the ground belongs to: its index plus 1.
+    /// The body that the ground belongs to: its index plus 1, or 0 for none.
     body_id: Vec<u32>,
 }
 
@@ -66,7 +66,7 @@ impl Covering {
             found.notes.extend(matte.notes());
         };
         let object_of = |id: u32| &scene.objects[id as usize - 1].name;
-        // What lies under paint belongs to what the strokes on the same body belong to.
+        // The ground takes the name of the stroke of the same body that shows most in the pixel.
         let near = |pixel: usize, of_stroke: &[u32]| {
             let id = self.body_id[pixel];
             let on_body = |share: &&Share| frame.strokes[share.stroke as usize].body_id == id;
@@ -154,7 +154,7 @@ fn materials(drawn: &Drawn<'_>) -> Vec<Vec<String>> {
     (0..scene.objects.len()).map(of_object).collect()
 }
 
-/// Lays all layers over each other: what shows of each stroke, and how much of each pixel is bare.
+/// Lays all layers over each other. Returns what shows of each stroke, and the share of each pixel without paint.
 fn all_layers(layers: &[PaintedLayer], width: usize, pixels: usize) -> (PixelShares, Vec<f32>) {
     let rows = (0..pixels / width).into_par_iter().map(|row| {
         let (mut counts, mut shares, mut bare) = (Vec::with_capacity(width), Vec::new(), Vec::new());
@@ -179,7 +179,7 @@ fn all_layers(layers: &[PaintedLayer], width: usize, pixels: usize) -> (PixelSha
     (PixelShares::from_rows(rows), bare.concat())
 }
 
-/// Where a body ends, the finished picture is a mean over nine pixels, and so is what shows there.
+/// At the borders of bodies the finished picture is a mean over 3 × 3 pixels; takes the same mean of the shares.
 fn mixed_at_borders(
     laid: PixelShares,
     bare: &[f32],

@@ -9,7 +9,7 @@ use impasto_frame_files::exr_file::{Channel, Note, Samples};
 /// How many names a pixel keeps.
 const RANKS: usize = 6;
 
-/// Coverage is a multiple of this.
+/// Coverage is rounded to a multiple of this.
 const COVERAGE_STEP: f32 = 1.0 / 1024.0;
 
 /// MurmurHash3, 32 bits, seed 0 (Appleby, 2011), of a text in UTF-8.
@@ -42,7 +42,7 @@ pub fn id_bits(name: &str) -> u32 {
 pub(crate) struct Matte {
     /// Its name, such as `CryptoObject`.
     pub(crate) kind: &'static str,
-    /// The names that may show, by the bits of their numbers.
+    /// The names that may show, by their [`id_bits`].
     pub(crate) names: BTreeMap<u32, String>,
 }
 
@@ -51,7 +51,7 @@ impl Matte {
         Self { kind, names: names.into_iter().map(|name| (id_bits(name), name.to_owned())).collect() }
     }
 
-    /// The channels, from what each pixel shows: `found` lists numbers and amounts, in which a number may stand several times.
+    /// The channels. `found` lists what a pixel shows: pairs of [`id_bits`] and share; an id may come several times.
     pub(crate) fn channels(
         &self,
         pixels: usize,
@@ -73,7 +73,7 @@ impl Matte {
             .collect()
     }
 
-    /// The notes that tell readers of the mattes, with all names.
+    /// The metadata by which programs that read the file find the mattes and the names.
     pub(crate) fn notes(&self) -> Vec<(String, Note)> {
         let key = &format!("{:08x}", hash(self.kind))[..7];
         let manifest: BTreeMap<&str, String> =
@@ -90,7 +90,7 @@ impl Matte {
     }
 }
 
-/// Adds up what stands for the same number; the largest first, and of equal ones the lower number.
+/// Sums the shares of each id, and sorts: the largest sum first, of equal sums the lower id.
 fn ranked(found: &mut Vec<(u32, f32)>) -> &[(u32, f32)] {
     found.sort_unstable_by_key(|&(bits, _)| bits);
     found.dedup_by(|next, kept| {

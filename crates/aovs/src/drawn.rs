@@ -1,20 +1,20 @@
-//! What channels are found from, and what is found.
+//! The drawn picture that channels are read from, and the channels that were found.
 
 use impasto_frame_files::exr_file::{Channel, Note};
 use impasto_painting::{Frame, FrameOptions, Painting};
 use impasto_scene::aovs::AovSet;
 
-/// A picture that was drawn, and what is wanted of it.
+/// A picture that was drawn, and the AOVs wanted of it.
 pub struct Drawn<'a> {
     /// The painting.
     pub painting: &'a Painting,
     /// The frame, with its strokes, as the renderer drew it last.
     pub frame: &'a Frame,
-    /// Its number.
+    /// The frame's number.
     pub number: f64,
-    /// How it was made.
+    /// The options that the frame was made with.
     pub options: &'a FrameOptions,
-    /// What is wanted; what the style lacks is left out.
+    /// The AOVs wanted; those that the style lacks are left out.
     pub wanted: AovSet,
 }
 

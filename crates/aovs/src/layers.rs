@@ -1,9 +1,10 @@
 //! The layers of paint as pictures that, laid over each other, are the finished picture.
 //!
-//! The picture is more than its layers: light falls on the paint, wet paint runs together, outlines are softened, varnish deepens.
-//! All of that is put into the layers as a factor on each pixel and channel: with C the layers laid over each other and F the
-//! finished picture, each layer is multiplied by F / C. What no factor can give (light on black paint) becomes one more layer,
-//! `finish`, which adds light and covers nothing. Alpha stays what each layer covers, but where an outline was softened.
+//! The picture is more than its layers: light falls on the paint, wet paint runs together, outlines are softened,
+//! varnish deepens. All of that is put into the layers as a factor on each pixel and channel: with C the layers laid
+//! over each other and F the finished picture, each layer is multiplied by F / C. What no factor can give (light on
+//! black paint) becomes one more layer, `finish`, which adds light. Alphas stay as they are, and `finish` has none,
+//! except where an outline was softened.
 
 use half::f16;
 use impasto_frame_files::exr_file::{Channel, Samples};
@@ -13,14 +14,14 @@ use impasto_painting::frame::LayerKind;
 use crate::drawn::{Drawn, Found};
 use crate::planes::planes;
 
-/// A layer is made brighter by no more than this.
+/// The largest factor on a layer.
 const MOST_GAIN: f32 = 4.0;
 
-/// The light that the finish adds is more than this, and more than the last bit of the picture.
+/// The finish adds light only where more than this is lacking, and more than the last bit of a 16-bit float.
 const LEAST_LIGHT: f32 = 4e-4;
 const HALF_ULP: f32 = 1.0 / 1024.0;
 
-/// Alpha that differs by less is the same.
+/// Alphas that differ by less than this count as equal.
 const LEAST_ALPHA: f32 = 4e-4;
 
 pub(crate) fn add(
@@ -61,9 +62,10 @@ pub(crate) fn add(
     }
 }
 
-/// The layers of a pixel, from the ground up, so that they give `wanted` (premultiplied), and one more on top.
+/// Changes the layers of a pixel (from the ground up, premultiplied) and adds `finish` on top, so that laid over each
+/// other they give `wanted` (premultiplied).
 fn finished(mut layers: Vec<[f32; 4]>, wanted: [f32; 4]) -> Vec<[f32; 4]> {
-    // Where an outline was softened in a transparent picture, alpha is another: less, and all layers get thinner.
+    // A softened outline of a transparent picture may have less alpha: then all layers get thinner.
     let clear = |alpha: f32| 1.0 - alpha.min(1.0 - 1e-6);
     let through: f32 = layers.iter().map(|layer| clear(layer[3])).product();
     let wanted_through = 1.0 - wanted[3];
@@ -75,7 +77,7 @@ fn finished(mut layers: Vec<[f32; 4]>, wanted: [f32; 4]) -> Vec<[f32; 4]> {
             *layer = [layer[0] * share, layer[1] * share, layer[2] * share, alpha];
         }
     }
-    // As a file keeps them, so that the finish makes up for what is lost by rounding.
+    // Rounded as in the file, so that the finish makes up for the rounding.
     let laid = over(&layers);
     for channel in 0..3 {
         let gain = if laid[channel] > 1e-4 { (wanted[channel] / laid[channel]).min(MOST_GAIN) } else { 1.0 };
@@ -86,7 +88,7 @@ fn finished(mut layers: Vec<[f32; 4]>, wanted: [f32; 4]) -> Vec<[f32; 4]> {
     for layer in &mut layers {
         layer[3] = f16::from_f32(layer[3]).to_f32();
     }
-    // More, and the finish covers a little.
+    // It may also have more alpha: then the finish covers a little.
     let through: f32 = layers.iter().map(|layer| 1.0 - layer[3]).product();
     let mut top = [0.0; 4];
     if wanted_through < through - LEAST_ALPHA {
@@ -95,7 +97,7 @@ fn finished(mut layers: Vec<[f32; 4]>, wanted: [f32; 4]) -> Vec<[f32; 4]> {
     let laid = over(&layers);
     for channel in 0..3 {
         let lacking = wanted[channel] - (1.0 - top[3]) * laid[channel];
-        // What 16 bits cannot tell is no light.
+        // Differences below the precision of 16 bits are ignored.
         top[channel] =
             if lacking.abs() > LEAST_LIGHT.max(wanted[channel] * HALF_ULP) { lacking } else { 0.0 };
     }

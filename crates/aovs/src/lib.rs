@@ -25,7 +25,8 @@ use covering::Covering;
 pub use drawn::{Drawn, Found};
 pub use of_scene::OF_SURFACES;
 
-/// Those that need the fragments of the paint: a renderer must gather paint (`Renderer::gather_paint`) while it draws the picture.
+/// The AOVs that need the paint's fragments: the renderer must gather paint (`Renderer::gather_paint`) while it draws
+/// the picture.
 pub const GATHERED: &[Aov] = &[
     Aov::StrokeId,
     Aov::StrokeAngle,
@@ -44,7 +45,7 @@ pub const GATHERED: &[Aov] = &[
     Aov::CryptoStroke,
 ];
 
-/// Reads the colour of a renderer's last picture, which was of this frame, and all that is wanted beside it.
+/// Reads the colour of a renderer's last picture, which must be of this frame, and the AOVs that are wanted.
 ///
 /// # Errors
 /// When the driver complains.

@@ -11,13 +11,13 @@ use impasto_scene::motion;
 use crate::drawn::{Drawn, Found};
 use crate::planes::{in_steps, short};
 
-/// Those that need the surfaces of the picture: a renderer must keep them (`Renderer::keep`) while it draws it.
+/// The AOVs that need the surfaces: the renderer must keep them (`Renderer::keep`) while it draws the picture.
 pub const OF_SURFACES: &[Aov] = &[Aov::Normal, Aov::Albedo, Aov::Light, Aov::Shadow, Aov::Occlusion];
 
-/// The depth where nothing is, as others write it.
+/// The depth of pixels that show no body, as other renderers write it.
 const NOTHING: f32 = 1e10;
 
-/// Motion is a multiple of this.
+/// Motion is rounded to a multiple of this.
 const MOTION_STEP_PX: f32 = 1.0 / 256.0;
 
 pub(crate) fn add(
@@ -81,7 +81,7 @@ pub(crate) fn add(
             .collect();
         channels.push(Channel::new(name, Samples::Float(plane)));
     };
-    // A renderer's offsets point down, and from here to there.
+    // The renderer's offsets have y down, and point from this frame to the other.
     if let (true, Some(before), Some(after)) = (wanted.has(Aov::Motion), &before, &after) {
         add("motion.X", before, 0, 1.0);
         add("motion.Y", before, 1, -1.0);
@@ -100,7 +100,7 @@ pub(crate) fn add(
     Ok(())
 }
 
-/// Where the surfaces of the picture are at another frame.
+/// How the surfaces of the picture move to another frame.
 fn motion_to(renderer: &mut Renderer, drawn: &Drawn<'_>, number: f64) -> Result<MotionPixels, RenderError> {
     let camera = motion::camera_at(drawn.painting.scene(), number);
     let then = drawn.painting.bare(&camera, number, drawn.options);

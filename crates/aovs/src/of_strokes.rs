@@ -13,7 +13,7 @@ use crate::cryptomatte::id_bits;
 use crate::drawn::{Drawn, Found};
 use crate::planes::in_steps;
 
-/// How much shows of a layer is a multiple of this.
+/// The share that a layer shows is rounded to a multiple of this.
 const ALPHA_STEP: f32 = 1.0 / 512.0;
 
 pub(crate) fn add(

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-/// How many pixels are found in one go.
+/// How many pixels one task finds.
 const RUN: usize = 4096;
 
 /// `count` planes; `find` sets the values of a pixel, which are 0 before.
@@ -34,12 +34,12 @@ pub(crate) fn planes<T: Copy + Default + Send + Sync>(
     planes
 }
 
-/// Rounds to a multiple of a step that is a power of two, so that a file takes less: the last bits of a measure are noise.
+/// Rounds to a multiple of a step (a power of two). The last bits are noise, and files without them compress better.
 pub(crate) fn in_steps(value: f32, step: f32) -> f32 {
     (value / step).round() * step
 }
 
-/// Keeps 17 bits of a number: it moves by less than a part in 100,000.
+/// Rounds to 17 significant bits: less than one part in 100,000.
 pub(crate) fn short(value: f32) -> f32 {
     const DROPPED: u32 = 7;
     let bits = value.to_bits();

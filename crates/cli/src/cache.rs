@@ -12,7 +12,7 @@ use impasto_scene::kept_folder::{KeptFile, KeptFolder, ToWrite};
 
 use crate::memory_size::size_bytes;
 
-/// Names the folder where `--cache` is left out.
+/// The environment variable that names the folder if `--cache` is left out.
 const VARIABLE: &str = "IMPASTO_CACHE";
 
 /// Where prepared scenes are kept.
@@ -30,15 +30,15 @@ pub(crate) struct CacheArguments {
 #[derive(Clone)]
 pub(crate) struct Cache {
     folder: KeptFolder,
-    /// The most memory that a file may take.
+    /// The most memory that a file of the folder may take, bytes; `None` for any.
     memory_bytes: Option<u64>,
     verbose: bool,
-    /// Whether it was said that something is wrong: once is enough.
+    /// Whether a warning was given: one is enough.
     was_told: Arc<AtomicBool>,
 }
 
 impl Cache {
-    /// The folder that the command line or the environment names.
+    /// The folder that the command line or the environment names; `None` if neither does.
     pub(crate) fn of(arguments: &CacheArguments, memory_bytes: Option<u64>, verbose: bool) -> Option<Self> {
         let of_environment = || std::env::var_os(VARIABLE).filter(|folder| !folder.is_empty());
         let path = arguments.cache.clone().or_else(|| of_environment().map(PathBuf::from))?;
@@ -46,7 +46,7 @@ impl Cache {
         Some(Self { folder, memory_bytes, verbose, was_told: Arc::default() })
     }
 
-    /// What is kept under a key.
+    /// What is kept under a key; `None` if nothing is, or it cannot be read.
     pub(crate) fn find(&self, key: &KeptKey) -> Option<Box<dyn KeptBytes>> {
         let key = key.to_string();
         let found = self.folder.find(&key, self.memory_bytes.unwrap_or(u64::MAX));
@@ -129,14 +129,14 @@ impl KeptBytes for OpenFile {
     }
 }
 
-/// A painting that is being kept. Whoever drops this waits until that is done.
+/// A painting that is being kept. Dropping this waits until that is done.
 #[derive(Default)]
 pub(crate) struct Storing(Option<JoinHandle<()>>);
 
 impl Drop for Storing {
     fn drop(&mut self) {
         if let Some(storing) = self.0.take() {
-            // It is kept or not: no picture depends on it.
+            // A failure is ignored, because no picture depends on what is kept.
             let _ = storing.join();
         }
     }

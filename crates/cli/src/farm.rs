@@ -19,7 +19,7 @@ use crate::args::{Arguments, Command};
 use crate::failure::Failure;
 use crate::farm_args::{FarmArguments, FarmCommand, PackArguments, SlurmArguments};
 
-/// What `impasto render` gets from the job itself.
+/// Flags of `impasto render` that the job sets itself.
 const OWN_FLAGS: [&str; 6] = ["-o", "--output", "-f", "--frames", "--skip-existing", "--progress"];
 
 pub(crate) fn farm(command: &FarmCommand) -> Result<(), Failure> {
@@ -67,7 +67,7 @@ pub(crate) fn farm(command: &FarmCommand) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A path as it is from a folder that it lies in; as it is elsewhere.
+/// The path relative to `folder` if it lies in there, else the path unchanged.
 fn from_folder(path: &str, folder: &Path) -> String {
     Path::new(path)
         .strip_prefix(folder)
@@ -134,7 +134,8 @@ fn job(arguments: &FarmArguments) -> Result<Job, Failure> {
     })
 }
 
-/// Frames that the scene does not have are painted as its first or last one: a slip of the hand costs a night.
+/// Warns of frames that the scene does not have. They show its first or last frame, and a mistyped list could cost a
+/// night.
 fn tell_frames_beyond(list: &FrameList, first: i64, last: i64) {
     let beyond = || list.iter().filter(|frame| !(first..=last).contains(frame));
     if let (Some(low), Some(high)) = (beyond().min(), beyond().max()) {
@@ -145,7 +146,7 @@ fn tell_frames_beyond(list: &FrameList, first: i64, last: i64) {
     }
 }
 
-/// Further arguments are those of `impasto render`: what that would refuse is refused here, and not on a hundred machines.
+/// Refuses further arguments that `impasto render` would refuse, so that they fail here and not on a hundred machines.
 fn check_further(arguments: &FarmArguments) -> Result<(), Failure> {
     let own = ["impasto", "render", "-o", &arguments.output, "--"].map(OsString::from);
     let [program, command, flag, output, end] = own;
@@ -173,7 +174,7 @@ pub(crate) fn pack(arguments: &PackArguments) -> Result<(), Failure> {
         Some(output) => {
             let loaded = read(scene, asset_dirs, *quiet)?;
             not_an_input(output, &loaded.inputs())?;
-            // A folder that is there is refused in the words of packs.
+            // `pack` itself refuses a folder that exists, with a message that fits.
             if !output.is_dir() {
                 ready_folder(output)?;
             }

@@ -112,7 +112,7 @@ fn text(value: &serde_json::Value) -> &str {
 fn facts(painting: &Painting) -> serde_json::Value {
     let loaded = painting.loaded();
     let scene = &loaded.scene;
-    // Nodes that share a mesh in memory are told of once.
+    // A mesh in memory that several nodes share is listed once.
     let mut same: HashMap<*const MeshFile, Vec<&String>> = HashMap::new();
     for (path, file) in &loaded.meshes {
         same.entry(Arc::as_ptr(file)).or_default().push(path);

@@ -81,7 +81,7 @@ fn main() -> ExitCode {
         Command::Relight(arguments) => relight::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
         Command::Completions { shell } => {
-            // Generating cannot fail, and would panic where nobody reads.
+            // Into memory first: writing straight to standard output would panic where nobody reads it.
             let mut text = Vec::new();
             clap_complete::generate(shell, &mut Arguments::command(), "impasto", &mut text);
             std::io::stdout().write_all(&text).map_err(Failure::from)

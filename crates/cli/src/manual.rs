@@ -1,4 +1,4 @@
-//! `impasto man`: manual pages of the program and of each subcommand, made of the words of the command line.
+//! `impasto man`: manual pages of the program and of each subcommand, made from the help texts of the command line.
 
 use std::path::Path;
 
@@ -19,7 +19,7 @@ pub(crate) fn write(folder: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The pages: names of their files, and roff.
+/// The pages: their file names, and their texts in roff.
 fn pages() -> Result<Vec<(String, Vec<u8>)>, std::io::Error> {
     let mut program = Arguments::command().disable_help_subcommand(true);
     program.build();

@@ -97,7 +97,7 @@ fn paths(arguments: &MovieArguments) -> Result<Vec<PathBuf>, Failure> {
     Ok(frames.into_iter().map(|frame| pattern.path(frame)).collect())
 }
 
-/// The pattern that somebody meant who named a folder or a single frame.
+/// The pattern that was probably meant, if a folder or a single frame was named.
 fn example(text: &str) -> String {
     let path = Path::new(text);
     if path.is_dir() {
@@ -153,7 +153,7 @@ impl Frames {
         Ok(frame)
     }
 
-    /// Hands each frame to `take_in`, in order. Tells whether that said yes to any.
+    /// Hands each frame to `take_in`, in order. Returns whether `take_in` returned true for any.
     fn pour(&self, mut take_in: impl FnMut(FramePixels) -> Result<bool, Failure>) -> Result<bool, Failure> {
         let mut any = false;
         for path in &self.paths {
@@ -162,7 +162,8 @@ impl Frames {
         Ok(any)
     }
 
-    /// Whether any pixel of any frame is transparent. Only frames whose files have alpha are read, up to the first one.
+    /// Whether any pixel of any frame is transparent. Only frames whose files have alpha are read, up to the first
+    /// transparent one.
     fn are_transparent_somewhere(&self, quiet: bool) -> Result<bool, Failure> {
         let with_alpha: Vec<&PathBuf> = self
             .paths

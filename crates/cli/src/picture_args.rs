@@ -27,7 +27,7 @@ pub(crate) struct PictureArguments {
 }
 
 impl PictureArguments {
-    /// What goes into EXR files; a line says what the style of the scene lacks.
+    /// What is wanted in EXR files. Unless `quiet`, a line on stderr names what the style of the scene lacks.
     pub(crate) fn aovs_of(&self, scene: &Scene, quiet: bool) -> Result<AovSet, Failure> {
         let words = if self.aovs.is_empty() { &scene.aovs } else { &self.aovs };
         let wanted = AovSet::of_words(words.iter().map(String::as_str)).map_err(Failure::Usage)?;
@@ -40,7 +40,7 @@ impl PictureArguments {
     }
 }
 
-/// A line for each of them.
+/// The long help of `--aov`: a line for each AOV.
 fn aov_help() -> String {
     let mut text = "What EXR files hold beside the colour: all, none, scene, stroke, paint, crypto, or names, with commas \
                     between. The scene's own `aovs` when left out.\n"

@@ -65,7 +65,7 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     fault.map_or(Ok(()), |fault| Err(Failure::Other(fault)))
 }
 
-/// What is not as the scene has it in frames that were all drawn, in words; `None` where all is well.
+/// What the frames do not show as the scene states it, although all were drawn, in words; `None` if nothing.
 type Fault = Option<String>;
 
 fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, Failure> {
@@ -148,7 +148,8 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
     Ok(Plan { sequence, renderer, frames, destination, storing })
 }
 
-/// Refuses to take a frame of another scene, or of another state of it, for one that is done.
+/// Refuses a file that was painted from another scene, or from another state of this one: it is not a frame that is
+/// done.
 fn of_this_scene(path: &Path, own_scene: &str, own_state: &str) -> Result<(), Failure> {
     let other = match (scene_of(path), state_of(path)) {
         (Some(scene), _) if scene != own_scene => format!("{scene}, and this is {own_scene}"),
@@ -240,7 +241,7 @@ impl Plan {
         let bar = progress_bar(frames.count(), arguments.talk.quiet);
         let mut sheet = arguments.contact_sheet.then(|| Sheet::new(frames.count(), sequence.options.size_px));
         let (mut done, mut kept, mut failed, mut passed, start) = (0, 0, 0, 0, Instant::now());
-        // Frames that were there, and do not say which scene they show.
+        // Frames that were there, and do not say from which state they were painted.
         let mut foreign = Vec::new();
         let sheet_provenance = sequence.provenance("sheet", renderer);
         if arguments.json {
@@ -419,7 +420,7 @@ impl Plan {
     }
 }
 
-/// Of frames that make one file, which is not there if any of them was not drawn.
+/// The fault of frames that make one file. If drawing was stopped, there is no file.
 fn of_all(ending: Ending) -> Result<Fault, Failure> {
     match ending {
         Ending::Done(fault) => Ok(fault),

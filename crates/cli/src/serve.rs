@@ -1,5 +1,5 @@
-//! `impasto serve`: renders what another program asks for. Lines of JSON come in on standard input and go out on standard output;
-//! the scene is prepared once, and again where its files have changed. `docs/serve.md` lists the lines.
+//! `impasto serve`: renders what another program asks for. Lines of JSON come in on standard input and go out on
+//! standard output. The scene is prepared once, and again when its files have changed. `docs/serve.md` lists the lines.
 
 mod orders;
 
@@ -22,7 +22,7 @@ use crate::failure::Failure;
 use crate::session::{self, Prepared};
 use orders::{Current, Order, Orders, RenderOrder};
 
-/// The version of the lines.
+/// The version of the format of the lines.
 pub(crate) const VERSION: u32 = 1;
 
 pub(crate) fn run(arguments: &ServeArguments) -> Result<(), Failure> {
@@ -58,7 +58,7 @@ fn tell(line: &Value) -> Result<(), Failure> {
 
 fn of_failure(id: u64, failure: &Failure) -> Value {
     let words = match failure {
-        // What has to be mended, without what else was noticed.
+        // Only what has to be mended, without the warnings.
         Failure::Input(Report(problems)) => {
             let fatal = problems.iter().filter(|problem| problem.severity.is_fatal());
             fatal.map(ToString::to_string).collect::<Vec<_>>().join("\n")
@@ -68,7 +68,7 @@ fn of_failure(id: u64, failure: &Failure) -> Value {
     json!({ "event": "error", "id": id, "message": words })
 }
 
-/// What says that a file is still the same: its length, and when it was written.
+/// What tells whether a file is still the same: its length, and when it was written. `None` if it is not there.
 type Stamp = Option<(u64, SystemTime)>;
 
 /// A scene that was prepared.
@@ -76,7 +76,7 @@ struct Ready {
     prepared: Prepared,
     warnings: Vec<String>,
     inputs: Vec<PathBuf>,
-    /// Of each input as it was before it was read.
+    /// The stamp of each input as it was read.
     stamps: Vec<Stamp>,
 }
 
@@ -109,8 +109,8 @@ impl Server<'_> {
         let begun = stamp_of(&of_scene.scene);
         let loaded = session::read_scene(of_scene, true)?;
         let inputs = loaded.inputs();
-        // A file that changes while it is read has another stamp next time at the latest: the scene file is looked at before, the
-        // others are replaced as a whole.
+        // The stamp of the scene file is from before it was read, so that a change during reading shows the next time.
+        // The other files are known only now. They are expected to be replaced as a whole.
         let mut stamps: Vec<Stamp> = inputs.iter().map(|path| stamp_of(path)).collect();
         if let Some(first) = stamps.first_mut() {
             *first = begun;
@@ -170,7 +170,7 @@ impl Server<'_> {
                 .file_name()
                 .map(|name| name.to_string_lossy().into_owned())
                 .unwrap_or_default(),
-            // Who asked knows what was asked for.
+            // No state is noted: the program that asked knows what it asked for.
             state: String::new(),
             driver: session::driver(self.arguments.driver),
             shaders: ShaderTexts::default(),
@@ -199,7 +199,7 @@ impl Server<'_> {
                 }
             };
             tell(&line)?;
-            // Whoever asked removes the files when it has read them: not too many lie about.
+            // The program that asked removes each file once it has read it. Waits, so that not too many lie about.
             current.wait_until_taken(out, order.ahead);
             Ok::<(), Failure>(())
         })

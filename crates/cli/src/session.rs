@@ -52,11 +52,11 @@ pub(crate) fn read_scene(arguments: &SceneArguments, quiet: bool) -> Result<Load
 /// A scene that was prepared.
 pub(crate) struct Prepared {
     pub(crate) painting: Painting,
-    /// While what was prepared is kept in the cache.
+    /// Stores it in the cache on another thread. Dropping this waits until that is done.
     pub(crate) storing: Storing,
 }
 
-/// Prepares a scene within the memory that it may take. Where `verbose`, time and peak memory of each step go to stderr.
+/// Prepares a scene within the memory that it may take. If `verbose`, time and peak memory of each step go to stderr.
 pub(crate) fn prepare_scene(
     loaded: LoadedScene,
     arguments: &SceneArguments,
@@ -84,14 +84,15 @@ pub(crate) fn prepare_scene(
     Ok(Prepared { painting, storing })
 }
 
-/// As [`prepare_scene`], by a preparer that may know an earlier state of the scene. What a new one prepares is kept.
+/// As [`prepare_scene`], by a preparer that may know an earlier state of the scene. The cache is used only if the
+/// preparer is new.
 pub(crate) fn prepare_by(
     preparer: &mut Preparer,
     loaded: Arc<LoadedScene>,
     arguments: &SceneArguments,
 ) -> Result<Prepared, Failure> {
     let memory_bytes = memory::granted_bytes(arguments.memory);
-    // What is edited later is remembered by the preparer.
+    // Later states of the scene are not kept in the cache: the preparer remembers what it needs.
     let cache = Cache::of(&arguments.cache, memory_bytes, false).filter(|_| preparer.is_new());
     let options = PrepareOptions { memory_bytes, ..PrepareOptions::default() };
     let painting = prepare_with(preparer, loaded, options, cache.as_ref())?;
@@ -117,7 +118,7 @@ fn unprepared(error: PrepareError) -> Failure {
     }
 }
 
-/// Opens a renderer. Where `verbose`, tells on stderr which driver was taken and why.
+/// Opens a renderer. If `verbose`, says on stderr which driver was taken and why.
 pub(crate) fn open_renderer(driver: DriverChoice, verbose: bool) -> Result<Renderer, Failure> {
     let context = open(self::driver(driver), &OpenOptions::default())?;
     if verbose {

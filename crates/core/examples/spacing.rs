@@ -1,5 +1,5 @@
-//! Prints how evenly the progressive order spreads particles, for several beginnings of it, and the processor's time that it
-//! takes on one thread: `cargo run --release -p impasto-core --example spacing -- 355467`.
+//! Prints how evenly the first particles of the progressive order are spread, for several shares of all, and how long
+//! making the order takes on one thread: `cargo run --release -p impasto-core --example spacing -- 355467`.
 #![expect(clippy::print_stdout, reason = "its output is what it is for")]
 
 use std::time::Instant;
@@ -12,8 +12,8 @@ use impasto_core::sampling::{Particle, Surface, hexagonal_spacing, progressive};
 /// Shares of the count; odd ones too, so that no level of the order ends there.
 const BEGINNINGS: [f64; 7] = [0.02, 0.11, 0.25, 0.37, 0.5, 0.71, 1.0];
 
-/// The mean distance to the nearest neighbour, and the one that a particle in a thousand is below, as shares of the spacing
-/// of the hexagonal lattice.
+/// The mean distance to the nearest neighbour, and the distance below which one particle in a thousand is, both over
+/// the spacing of the hexagonal lattice.
 fn spacing(particles: &[Particle], area: f64) -> [f64; 2] {
     let hexagonal = hexagonal_spacing(area, particles.len());
     let (positions, normals): (Vec<Vec3>, Vec<Vec3>) =

@@ -144,7 +144,7 @@ impl Bend {
 }
 
 impl SkinWeights {
-    /// Moves a run of vertices, of which the first has this number.
+    /// Moves a run of vertices; `first` is the index of the first of them.
     fn move_all(&self, joints: &[Rows], first: usize, positions: &mut [Vec3], normals: &mut [Vec3]) {
         let of_vertex = |list: usize| list * self.per_vertex..(list + 1) * self.per_vertex;
         for (offset, (position, normal)) in positions.iter_mut().zip(normals).enumerate() {

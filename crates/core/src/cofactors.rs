@@ -2,8 +2,8 @@
 
 use glam::{DMat3, Mat3};
 
-/// The inverse transpose times the determinant, also of mirrored and flat matrices. The length of what it makes of a unit normal is the area
-/// now over the area before.
+/// The inverse transpose times the determinant; defined for mirrored and flat matrices too. Takes a unit normal to a
+/// normal whose length is the area after the matrix over the area before.
 #[inline(always)]
 pub fn cofactors(matrix: DMat3) -> DMat3 {
     let DMat3 { x_axis: x, y_axis: y, z_axis: z } = matrix;
@@ -29,7 +29,7 @@ mod tests {
         let expected = matrix.inverse().transpose() * matrix.determinant();
         assert!(cofactors(matrix).abs_diff_eq(expected, 1e-12));
         assert!(cofactors_f32(matrix.as_mat3()).abs_diff_eq(expected.as_mat3(), 1e-6));
-        // Of a matrix that flattens, the normal of the plane is left.
+        // A matrix that flattens leaves the normal of the plane.
         let flat = DMat3::from_cols(matrix.x_axis, matrix.y_axis, DVec3::ZERO);
         assert_eq!(cofactors(flat) * DVec3::Z, matrix.x_axis.cross(matrix.y_axis));
     }

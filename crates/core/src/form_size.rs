@@ -6,14 +6,14 @@ use rayon::prelude::*;
 use crate::hash;
 use crate::sampling::{self, Surface, hexagonal_spacing};
 
-/// At most this many samples measure a surface: their distances are looked at in pairs.
+/// At most this many samples measure a surface, since all pairs of them are compared.
 const MOST_SAMPLES: usize = 2048;
 
 /// A sample lies on the same form as another while their normals differ by at most 40 degrees.
 const LEAST_COSINE: f32 = 0.906;
 
-/// And while the other lies off its tangent plane by at most this share of the distance, as on a ball at that angle: an eye ends
-/// at its lids although the cheek faces the same way.
+/// The other must also lie off the sample's tangent plane by at most this share of their distance, as on a ball at that
+/// angle: an eye ends at its lids although the cheek faces the same way.
 const MOST_RISE: f32 = 0.22;
 
 /// The form ends at the radius at which it fills only this share of the disc; a right-angled corner of a plane fills 0.25.
@@ -31,10 +31,10 @@ const SMOOTHING_RADIUS: f32 = 2.7;
 
 /// The size of the form all over a surface, measured at samples of it.
 ///
-/// Around a point, the samples within a radius R whose normals agree with the point's cover the area that the form still has there.
-/// On a plane that is the whole disc; past the end of the form it falls behind. The size is the R at which it covers a fifth of the
-/// disc: 3.2 widths of a flat strip, the radius of a sphere, 2.8 radii of a long cylinder. Both sides of a plate count by themselves, so a thin
-/// plate is as large as it looks.
+/// Around a point, the samples within a radius R whose normals agree with the point's cover the area that the form
+/// still has there. On a plane this is the whole disc; beyond the end of the form it grows more slowly. The size is the
+/// R at which it covers a fifth of the disc: 3.2 widths of a flat strip, the radius of a sphere, 2.8 radii of a long
+/// cylinder. The two sides of a plate are measured apart, so a thin plate is as large as it looks.
 #[derive(Clone, Debug, Default)]
 pub struct FormSize {
     /// In the order of their buckets.
@@ -122,7 +122,7 @@ impl FormSize {
                 }
             }
         }
-        // A shell too small for a sample is as small as anything.
+        // A shell too small to have a sample gets the least size.
         if weights > 0.0 { (sum / weights).exp() } else { self.least }
     }
 
@@ -183,8 +183,8 @@ fn bucket_of(cell: [i32; 3], buckets: usize) -> usize {
     hash::combine(hash::combine(x, y), z) as usize & (buckets - 1)
 }
 
-/// ln of the size of the form round a sample, from the squares of the distances to those on the same form, in squares of the first
-/// radius; as many samples as `density` says lie on a unit of area.
+/// ln of the size of the form round a sample. `beyond` holds the squared distances to the samples of the same form, in
+/// squares of the first radius; `density` is the number of samples per unit of area.
 fn size_ln_from(beyond: &[f32], first_radius: f32, density: f32) -> f32 {
     // How many samples of the form lie between one radius and the next.
     let mut counts = [0u32; RADII];
@@ -197,7 +197,7 @@ fn size_ln_from(beyond: &[f32], first_radius: f32, density: f32) -> f32 {
             counts[step] += 1;
         }
     }
-    // ln of the radius, and of how much of a fifth of the disc is covered there.
+    // ln of the radius, and ln of the area covered there over a fifth of the disc.
     let mut last: Option<[f32; 2]> = None;
     let mut covered = 0;
     for (step, count) in counts.iter().enumerate() {
@@ -206,7 +206,8 @@ fn size_ln_from(beyond: &[f32], first_radius: f32, density: f32) -> f32 {
         let fill_ln = (covered as f32 / (density * LEAST_SHARE * std::f32::consts::PI * radius_sq)).ln();
         let radius_ln = 0.5 * radius_sq.ln();
         if fill_ln < 0.0 {
-            // Between this radius and the last, or as far below the first as its samples make a disc.
+            // Interpolated between the last radius and this one; below the first, the radius of the disc of which the
+            // samples found cover a fifth.
             let [last_radius_ln, last_fill_ln] = last.unwrap_or([radius_ln + 0.5 * fill_ln, 0.0]);
             let part = if last.is_some() { last_fill_ln / (last_fill_ln - fill_ln) } else { 0.0 };
             return last_radius_ln + part * (radius_ln - last_radius_ln);
@@ -273,7 +274,7 @@ mod tests {
             size.at(outward * 0.5 + Vec3::Y * 0.2 * (step % 40 - 20) as f32, outward)
         };
         let found = (0..200).map(at).sum::<f32>() / 200.0;
-        // A strip of 2·25° of it agrees: 0.873 radii wide, so that 2R·0.873 = 0.2·πR².
+        // The strip within 25° to either side agrees: 0.873 radii wide, so that 2R·0.873 = 0.2·πR².
         assert!((found / 0.5 / 2.78 - 1.0).abs() < 0.05, "{found}");
     }
 
@@ -306,7 +307,7 @@ mod tests {
         assert!(size.least() <= on_knob);
     }
 
-    /// In millimetres forms are a thousand times as large as in metres, and as near to each other; here a power of two.
+    /// A mesh scaled by a factor has sizes scaled by the same factor. A power of two avoids rounding.
     #[test]
     fn sizes_grow_with_the_surface() {
         let [mut large, small] = [ball(2.0), ball(0.25)];

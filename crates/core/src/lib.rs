@@ -1,5 +1,5 @@
-//! The maths of Impasto, from particles on a mesh to strokes in a view. It uses no files, no GL, no clock, and no
-//! randomness that is not seeded.
+//! The maths of Impasto, from particles on a mesh to strokes in a view. It uses no files, no GL and no clock, and all
+//! of its random numbers come from seeds.
 //!
 //! ```text
 //! mesh ─▶ shells ─▶ sampling ─▶ particles (progressive blue-noise order)

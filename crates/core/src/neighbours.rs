@@ -75,7 +75,7 @@ impl Neighbours {
         NeighbourArrays { slots, lengths, indices, most: *most }
     }
 
-    /// Lists that [`Neighbours::arrays`] gave; `None` for arrays that no lists have.
+    /// Lists from the arrays that [`Neighbours::arrays`] gave; `None` for arrays that it cannot have given.
     pub fn from_arrays(slots: Vec<u32>, lengths: Vec<u8>, indices: Vec<u32>, most: usize) -> Option<Self> {
         let count = slots.len();
         let is_inside = |number: &u32| (*number as usize) < count;

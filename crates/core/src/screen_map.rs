@@ -25,7 +25,7 @@ pub struct ScreenMap {
 pub struct UnevenPose {
     /// What it does to steps.
     pub world_from_model: DMat3,
-    /// What it does to normals, but for their length.
+    /// What it does to normals, except to their length.
     pub world_from_normal: DMat3,
 }
 
@@ -59,7 +59,7 @@ impl ScreenMap {
         Self { row_x: x * scale, row_y: y * scale, row_w, row_depth: depth, uneven }
     }
 
-    /// The same map with this added to where everything shows, pixels: the shift of a lens.
+    /// The same map with `offset_px` added to every place in the picture: the shift of a lens.
     #[must_use]
     pub fn shifted(self, offset_px: DVec2) -> Self {
         if offset_px == DVec2::ZERO {
@@ -110,7 +110,7 @@ impl ScreenMap {
 /// A pose is uneven where squares of lengths differ by more than this share.
 const UNEVEN: f64 = 1e-9;
 
-/// Whether a linear map scales directions differently: squares of lengths by more than this share.
+/// Whether a linear map scales directions differently, so that squares of lengths differ by more than `share`.
 pub fn is_uneven(pose: DMat3, share: f64) -> bool {
     let [x, y, z] = [pose.x_axis, pose.y_axis, pose.z_axis];
     let size = x.length_squared();

@@ -5,10 +5,12 @@ use glam::DVec3;
 /// How many points of the spline are found between two given points before it is cut into equal steps.
 const FINE: usize = 24;
 
-/// The spline through `points` (centripetal Catmull-Rom: P. J. Barry and R. N. Goldman, A Recursive Evaluation Algorithm for a Class of
-/// Catmull-Rom Splines, 1988; with the root of the distance as step it makes no loop between two points), as `steps + 1` points at
-/// equal distances along it, both ends among them. Points that coincide with the one before are passed over; without two different ones
-/// there is no line, and nothing is given back.
+/// The spline through `points`, as `steps + 1` points at equal distances along it, both ends included. A point that is
+/// not finite, or equal to the one before, is left out. The result is empty if fewer than two points are left or
+/// `steps` is 0.
+///
+/// Centripetal Catmull-Rom (P. J. Barry and R. N. Goldman, A Recursive Evaluation Algorithm for a Class of Catmull-Rom
+/// Splines, 1988): the step between two knots is the root of their distance, so the line makes no loop between them.
 pub fn smooth_path(points: &[DVec3], steps: usize) -> Vec<DVec3> {
     let mut knots: Vec<DVec3> = Vec::with_capacity(points.len() + 2);
     for &point in points.iter().filter(|point| point.is_finite()) {
@@ -31,7 +33,7 @@ pub fn smooth_path(points: &[DVec3], steps: usize) -> Vec<DVec3> {
     even(&fine, steps)
 }
 
-/// Between the second and the third of four points.
+/// The piece of the spline between the second and the third of four points.
 struct Piece {
     points: [DVec3; 4],
     times: [f64; 4],
@@ -44,7 +46,7 @@ impl Piece {
         Self { points, times: [0.0, a, a + b, a + b + c] }
     }
 
-    /// At a share of the way, 0..=1.
+    /// The point at a share of the way through the piece, 0..=1.
     fn at(&self, share: f64) -> DVec3 {
         let Self { points: p, times: t } = self;
         let time = t[1] + (t[2] - t[1]) * share;

@@ -27,11 +27,11 @@ const DISTANCES: std::ops::RangeInclusive<f64> = 1e-3..=1e6;
 #[derive(Clone, Debug, PartialEq)]
 pub struct FreeView {
     pose: CameraPose,
-    /// Vertical field of view of the perspective lens that it goes back to, degrees.
+    /// Vertical field of view that [`Self::toggle_orthographic`] goes back to, degrees.
     fov_y_deg: f64,
 }
 
-/// An axis of the world to look along, from the side that it names.
+/// A view along an axis of the world, named after the side that the camera is on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AxisView {
     /// From +X.
@@ -49,7 +49,7 @@ pub enum AxisView {
 }
 
 impl FreeView {
-    /// Begins where a camera stands.
+    /// A free camera with this pose.
     pub fn new(pose: CameraPose) -> Self {
         let fov_y_deg = match pose.lens {
             Lens::Perspective { fov_y_deg, .. } => fov_y_deg,
@@ -58,18 +58,18 @@ impl FreeView {
         Self { pose, fov_y_deg }
     }
 
-    /// Where it stands.
+    /// Its pose.
     pub fn pose(&self) -> &CameraPose {
         &self.pose
     }
 
-    /// From the eye to what it looks at, world units.
+    /// Distance from the eye to the target, world units.
     pub fn distance(&self) -> f64 {
         self.pose.eye.distance(self.pose.target)
     }
 
     /// Turns round a point by a drag in pixels (Y down): sideways about the world's Y, up and down about the view's
-    /// right. The point stays where it shows.
+    /// right. The point keeps its place in the picture.
     pub fn orbit(&mut self, delta_px: DVec2, about: DVec3) {
         // The roll is taken out of the drag, so that a rolled view follows the pointer, too.
         let drag = DVec2::from_angle(self.pose.roll_rad).rotate(delta_px * DVec2::new(1.0, -1.0));
@@ -93,8 +93,8 @@ impl FreeView {
         self.move_by(step);
     }
 
-    /// Moves nearer (positive steps) or farther, so that a point stays where it shows. Without a point under the
-    /// cursor, pass the one at the target's depth ([`View::at_depth_of`]).
+    /// Moves nearer (positive steps) or farther; the point `toward` keeps its place in the picture. Without a surface
+    /// under the cursor, pass the point at the target's depth ([`View::at_depth_of`]).
     pub fn zoom(&mut self, steps: f64, toward: DVec3) {
         let wanted = ZOOM_PER_STEP.powf(steps.clamp(-100.0, 100.0));
         match &mut self.pose.lens {
@@ -116,7 +116,7 @@ impl FreeView {
         }
     }
 
-    /// Goes where a box (least and greatest corner, world space) fills the picture, without turning.
+    /// Moves the camera, without turning it, so that a box (least and greatest corner, world space) fills the picture.
     pub fn frame(&mut self, [low, high]: [DVec3; 2], size_px: DVec2) {
         if !low.is_finite() || !high.is_finite() {
             return;
@@ -190,7 +190,7 @@ impl FreeView {
         self.pose.target += step;
     }
 
-    /// Widens the range from near to far so that points this far away show.
+    /// Moves the clip planes apart so that points this far away show.
     fn reach(&mut self, distance: f64) {
         match &mut self.pose.lens {
             Lens::Perspective { near, far, .. } | Lens::Orthographic { near, far, .. } => {

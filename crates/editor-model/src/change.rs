@@ -98,7 +98,7 @@ impl SceneChange {
         }
     }
 
-    /// About how many bytes it takes.
+    /// How much memory it takes, bytes, estimated.
     pub(crate) fn bytes(&self) -> usize {
         let of_guides =
             |guides: &[Guide]| guides.iter().map(|guide| 96 + guide.points.len() * 56).sum::<usize>();

@@ -128,7 +128,7 @@ pub(crate) fn posable_object<'a>(scene: &'a mut Scene, name: &str) -> Result<&'a
     unlocked_object(scene, name)
 }
 
-/// Why something cannot be posed that the scene's shot moves.
+/// The refusal to pose what the scene's shot moves.
 pub(crate) fn moved_by_shot(scene: &Scene, name: &str) -> Refusal {
     let shot = scene.shot.as_deref().unwrap_or("the shot");
     Refusal::new(format!("{name} moves as {shot} has it: make own keys first, in the inspector"))
@@ -146,7 +146,7 @@ pub(crate) fn unlocked_region<'a>(scene: &'a mut Scene, name: &str) -> Result<&'
     if region.locked { Err(Refusal::new(format!("{name} is locked"))) } else { Ok(region) }
 }
 
-/// The name if there is one, else how many there are: *apple*, or *3 objects*.
+/// The name if there is exactly one, else the count: *apple*, or *3 objects*.
 pub(crate) fn counted(names: &[impl AsRef<str>], what: &str) -> String {
     match names {
         [name] => name.as_ref().to_owned(),

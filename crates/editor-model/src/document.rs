@@ -39,7 +39,7 @@ pub struct Document {
     options: LoadOptions,
     /// The file as it was read or written last.
     stamp: Option<Stamp>,
-    /// The text that it was read from, while parts of it could not be read.
+    /// The text that the scene was read from, while parts of the text could not be read.
     source: Option<Arc<Source>>,
     revision: u64,
 }
@@ -141,7 +141,7 @@ impl Document {
         &self.selection
     }
 
-    /// Sets the selection, without things that do not exist. Makes no entry in the history.
+    /// Sets the selection; things that do not exist are left out. Makes no entry in the history.
     pub fn select(&mut self, mut selection: Selection) {
         let scene = &self.loaded.scene;
         selection.retain(|item| item.is_in(scene));
@@ -229,8 +229,8 @@ impl Document {
         held.with_scene(scene, &self.options.folders).map_err(|report| Refusal::of(&report))
     }
 
-    /// Keeps a mesh that was read before, by its path relative to the scene's folder, so that it is not read again. A
-    /// mesh with this path that is there already stays. The scene does not change.
+    /// Keeps a mesh that was already read, by its path relative to the scene's folder, so that it is not read again. If
+    /// a mesh is kept for this path already, that one stays. The scene does not change.
     pub fn hold_mesh(&mut self, mesh: &str, file: Arc<MeshFile>) {
         let mut loaded = (*self.loaded).clone();
         loaded.meshes.entry(mesh.to_owned()).or_insert(file);
@@ -281,8 +281,8 @@ impl Document {
         self.go_to(scene, entry.selections[1].clone(), entry.text)
     }
 
-    /// Goes to a scene of the history. The scene was valid once, so only its files can be at fault now: then it comes
-    /// back without them, and the step's note says what is wrong.
+    /// Goes to a scene of the history. The scene was valid once, so only its files can be at fault now. If they are,
+    /// the files loaded so far stay, and the step's note says what is wrong.
     fn go_to(&mut self, scene: Scene, selection: Selection, text: String) -> Option<Step> {
         self.revision += 1;
         let loaded = self.with_files(scene.clone());

@@ -54,8 +54,8 @@ pub enum HandleShape {
         /// Its corners in order.
         corners_px: [DVec2; 4],
     },
-    /// A line that turns when dragged: about an axis, the half of a ring that faces the eye, from end to end; about the
-    /// gaze, a whole ring.
+    /// A ring that turns the object when dragged. About an axis, only the half that faces the eye is shown, from end to
+    /// end; about the gaze, the whole ring.
     Ring {
         /// Points of the line.
         points_px: Vec<DVec2>,

@@ -29,7 +29,7 @@ pub use view::ObjectView;
 const STEP_PX: f64 = 1.0;
 /// Stamps lie this share of the radius apart on the surface.
 pub(crate) const STAMP_SHARE: f64 = 0.25;
-/// Points that deviate from a path by at most this are dropped.
+/// Points of a path are dropped as long as the path moves by at most this.
 const TOLERANCE_PX: f64 = 0.5;
 /// The same on a bent body, where what is straight in the picture is a curve on the surface at rest.
 const BENT_TOLERANCE_PX: f64 = 0.1;
@@ -205,8 +205,8 @@ impl SurfacePath {
         stamps
     }
 
-    /// The pieces as guides, each with as few points as keep it within half a pixel. `seen` is the view that the path
-    /// was drawn in, `reference` the view that the region's directions refer to.
+    /// The pieces as guides, each with as few points as keep it within half a pixel of the piece. `seen` is the view
+    /// that the path was drawn in, `reference` the view that the region's directions refer to.
     pub fn guides(&self, style: &GuideStyle, seen: &ObjectView, reference: &ObjectView) -> Vec<Guide> {
         self.guides_turned(style, [seen, reference], &|_, _| 0.0)
     }
@@ -221,7 +221,7 @@ impl SurfacePath {
     ) -> Vec<Guide> {
         let mut guides = Vec::new();
         for piece in &self.pieces {
-            // A straight gesture on a bent body is a curve where that is at rest.
+            // A straight gesture on a bent body is a curve on the surface at rest.
             let tolerance_px = if seen.frame.is_some() { BENT_TOLERANCE_PX } else { TOLERANCE_PX };
             let kept = simplify::within(piece, tolerance_px / self.px_per_unit);
             let length_px: f64 = piece.windows(2).map(|pair| pair[0].at_px.distance(pair[1].at_px)).sum();
@@ -298,8 +298,8 @@ impl SurfacePath {
         takes_part.then(|| PathPoint::new(at_px, &hit))
     }
 
-    /// Whether the surface is connected between two steps; it is not where it jumps from a fold to what lies behind.
-    /// Bisects the step: on a connected surface the distance between its ends shrinks, across a gap it does not.
+    /// Whether the surface is connected between two steps, and does not jump from a fold to what lies behind. Bisects
+    /// the step: on a connected surface the distance between its ends shrinks, across a gap it does not.
     fn is_connected(
         &self,
         mut from: PathPoint,

@@ -35,10 +35,10 @@ pub struct Hit {
     pub triangle: u32,
     /// Weights of the triangle's three corners, sum 1.
     pub barycentric: [f64; 3],
-    /// Where, in the object's own space, as the surface has it at rest.
+    /// Where on the surface at rest, in the object's own space.
     pub position_in_model: DVec3,
-    /// Smooth normal of the painted side, unit. Of a sheet, which is painted on both sides, that of the side that was
-    /// met.
+    /// Smooth normal of the painted side, unit. A sheet is painted on both sides: there, the normal of the side that
+    /// was met.
     pub normal_in_model: DVec3,
     /// Normal of the flat triangle on the same side, unit.
     pub face_normal_in_model: DVec3,
@@ -48,12 +48,13 @@ pub struct Hit {
     pub distance: f64,
     /// Whether the painted side was met: false inside a closed surface.
     pub front: bool,
-    /// Whether the painted side is the triangle's back, seen from which its corners wind the other way.
+    /// Whether the painted side is the triangle's back, from where its corners wind clockwise.
     pub flipped: bool,
 }
 
 impl Picker {
-    /// Takes the objects' surfaces in the order of the scene, each with its shape. Returns how many trees had to be built.
+    /// Takes the objects' surfaces in the order of the scene, each with its shape. Returns how many trees had to be
+    /// built.
     pub fn update(&mut self, bodies: &[(Arc<BodySurface>, BodyShape)]) -> usize {
         let kept = std::mem::take(&mut self.trees);
         let offered = std::mem::take(&mut self.offered);
@@ -109,9 +110,9 @@ impl Picker {
         nearest
     }
 
-    /// The point of an object's surface at rest that is nearest to `position_in_model`, at most `max_distance` (model units)
-    /// from it. Only points whose painted side faces as `facing` does count. A sheet has two painted sides: the one
-    /// that faces so is taken.
+    /// The point of an object's surface at rest that is nearest to `position_in_model`, at most `max_distance` (model
+    /// units) from it. A point counts only if its painted side is less than 90 degrees from `facing`; one side of a
+    /// sheet always is.
     pub fn closest_on_surface(
         &self,
         object: usize,
@@ -122,7 +123,8 @@ impl Picker {
         self.trees.get(object)?.closest(position_in_model, max_distance, facing)
     }
 
-    /// Takes what is round a point near an object's surface at rest to where it is now, in the object's own space.
+    /// The map that carries the surroundings of a point near an object's surface at rest to where they are now, in the
+    /// object's own space.
     pub fn now_from_rest(&self, object: usize, at_rest: DVec3) -> DAffine3 {
         self.trees.get(object).map_or(DAffine3::IDENTITY, |tree| tree.now_from_rest(at_rest))
     }

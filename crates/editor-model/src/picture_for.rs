@@ -26,8 +26,8 @@ pub enum NoisePart {
 }
 
 impl PictureFor {
-    /// What a picture is for that is dropped on the window: the texture of the selected object. Where a region is selected, it
-    /// becomes its brush, otherwise that of the scene.
+    /// What a picture dropped on the window is for: the texture of the selected object, or the brush of the selected
+    /// region. If neither is selected, it is for the brush of the scene.
     pub fn dropped(selection: &Selection) -> Self {
         match selection.active() {
             Some(Item::Object(name)) => Self::Texture(name.clone()),
@@ -44,7 +44,7 @@ impl PictureFor {
         }
     }
 
-    /// What people call it: *the texture of apple*.
+    /// In words for users: *the texture of apple*.
     pub fn words(&self) -> String {
         match self {
             Self::Brush(StrokesOf::Scene) => "the brush of all strokes".to_owned(),
@@ -54,8 +54,8 @@ impl PictureFor {
         }
     }
 
-    /// The command that names a picture, by its path from the scene's folder; without a name, what was there before any was
-    /// named. `None` where the object is gone, or has no such noise.
+    /// The command that sets the picture to `name`, its path from the scene's folder, or to none. Returns `None` if the
+    /// object is gone, or has no such noise.
     pub fn command(&self, scene: &Scene, name: Option<String>) -> Option<Command> {
         let material_of = |object: &str| {
             let found = scene.objects.iter().find(|known| known.name == object)?;

@@ -241,7 +241,7 @@ impl Playback {
         (interval > 0.0).then(|| 1.0 / interval)
     }
 
-    /// The frame that the clock has reached, with its fraction.
+    /// The frame that the clock has reached, with its fraction; `None` while stopped.
     pub fn clock_frame(&self, now_secs: f64) -> Option<f64> {
         let playing = self.playing.as_ref()?;
         let frames = ((now_secs - playing.start_secs) * playing.course.fps).max(0.0);
@@ -250,7 +250,7 @@ impl Playback {
         Some(playing.frame_of((index as i64).min(end)) as f64 + (frames - index))
     }
 
-    /// The frame that will likely be asked for after the one that is drawn now.
+    /// The frame that will likely be asked for after the one that is drawn now; `None` while stopped.
     pub fn upcoming(&self) -> Option<f64> {
         let playing = self.playing.as_ref()?;
         let step = match playing.course.pacing {
@@ -263,7 +263,7 @@ impl Playback {
         Some(playing.frame_of(playing.asked.saturating_add(step)) as f64)
     }
 
-    /// Seconds until [`Playback::tick`] asks for another frame.
+    /// Seconds until [`Playback::tick`] asks for another frame; `None` while stopped.
     pub fn wait_secs(&self, now_secs: f64) -> Option<f64> {
         let playing = self.playing.as_ref()?;
         let next = match playing.course.pacing {

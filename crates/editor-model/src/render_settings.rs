@@ -80,11 +80,12 @@ pub struct RenderSettings {
     pub kind: FileKind,
     /// What EXR files hold beside the colour.
     pub aovs: AovChoice,
-    /// The files, relative to the scene's folder: `####` stands for the frame number. Its ending is that of the kind.
+    /// The pattern of the files, relative to the scene's folder: `####` stands for the frame number. Its ending is that
+    /// of the kind.
     pub output: String,
     /// What draws.
     pub driver: RenderDriver,
-    /// Without the tone under the paint and the background.
+    /// Whether the tone under the paint and the background are left out.
     pub transparent: bool,
 }
 
@@ -119,7 +120,7 @@ pub struct RenderPlan {
     pub size_px: [u32; 2],
     /// What draws.
     pub driver: RenderDriver,
-    /// Without the tone under the paint and the background.
+    /// Whether the tone under the paint and the background are left out.
     pub transparent: bool,
     /// What happens to files that are there.
     pub existing: Existing,
@@ -212,8 +213,8 @@ impl RenderPlan {
         Self { existing: Existing::Keep, ..self }
     }
 
-    /// The file of a frame; a frame that becomes two files has them under this name with either ending. A movie is the file of all its
-    /// frames.
+    /// The file of a frame. If a frame becomes two files, they have this name with either ending. A movie is one file
+    /// for all frames.
     pub fn path(&self, frame: i64) -> PathBuf {
         match self.kind {
             FileKind::Movie => self.output.clone(),
@@ -260,7 +261,7 @@ impl RenderPlan {
     pub fn ready(&self) -> Result<(), PlaceError> {
         ready_folder(&self.output)?;
         let inputs = self.loaded.inputs();
-        // Frames are pictures, so only a picture that the scene reads can be one of them.
+        // Frames may be many and inputs are few, so each input is looked up among the files of the frames.
         let files = |frame: i64| self.kind.files(&self.path(frame));
         let ours: HashSet<PathBuf> = self.frames.iter().flat_map(files).collect();
         let is_ours = |input: &&PathBuf| {

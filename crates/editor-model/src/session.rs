@@ -228,7 +228,7 @@ pub struct Session {
     pub frame_before_paint: Option<f64>,
     /// Whether playing begins again at the end of the range.
     pub looped: bool,
-    /// Whether the frames of a film that was played are painted exactly while the window rests.
+    /// Whether frames that were played are then painted exactly while the window rests.
     pub finishes: bool,
     /// Whether playing follows the clock or shows every frame.
     pub pacing: Pacing,
@@ -319,7 +319,7 @@ impl Session {
         self.lanes[usize::from(self.mode != Mode::Animate)] = shown;
     }
 
-    /// Takes a tool up. A tool of another mode is taken up in that mode; the mode stays.
+    /// Sets the tool of the mode that it belongs to; the current mode stays.
     pub fn set_tool(&mut self, tool: Tool) {
         if tool.is_for_paint() {
             self.paint_tool = tool;

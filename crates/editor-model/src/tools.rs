@@ -65,10 +65,10 @@ pub trait Painted {
     /// Index of the region at a hit, if there is one.
     fn region_at(&self, hit: &Hit) -> Option<usize>;
 
-    /// How strokes show at a hit now.
+    /// How strokes show at a hit now; `None` where none is near.
     fn shown_at(&self, hit: &Hit) -> Option<PaintedDirection>;
 
-    /// The factor that is painted onto an amount at a hit.
+    /// The factor that is painted onto an amount at a hit; `None` if the painting does not have the object.
     fn factor_at(&self, hit: &Hit, of: Amount) -> Option<f64>;
 
     /// Where a hit is at a frame; `None` where its object is at rest then.
@@ -129,7 +129,7 @@ pub struct ToolOutput {
     pub preview: Option<Command>,
     /// The command to apply, as one entry of the history.
     pub commit: Option<Command>,
-    /// A command to apply once the user agrees, with what it would change unasked: *Take 340 faces of skin?*
+    /// A command to apply once the user agrees, with what it takes from other regions: *340 triangles of skin*.
     pub ask: Option<(Command, String)>,
     /// Why nothing was done.
     pub refusal: Option<Refusal>,
@@ -235,12 +235,13 @@ impl<'a> Surroundings<'a> {
         self.poses.get(object).copied().unwrap_or(DAffine3::IDENTITY)
     }
 
-    /// Takes what is round a point of an object's own space, near its surface at rest, to where it is now in the world.
+    /// The map that carries the surroundings of a point near an object's surface at rest, in the object's own space, to
+    /// where they are now in the world.
     pub(crate) fn now_from_rest(&self, object: usize, position: DVec3) -> DAffine3 {
         self.pose(object) * self.picker.now_from_rest(object, position)
     }
 
-    /// Takes a point of an object's own space, near its surface at rest, to where it is now in the world.
+    /// Where a point near an object's surface at rest, in the object's own space, is now in the world.
     pub(crate) fn world(&self, object: usize, position: DVec3) -> DVec3 {
         self.now_from_rest(object, position).transform_point3(position)
     }

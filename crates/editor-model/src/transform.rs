@@ -361,8 +361,8 @@ impl Transforming {
         if self.snap == Snap::Steps { (by / STEP).round() * STEP } else { by }
     }
 
-    /// Of an axis through the pivot, the point that shows nearest to a pixel: its distance from the pivot along the
-    /// axis.
+    /// How far along an axis, from the pivot, the point of the axis lies that shows nearest to a pixel. 0 if the axis
+    /// points at the eye, or the pivot does not show.
     fn along_axis(&self, at_px: DVec2, along: DVec3) -> f64 {
         let [jx, jy] = self.view.map(DAffine3::IDENTITY).jacobian(self.pivot());
         let shown = DVec2::new(jx.dot(along), -jy.dot(along));

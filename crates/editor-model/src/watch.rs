@@ -33,8 +33,8 @@ pub enum News {
 }
 
 impl Watch {
-    /// Polls the document's files once. Reports a change once the file has been the same in two polls, so that it is
-    /// not still being written. Files that are new to the document are not reported.
+    /// Polls the document's files once. A changed file is reported only when two polls find it the same, because before
+    /// that it may still be being written. Files that are new to the document are not reported.
     pub fn look(&mut self, document: &Document) -> Option<News> {
         let paths = document.files_on_disk();
         self.files.retain(|path, _| paths.contains(path));

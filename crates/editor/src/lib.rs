@@ -21,10 +21,10 @@ pub use options::EditOptions;
 /// Why the editor did not open.
 #[derive(Debug, thiserror::Error)]
 pub enum EditError {
-    /// The file or the shaders cannot be used, with the words that say why.
+    /// The file or the shaders cannot be used; the text says why.
     #[error("{0}")]
     Refused(String),
-    /// The window could not be opened, or broke off.
+    /// The window could not be opened, or failed while it was open.
     #[error(transparent)]
     Window(#[from] window::WindowError),
 }

@@ -16,7 +16,7 @@ pub struct EditOptions {
     pub dialogs: Source,
     /// A folder of shaders that replace the program's own.
     pub shaders: Option<PathBuf>,
-    /// Goes where another program is, which says so on standard input.
+    /// Whether to follow another program, which writes its frame and view to standard input.
     pub follow: bool,
     /// Called with a report for tests and scripts: what the window shows whenever its exact pictures are done, the
     /// frames that are played, and where the controls are.

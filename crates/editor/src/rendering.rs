@@ -31,7 +31,7 @@ const CLOSING: Duration = Duration::from_millis(1500);
 /// Longest side of the small copy of the last frame, in pixels.
 const SMALL_PX: u32 = 480;
 
-/// A sequence that is being rendered. Dropping it stops it; frames that were written stay, whole.
+/// A sequence that is being rendered. Dropping this stops the rendering; frames that were written stay, and are whole.
 pub struct Rendering {
     shared: Arc<Shared>,
     plan: RenderPlan,
@@ -251,7 +251,7 @@ fn run(
     }
 }
 
-/// How the movie of a plan is encoded; `None` where it makes none.
+/// How the movie of a plan is encoded; `None` if the plan makes no movie.
 fn encoding(plan: &RenderPlan) -> Result<Option<&'static Encoding>, MovieError> {
     let Some(kind) = Kind::of(plan.output()).filter(|_| plan.kind == FileKind::Movie) else {
         return Ok(None);

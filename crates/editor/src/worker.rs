@@ -2,7 +2,7 @@
 //! and polls for results.
 //!
 //! ```text
-//! Worker::show(Job) ─▶ mailbox (one job, the latest) ─▶ prepare ─▶ draft ─▶ rest ─▶ exact ─▶ film ─▶ tray ─▶ Worker::poll
+//! Worker::show(Job) ─▶ mailbox (the latest job) ─▶ prepare ─▶ draft ─▶ rest ─▶ exact ─▶ film ─▶ tray ─▶ Worker::poll
 //! ```
 
 use std::sync::Arc;
@@ -49,8 +49,8 @@ pub struct Job {
 pub struct Later {
     /// During playback, the same views at the next frame: computed while those of the job are drawn.
     pub ahead: Vec<ViewJob>,
-    /// At rest, the view of each frame of the film, the next to be seen first: drawn exactly and kept, once the views of the
-    /// job are exact.
+    /// At rest, the view of each frame of the film, the next to be seen first. They are drawn exactly and kept, once
+    /// the views of the job are exact.
     pub film: Vec<ViewJob>,
 }
 

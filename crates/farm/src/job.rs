@@ -1,11 +1,11 @@
-//! What a farm is asked for, whatever its words are.
+//! A job for a farm: which frames of which scene to paint, independent of the format that the farm takes.
 
 use impasto_frame_files::FrameList;
 
 /// A shot to be painted, frame by frame.
 #[derive(Clone, Debug)]
 pub struct Job {
-    /// What people know it by.
+    /// Its name, for people.
     pub name: String,
     /// The scene, as the machines of the farm find it.
     pub scene: String,
@@ -21,7 +21,7 @@ pub struct Job {
     pub fps: f64,
 }
 
-/// Frames, from low to high, each once, as runs with one step.
+/// Frames, from low to high, each once, stored as runs of constant step.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Frames {
     runs: Vec<Run>,
@@ -68,7 +68,7 @@ impl Frames {
             while end < all.len() && all[end] - all[end - 1] == step {
                 end += 1;
             }
-            // Two that are far apart are two alone, so that the second may begin a run of its own.
+            // Two frames that are no neighbours make no run, so that the second may begin one.
             if end - at == 2 && step > 1 {
                 end = at + 1;
             }

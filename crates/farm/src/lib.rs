@@ -1,5 +1,6 @@
-//! Shots on many machines. [`pack`] puts everything that a shot needs into one file or folder; [`job`] writes what a farm is asked for, in
-//! the words of [`openjd`] or [`slurm`]. There is no scheduler here: the farms that people have do that.
+//! Shots on many machines. [`pack`] puts everything that a shot needs into one file or folder. A [`job`] says what a
+//! farm is to paint, and [`openjd`] or [`slurm`] writes it in a format that farms take. There is no scheduler here:
+//! users bring their own.
 
 pub mod job;
 pub mod openjd;

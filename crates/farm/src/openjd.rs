@@ -1,4 +1,5 @@
-//! Jobs as Open Job Description templates (`jobtemplate-2023-09`), which AWS Deadline Cloud and the `openjd` command run.
+//! Jobs as Open Job Description templates (`jobtemplate-2023-09`), which AWS Deadline Cloud and the `openjd` command
+//! run.
 
 use std::fmt::Write as _;
 

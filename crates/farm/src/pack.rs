@@ -1,5 +1,6 @@
-//! Everything that a shot needs in one folder or `.tar` file: the scene as its file stands, and all files that were read with it, each at
-//! the place where its name finds it without further folders. Equal inputs give equal bytes on every machine.
+//! Packs everything that a shot needs into one folder or `.tar` file: the scene file unchanged, and all files that were
+//! read with it. Each lies where the scene finds it without further folders. Equal inputs give equal bytes on every
+//! machine.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -14,13 +15,13 @@ use sha2::{Digest, Sha256};
 /// The list of the files, in the pack beside them.
 pub const LIST_NAME: &str = "pack.json";
 
-/// When every file of a `.tar` was written, as far as it says: 1980-01-01, which all formats know.
+/// The time that a `.tar` states for every file: 1980-01-01, which all archive formats can hold.
 const WRITTEN_S: u64 = 315_532_800;
 
 /// Why a shot is not packed, or a pack is not whole.
 #[derive(Debug, thiserror::Error)]
 pub enum PackError {
-    /// A file that is used from outside the scene's folder, and has no place in it.
+    /// A file from outside the scene's folder is used under a name that no place in the pack can have.
     #[error("{} is used from outside the scene's folder under a name that finds it nowhere else: copy it into the scene's folder", .0.display())]
     NoPlace(PathBuf),
     /// Two files that would lie at one place.
@@ -36,7 +37,7 @@ pub enum PackError {
     /// A file has a name that is not text.
     #[error("{} has a name that is not UTF-8: rename it", .0.display())]
     NotText(PathBuf),
-    /// Something is there already.
+    /// The folder to pack into exists already.
     #[error("{} is there already: name a new folder, or a .tar file", .0.display())]
     IsThere(PathBuf),
     /// A name that promises another kind of archive.
@@ -66,12 +67,12 @@ pub enum PackError {
         /// What is wrong.
         what: String,
     },
-    /// Files of a pack that are not those that the list has, each with what is wrong.
+    /// Files of a pack differ from its list.
     #[error("{} is not as it was packed: {}; unpack it again, or pack the shot again if it was edited", folder.display(), some_of(wrong))]
     FilesChanged {
         /// The folder.
         folder: PathBuf,
-        /// The files.
+        /// The files, each with what is wrong.
         wrong: Vec<String>,
     },
     /// The system would not read or write.
@@ -84,7 +85,7 @@ pub enum PackError {
     },
 }
 
-/// The first few of many.
+/// The first few of many, and how many more there are.
 fn some_of(wrong: &[String]) -> String {
     const SHOWN: usize = 5;
     let mut words = wrong[..wrong.len().min(SHOWN)].join(", ");
@@ -190,11 +191,11 @@ pub fn check(folder: &Path) -> Result<PackList, PackError> {
     }
 }
 
-/// What is wrong with a file of a pack.
+/// What is wrong with a file of a pack; `None` if it is as it was packed.
 fn what_changed(folder: &Path, known: &PackedFile) -> Option<String> {
     let read = || -> io::Result<(u64, String)> {
         let file = File::open(folder.join(&known.path))?;
-        // Whatever its length is now, no more is read than it had.
+        // However long the file is now, at most one byte more is read than it had.
         let mut summed = Summed::new(file.take(known.bytes.saturating_add(1)));
         io::copy(&mut summed, &mut io::sink())?;
         Ok(summed.finish())
@@ -268,7 +269,7 @@ fn fill(
     into.add(LIST_NAME, text.len() as u64, &mut text.as_bytes())
 }
 
-/// What is packed into.
+/// A pack that is being written.
 trait Target {
     /// Adds a file of this length.
     fn add(&mut self, place: &str, length: u64, content: &mut dyn Read) -> Result<(), PackError>;
@@ -302,7 +303,7 @@ impl<W: Write> Target for Tar<W> {
         header.set_mtime(WRITTEN_S);
         header.set_entry_type(tar::EntryType::Regular);
         let path = format!("{}/{place}", self.folder);
-        // What is shorter than it was is filled up, so that the tar file stays one until this is noticed.
+        // A file that has become shorter is filled up with zeros, so that the tar stays valid until `fill` sees it.
         let mut whole = content.chain(io::repeat(0)).take(length);
         self.builder
             .append_data(&mut header, &path, &mut whole)
@@ -310,7 +311,7 @@ impl<W: Write> Target for Tar<W> {
     }
 }
 
-/// A reader that sums what is read.
+/// A reader that hashes and counts the bytes that are read.
 struct Summed<R> {
     read: R,
     sum: Sha256,

@@ -1,4 +1,4 @@
-//! Text in the words of shells and of YAML.
+//! Quotes text for shells and for YAML.
 
 /// A word of a shell: as it is where it holds nothing special, else in quotes.
 pub(crate) fn of_shell(text: &str) -> String {
@@ -10,7 +10,7 @@ pub(crate) fn of_shell(text: &str) -> String {
     }
 }
 
-/// A text of YAML: those of JSON are.
+/// A YAML string. Every JSON string is one.
 pub(crate) fn of_yaml(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }

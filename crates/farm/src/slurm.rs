@@ -3,16 +3,17 @@
 use crate::job::Job;
 use crate::quoting::of_shell;
 
-/// The most tasks that one array may have where nobody has raised `MaxArraySize`.
+/// The most tasks that one array may have if Slurm's `MaxArraySize` was not raised.
 const MOST_TASKS: usize = 1000;
 
-/// Frames of a task, where nobody says how many.
+/// Frames of a task, if the user does not say how many.
 const USUAL_FRAMES: usize = 10;
 
-/// The script of a job. `sbatch` paints the frames; run by a shell, it also makes the movie when they are done, if one is wanted.
+/// The script of a job. Submitted by `sbatch`, it paints the frames. Run by a shell, it also makes the movie when they
+/// are done, if one is wanted.
 ///
 /// # Errors
-/// Words that say why: tasks of `frames_a_task` are too many for one array.
+/// Words that say that tasks of `frames_a_task` frames are too many for one array.
 pub fn script(job: &Job, frames_a_task: Option<usize>) -> Result<String, String> {
     let count = job.frames.count();
     let least = count.div_ceil(MOST_TASKS);

@@ -1,4 +1,4 @@
-//! EXR files: one part with all channels, compressed without loss, the same bytes for the same picture.
+//! EXR files: one part with all channels, lossless, the same bytes for the same picture.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -22,7 +22,7 @@ use crate::picture_file::Provenance;
 pub enum Samples {
     /// 16 bits, for colours and for what needs no more.
     Half(Vec<f16>),
-    /// 32 bits, for measures.
+    /// 32 bits, for measured values such as depth.
     Float(Vec<f32>),
     /// Whole numbers.
     Uint(Vec<u32>),
@@ -69,17 +69,18 @@ pub enum Note {
 pub struct ExrPicture {
     /// Width and height in pixels.
     pub size_px: [u32; 2],
-    /// Its channels; two never have one name.
+    /// Its channels; each has another name.
     pub channels: Vec<Channel>,
     /// Frames per second.
     pub fps: f64,
-    /// From the world to the camera, and from the world to the picture (−1..1 each way): for row vectors, row by row.
+    /// The matrices from world to camera space and from world to clip space (−1..1 over the picture), for row vectors,
+    /// row by row.
     pub from_world: [[f32; 16]; 2],
     /// Notes by name, beside those that every file has.
     pub notes: Vec<(String, Note)>,
 }
 
-/// No byte of a ZIP holds more than this many.
+/// Deflate, the compression of ZIP, makes at most this many bytes of one.
 const MOST_SHRUNK: u64 = 1032;
 
 /// Rec. 709 with the white of D65.
@@ -96,7 +97,7 @@ pub enum Packing {
     /// Compressed (ZIP, 16 rows at a time).
     #[default]
     Small,
-    /// As it is, row by row: for a program that waits for it, reads it once and removes it.
+    /// Uncompressed, row by row: for a program that waits for the file, reads it once and removes it.
     Plain,
 }
 
@@ -159,7 +160,7 @@ pub struct Planes {
     pub values: Vec<Vec<f32>>,
 }
 
-/// Reads channels of a file. A picture that is larger than a scene's may be is not read.
+/// Reads channels of a file. A picture with more pixels than a scene may have is refused.
 ///
 /// # Errors
 /// What is wrong with the file, or the first channel that it lacks.
@@ -279,7 +280,7 @@ mod tests {
                 _ => panic!("{name} has another type"),
             }
         }
-        // The library gives notes of its users to the layer.
+        // The library stores custom notes in the layer.
         let other = &image.layer_data.attributes.other;
         assert_eq!(other.get(&text("Scene")), Some(&AttributeValue::Text(text("Café.ron"))));
         assert_eq!(other.get(&text("note 4")), Some(&AttributeValue::Text(text("Äpfel 日"))));

@@ -1,8 +1,8 @@
-//! The head of an EXR file as bytes: its attributes in a fixed order, and where its picture ends.
+//! The head of an EXR file as bytes: sorts its attributes, and tells whether the file ends where its head says.
 //!
-//! A file begins with a magic number and a version; then come attributes, each a name and a type that end in a zero, a size of 4
-//! bytes and a value, and a zero after the last. Then a table says at which byte of the file each block of rows begins; a block
-//! begins with its first row and its size.
+//! A file begins with a magic number and a version. Then come attributes, and a zero after the last. An attribute is a
+//! name and a type, which end in a zero each, a size in 4 bytes, and a value. Then a table says at which byte of the
+//! file each block of rows begins. A block begins with the number of its first row, and its size.
 
 use std::fs::File;
 use std::io::{Read as _, Seek as _, SeekFrom};
@@ -14,10 +14,10 @@ const MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 /// Where the first attribute begins.
 const FIRST: usize = 8;
 
-/// A head longer than this is not ours.
+/// Longer heads are not read; ours are shorter.
 const LONGEST: u64 = 64 << 20;
 
-/// The attributes and the end of the head; `None` where the bytes end before it does.
+/// Where the attributes are and where the head ends; `None` if the bytes end before the head does.
 fn attributes(bytes: &[u8]) -> Option<(Vec<Range<usize>>, usize)> {
     let mut found = Vec::new();
     let mut at = FIRST;
@@ -32,8 +32,8 @@ fn attributes(bytes: &[u8]) -> Option<(Vec<Range<usize>>, usize)> {
     Some((found, at + 1))
 }
 
-/// Sorts the attributes by name, so that equal pictures give equal bytes. The head stays as long as it was, so all places in the file
-/// still hold.
+/// Sorts the attributes by name, so that equal pictures give equal bytes. The head stays as long as it was, so the
+/// offsets in the table stay right.
 pub(crate) fn sort_attributes(bytes: &mut [u8]) {
     let Some((mut ranges, end)) = attributes(bytes) else { return };
     ranges.sort_by(|left, right| bytes[left.clone()].cmp(&bytes[right.clone()]));
@@ -46,16 +46,17 @@ pub(crate) fn is_whole(path: &Path) -> bool {
     ends_with_its_last_block(path).unwrap_or(false)
 }
 
-/// The attribute of this name, if it is a text.
+/// The attribute of this name; `None` if there is none, or it is no text.
 pub(crate) fn text(path: &Path, name: &str) -> Option<String> {
     let (head, ranges, _) = head(&mut File::open(path).ok()?)?;
     let start = [name.as_bytes(), b"\0string\0"].concat();
     let value = ranges.into_iter().find_map(|range| head[range].strip_prefix(&*start))?;
-    // Its length comes first.
+    // The size comes first.
     Some(String::from_utf8_lossy(value.get(4..)?).into_owned())
 }
 
-/// The head of a file, its attributes, and where it ends; `None` where it is cut or none.
+/// The head of a file, where its attributes are, and where it ends; `None` if the head is cut, or not that of an EXR
+/// file.
 fn head(file: &mut File) -> Option<(Vec<u8>, Vec<Range<usize>>, usize)> {
     let length = file.metadata().ok()?.len();
     let mut head = Vec::new();
@@ -84,7 +85,7 @@ fn ends_with_its_last_block(path: &Path) -> Option<bool> {
         file.read_exact(&mut value[..bytes]).ok()?;
         Some(u64::from_le_bytes(value))
     };
-    // The first block follows the table, so it tells how long that is.
+    // The first block follows the table, so the offset of that block tells where the table ends.
     let first = number(end as u64, 8)?;
     let mut last = 0;
     let mut entry = end as u64;

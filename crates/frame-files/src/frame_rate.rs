@@ -1,13 +1,13 @@
 //! Frames per second as a fraction, as files state it.
 
-/// Rates of television are meant to be over 1001: 23.976 is 24000/1001.
+/// The denominator of television rates: 23.976 stands for 24000/1001.
 const OF_TELEVISION: u32 = 1001;
 
-/// How far a rate may be from a fraction that is meant.
+/// How far, as a share of itself, a rate may be from the television rate that it stands for.
 const NEAR: f64 = 1e-4;
 
-/// A rate as a fraction in lowest terms: whole numbers, those of television, and any other to 1/1000. Both numbers are at least 1, and
-/// below 2^16 for rates up to 65 frames a second.
+/// A rate as a fraction in lowest terms: a whole number, a television rate, or any other rate to 1/1000. Both numbers
+/// are at least 1, and below 2^16 for rates up to 65 frames a second.
 pub(crate) fn fraction(fps: f64) -> [u32; 2] {
     let fps = fps.clamp(0.001, 2e6);
     let nearest = |under: u32| {
@@ -20,7 +20,7 @@ pub(crate) fn fraction(fps: f64) -> [u32; 2] {
     {
         return [over, 1];
     }
-    // 30000/1001, not 29970/1000.
+    // 29.97 becomes 30000/1001, not 29970/1000.
     let whole = (fps * f64::from(OF_TELEVISION) / 1000.0).round();
     if (whole * 1000.0 / f64::from(OF_TELEVISION) - fps).abs() < NEAR * fps {
         return [whole as u32 * 1000, OF_TELEVISION];

@@ -109,7 +109,7 @@ pub fn read(path: &Path) -> Result<FramePixels, FrameFileError> {
     Ok(FramePixels { size_px: info.size_px, depth: info.depth, rgba })
 }
 
-/// Opens a file up to its pixels, and holds what it claims against its length.
+/// Opens a file, reads it up to its pixels, and checks that the claimed picture fits the file's length.
 fn open(path: &Path) -> Result<(Reader<BufReader<File>>, FrameInfo), FrameFileError> {
     let unreadable = |error: std::io::Error| match error.kind() {
         std::io::ErrorKind::NotFound => FrameFileError::Missing(path.to_owned()),
@@ -161,7 +161,7 @@ fn decoding(path: &Path, error: DecodingError) -> FrameFileError {
     }
 }
 
-/// Puts an opaque alpha behind each pixel of so many channels.
+/// Appends an opaque alpha to each pixel.
 fn with_alpha(pixels: &[u8], channels: usize, channel_bytes: usize) -> Vec<u8> {
     let mut rgba = Vec::with_capacity(pixels.len() / channels * 4);
     for pixel in pixels.chunks_exact(channels * channel_bytes) {
@@ -171,7 +171,7 @@ fn with_alpha(pixels: &[u8], channels: usize, channel_bytes: usize) -> Vec<u8> {
     rgba
 }
 
-/// Makes colours of pixels of one channel, or two where the second is alpha.
+/// Makes RGBA of grey pixels. If they have two channels, the second is alpha.
 fn of_grey(pixels: &[u8], channels: usize, channel_bytes: usize) -> Vec<u8> {
     let mut rgba = Vec::with_capacity(pixels.len() / channels * 4);
     for pixel in pixels.chunks_exact(channels * channel_bytes) {
@@ -193,7 +193,7 @@ impl FramePixels {
         }
     }
 
-    /// The same picture with so many bits a channel, each value to the nearest.
+    /// The same picture at another depth, each value rounded to the nearest.
     #[must_use]
     pub fn at_depth(self, depth: Depth) -> Self {
         let rgba = match (self.depth, depth) {
@@ -207,7 +207,7 @@ impl FramePixels {
         Self { rgba, depth, ..self }
     }
 
-    /// Lays the picture over black, as programs do that blend sRGB values, so that it is opaque.
+    /// Makes the picture opaque by laying it over black. Blends sRGB values, as most programs do.
     pub fn lay_over_black(&mut self) {
         match self.depth {
             Depth::Eight => {

@@ -1,5 +1,5 @@
-//! Rendered frames as files: lists of frames, their file names, PNG and EXR, written and read. The command line and the editor write the same
-//! bytes because both write them here.
+//! Rendered frames as files: lists of frames, their file names, and PNG and EXR files, written and read. The command
+//! line and the editor write the same bytes because both write them here.
 
 pub mod exr_file;
 mod exr_header;
@@ -14,7 +14,7 @@ pub use frame_list::FrameList;
 pub use pattern::Pattern;
 pub use place::{PlaceError, not_an_input, ready_folder};
 
-/// Whether a frame's file is there and whole. A file that was cut, or that is none of its kind, is to be written again.
+/// Whether a frame's file is there and whole. A file that was cut, or that is not what its ending says, is not whole.
 pub fn is_whole(path: &std::path::Path) -> bool {
     match path.extension() {
         Some(extension) if extension.eq_ignore_ascii_case("exr") => exr_header::is_whole(path),
@@ -22,12 +22,14 @@ pub fn is_whole(path: &std::path::Path) -> bool {
     }
 }
 
-/// The scene that a frame of ours was painted from, as its file says; `None` where it does not.
+/// The name of the scene file that a frame was painted from, which Impasto notes in the frame's file; `None` without
+/// such a note.
 pub fn scene_of(path: &std::path::Path) -> Option<String> {
     note(path, "Scene")
 }
 
-/// The state of its scene and settings that a frame of ours was painted from, as its file says; `None` where it does not.
+/// The state of scene and settings that a frame was painted from, which Impasto notes in the frame's file; `None`
+/// without such a note.
 pub fn state_of(path: &std::path::Path) -> Option<String> {
     note(path, "State").filter(|state| !state.is_empty())
 }

@@ -52,8 +52,8 @@ impl Pattern {
         self.digits.is_some()
     }
 
-    /// The numbers of the frames whose files are there, from low to high. A file counts only if its name is the one that
-    /// [`Pattern::path`] gives.
+    /// The numbers of the frames whose files are there, from low to high. A file counts only if its name is the one
+    /// that [`Pattern::path`] gives.
     ///
     /// # Errors
     /// What the system said about the folder.

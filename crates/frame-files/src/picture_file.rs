@@ -13,7 +13,7 @@ use crate::frame_rate::fraction;
 pub struct Provenance {
     /// The scene's file name.
     pub scene: String,
-    /// A sum of the scene, the files that it reads and the settings; empty where it is not known.
+    /// A hash of the scene, the files that it reads and the settings; empty if it is not known.
     pub state: String,
     /// The frame's number, or what the picture shows instead.
     pub frame: String,
@@ -90,7 +90,7 @@ pub(crate) fn is_whole(path: &Path) -> bool {
     last().unwrap_or(false)
 }
 
-/// Begins an animated PNG of this many pictures, to be written to it one after the other.
+/// Begins an animated PNG. This many pictures must then be written to it, one after the other.
 ///
 /// # Errors
 /// What the disk or the encoder said.
@@ -112,7 +112,7 @@ pub fn begin_animation<'a>(
     Ok(encoder.write_header()?)
 }
 
-/// The text that a PNG file has under this keyword, before its pixels.
+/// The text that a PNG file has under this keyword, before its pixels; `None` if it has none, or is no PNG file.
 pub(crate) fn text(path: &Path, keyword: &str) -> Option<String> {
     let limits = png::Limits { bytes: 1 << 20 };
     let file = BufReader::new(File::open(path).ok()?);

@@ -8,7 +8,7 @@ use impasto_painting::frame::FrameBody;
 use crate::gl::{Bound, GlError, Gpu, Program, ProgramSource, ShaderFile};
 use crate::meshes::Part;
 
-/// The uniforms of `shared/body.glsl`, and what takes normals to the world, which not all programs read.
+/// Uniforms that all programs of bodies read, and those that only some read.
 const POSE: [&str; 1] = ["world_from_model"];
 const NORMALS: [&str; 1] = ["world_from_normal"];
 
@@ -20,11 +20,12 @@ pub(crate) struct BodyProgram {
     gpu: Gpu,
     files: &'static [&'static [ShaderFile]],
     source: ProgramSource<'static>,
-    /// Of bodies without holes, and of bodies into which a texture cuts holes; the second is created when it is first needed.
+    /// For bodies without holes, and for bodies into which a texture cuts holes; the second is created when first
+    /// needed.
     variants: [Option<Program>; 2],
 }
 
-/// Below this share, squares of lengths may differ by the rounding of the pose to single precision alone.
+/// Rounding a pose to single precision makes squares of lengths differ by less than this share.
 const UNEVEN: f64 = 1e-4;
 
 /// What takes normals from model space to the world: the pose itself, or, where that scales directions differently, its inverse
@@ -69,8 +70,8 @@ impl BodyProgram {
         Ok(())
     }
 
-    /// Starts to draw a part of a body: sets the uniforms of `shared/body.glsl` and `shared/cutout.glsl`. Textures cut it out only
-    /// after [`BodyProgram::prepare`].
+    /// Starts to draw a part of a body: sets the uniforms of `shared/body.glsl` and `shared/cutout.glsl`. Unless
+    /// [`BodyProgram::prepare`] was called for its frame, no holes are cut.
     pub(crate) fn bind<'a>(&'a self, body: &FrameBody, part: &Part) -> Bound<'a> {
         let usual = || self.variants[0].as_ref().expect("the usual variant is always made");
         let wanted = self.variants[usize::from(part.cutoff.is_some())].as_ref();

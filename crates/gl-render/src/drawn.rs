@@ -16,11 +16,11 @@ pub struct Picture {
 pub struct ResolvedStroke {
     /// Display-linear colour.
     pub color_linear: [f32; 3],
-    /// Presence times the visible share of the stroke's centre, 0..=1.
+    /// How far the stroke is there: its presence, less as far as bodies hide it, 0..=1.
     pub alpha: f32,
     /// Centre in pixels, origin at the lower left, moved along the stroke so that it lies on its body.
     pub center_px: [f32; 2],
-    /// What was added to its angle so that a line lies along the end of its body, radians.
+    /// What was added to the stroke's angle, radians: a contour stroke is turned along the end of its body.
     pub turned_rad: f32,
 }
 
@@ -54,11 +54,11 @@ pub struct ReferencePixels {
 /// The surfaces that the last picture shows, top row first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfacePixels {
-    /// Colour without light, linear Rec. 709; the last number is 1 where light falls on it.
+    /// Colour without light, linear Rec. 709; the last number is 1 where the surface is lit, 0 where it is unlit.
     pub albedo: Vec<[f16; 4]>,
     /// Unit normal in world space, towards the eye; the last number is the gloss.
     pub normal: Vec<[f16; 4]>,
-    /// Light that falls, and how much of the first sun arrives.
+    /// Light that arrives; the last number is how much arrives of the light that casts shadows, 0..=1.
     pub light: Vec<[f16; 4]>,
     /// How open the place is, 0..=1.
     pub openness: Vec<f16>,

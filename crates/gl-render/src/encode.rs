@@ -28,7 +28,7 @@ impl Painted {
     }
 }
 
-/// Where a style leaves its picture; made when the style is about to.
+/// Where a style leaves its picture. The target is made when the style asks for the pass.
 pub(crate) struct Output<'a> {
     pub(crate) gpu: &'a Gpu,
     pub(crate) size_px: [u32; 2],
@@ -36,7 +36,7 @@ pub(crate) struct Output<'a> {
 }
 
 impl Output<'_> {
-    /// The pass that writes it.
+    /// The pass that writes the picture.
     pub(crate) fn pass(&mut self) -> Result<&Framebuffer, GlError> {
         let painted = Painted::of_size(self.gpu, self.painted.take(), self.size_px)?;
         Ok(&self.painted.insert(painted).pass)
@@ -67,7 +67,8 @@ impl Encoder {
         self.target = None;
     }
 
-    /// Encodes a picture, brightened by this factor; returns where it stands as sRGB bytes with straight alpha.
+    /// Encodes a picture, brightened by this factor. Returns the target that holds it as sRGB bytes with straight
+    /// alpha.
     pub(crate) fn encode(&mut self, painted: &Painted, exposure: f32) -> Result<&Framebuffer, GlError> {
         let size_px = painted.pass.size_px();
         let target = match self.target.take() {

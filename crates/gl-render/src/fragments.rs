@@ -11,7 +11,7 @@ use crate::gl::{Buffer, BufferUse, GlError, Gpu};
 /// What a fragment takes: pixel; stroke and alpha; colour.
 const FRAGMENT_BYTES: usize = 12;
 
-/// Before the fragments stands how many there are.
+/// The number of fragments, which the buffer begins with.
 const COUNT_BYTES: usize = 4;
 
 /// The most that fragments may take on the graphics card at a time.
@@ -23,10 +23,10 @@ const ALPHA_BITS: u32 = 10;
 /// The most strokes of a picture that can be told apart.
 pub(crate) const MOST_STROKES: usize = 1 << (32 - ALPHA_BITS);
 
-/// Less than this of a pixel is not kept.
+/// Shares of a pixel below this are dropped.
 const LEAST_SHARE: f32 = 1.0 / 2048.0;
 
-/// The brightest colour of paint that is told from brighter ones.
+/// The largest stored value of a channel of paint; larger ones are clamped.
 const BRIGHTEST: f32 = 2.0;
 
 /// How much of a pixel shows a stroke.
@@ -53,7 +53,7 @@ impl PixelShares {
         &self.shares[self.starts[pixel] as usize..self.starts[pixel + 1] as usize]
     }
 
-    /// Puts rows of pixels together.
+    /// Joins rows of pixels: for each row, how many shares each pixel has, and the shares of all its pixels.
     pub fn from_rows(rows: Vec<(Vec<u32>, Vec<Share>)>) -> Self {
         let mut starts = vec![0];
         let mut shares = Vec::with_capacity(rows.iter().map(|(_, shares)| shares.len()).sum());
@@ -162,7 +162,7 @@ impl FragmentGatherer {
     }
 }
 
-/// A fragment's colour, premultiplied by nothing.
+/// A fragment's colour, not premultiplied, display-linear.
 fn color(word: u32) -> [f32; 3] {
     let root = |bits: u32, shift: u32| (word >> shift & ((1 << bits) - 1)) as f32 / ((1 << bits) - 1) as f32;
     [root(11, 0), root(11, 11), root(10, 22)].map(|root| root * root * BRIGHTEST)
@@ -242,8 +242,7 @@ mod tests {
         [pixel, stroke << ALPHA_BITS | (alpha * 1023.0).round() as u32, word]
     }
 
-    /// Two strokes at half their alpha over each other leave a quarter to see through; which came first in the buffer does not
-    /// matter.
+    /// Two strokes of alpha ½ over each other leave a quarter see-through, in whichever order the buffer has them.
     #[test]
     fn strokes_lie_over_each_other_in_their_order_whatever_that_of_their_fragments() {
         let red = fragment(1, 7, 0.5, [1.0, 0.0, 0.0]);

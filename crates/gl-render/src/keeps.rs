@@ -2,8 +2,8 @@
 
 use impasto_painting::frame::Style;
 
-/// Pictures of more pixels are huge: making their targets anew costs little beside drawing them, and keeping all of them to the end of the
-/// picture takes twice the memory.
+/// Pictures of more pixels than this are huge: making their targets anew costs little beside drawing them, and keeping
+/// all targets to the end of the picture takes twice the memory.
 const HUGE_PX: u64 = 16 << 20;
 
 /// What can be read of a picture beside its colour, its depth and its bodies, once it is drawn. The less is kept, the less memory a
@@ -20,8 +20,8 @@ pub enum Keeps {
 }
 
 impl Keeps {
-    /// What to keep of a picture of this size whose surfaces will be asked for, or not, and whose paint will not: everything, unless it
-    /// is huge.
+    /// What to keep of a picture of this size whose paint will not be read: everything, unless the picture is huge.
+    /// `surfaces` says whether its surfaces will be read.
     pub fn of_size(size_px: [u32; 2], surfaces: bool) -> Self {
         let is_huge = size_px.map(u64::from).iter().product::<u64>() > HUGE_PX;
         match (is_huge, surfaces) {
@@ -31,12 +31,13 @@ impl Keeps {
         }
     }
 
-    /// What drawing a picture in a style takes of a pixel at most, bytes, where a pixel has so many samples a side.
+    /// The most memory that drawing a picture in this style takes, bytes per pixel. A pixel has `samples` samples along
+    /// each axis.
     pub fn bytes_per_px(self, style: &Style, samples: u32) -> u64 {
         let fine = if samples > 1 { u64::from(samples * samples) * 12 } else { 0 };
-        // The surface of the samples.
+        // The body in the middle of each pixel and its share, found from the samples.
         let surface = if samples > 1 { 8 } else { 0 };
-        // The ink style draws from what only light is found from.
+        // The ink style reads the unlit targets of the reference pass.
         let (paint, reads_unlit) = match style {
             Style::RotatingStrokes(_) => (21, false),
             Style::SumiE(_) => (33, true),
@@ -53,7 +54,7 @@ impl Keeps {
         drawn + else_taken
     }
 
-    /// Whether a target is let go once nobody draws from it any more.
+    /// Whether a target is let go as soon as no later pass reads it.
     pub(crate) fn lets_go(self) -> bool {
         self != Self::Everything
     }

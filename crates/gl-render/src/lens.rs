@@ -9,13 +9,13 @@ use crate::gl::Bound;
 pub(crate) const LENS_UNIFORMS: [&str; 5] =
     ["world_from_view", "size_px", "gaze_px", "px_per_unit_at_1", "orthographic"];
 
-/// Those that a shader uses which asks only where a pixel's ray goes.
+/// The uniforms of a shader that only computes the rays of pixels.
 pub(crate) const RAY_UNIFORMS: [&str; 4] = ["world_from_view", "gaze_px", "px_per_unit_at_1", "orthographic"];
 
-/// Those that a shader uses which asks only how large things show.
+/// The uniforms of a shader that only computes how large things show.
 pub(crate) const SCALE_UNIFORMS: [&str; 3] = ["size_px", "px_per_unit_at_1", "orthographic"];
 
-/// Those that a shader in view space uses.
+/// The uniforms of a shader that works in view space.
 pub(crate) const VIEW_LENS_UNIFORMS: [&str; 4] = ["size_px", "gaze_px", "px_per_unit_at_1", "orthographic"];
 
 /// The values of these uniforms in one frame.
@@ -32,7 +32,7 @@ pub(crate) struct LensSetup {
 
 impl LensSetup {
     pub(crate) fn new(view: &FrameView, size_px: [u32; 2]) -> Self {
-        // What is added after the division by w stands before it in the column that w is made of.
+        // What is added after the division by w is, before the division, added in the column that makes w.
         let shift = if view.orthographic { view.clip_from_view.w_axis } else { -view.clip_from_view.z_axis };
         let size = UVec2::from(size_px).as_vec2();
         Self {

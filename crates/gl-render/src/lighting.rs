@@ -24,8 +24,9 @@ pub(crate) const LIGHT_UNIFORMS: [&str; 9] = [
 /// Rows of the texture of lights.
 const ROWS: usize = 3;
 
-/// What shaders read of a light: where it is; what it radiates, and the slope of a cone's edge; a cone's axis, and the height of its
-/// edge. Light within a cone is (slope · cosine + height)², clamped (KHR_lights_punctual); 1 without a cone.
+/// What shaders read of a light: its direction (w 0) or place (w 1); its radiance, and the slope of its cone; the
+/// cone's axis, and its offset. A cone lets (slope · cosine + offset)² through, the bracket clamped to 0..=1
+/// (KHR_lights_punctual). Without a cone that is 1.
 fn column(place: Vec4, radiance: Vec3, cone: Option<&Cone>) -> [Vec4; ROWS] {
     let Some(cone) = cone else { return [place, radiance.extend(0.0), Vec4::W] };
     let slope = 1.0 / (cone.inner_cosine - cone.outer_cosine).max(1e-3);

@@ -29,7 +29,7 @@ pub(crate) struct MeshOnGpu {
     /// At rest.
     vertices: Buffer,
     uvs: Buffer,
-    /// What each vertex takes away of each channel, linear; `None` where the mesh has no colours of its own.
+    /// 1 minus the colour of each vertex, linear; `None` where the mesh has no colours of its own.
     shades: Option<Buffer>,
     indices: Buffer,
     /// Created when the first draft is drawn.
@@ -54,7 +54,7 @@ pub(crate) struct Part {
     pub(crate) texture: Rc<Texture>,
     /// Where the texture's alpha is less than this, there is no surface.
     pub(crate) cutoff: Option<f32>,
-    /// Whether it casts a shadow: what light does not fall on, as a painted sky, does not.
+    /// Whether it casts a shadow; unlit materials, such as a painted sky, do not.
     pub(crate) casts_shadow: bool,
 }
 
@@ -201,7 +201,7 @@ impl MeshCache {
         Ok(DrawnBody { body, mesh, array })
     }
 
-    /// A vertex array that has a body of `now` also as it stands `then`.
+    /// A vertex array of a body in two frames: the inputs of `now`, and the positions of `then` as one more input.
     pub(crate) fn with_then(
         &mut self,
         gpu: &Gpu,
@@ -223,7 +223,7 @@ impl MeshCache {
         VertexArray::new(gpu, &inputs, Some(&mesh.indices))
     }
 
-    /// The vertices of a body that is not at rest. Uploads them into a buffer that no body is drawn from any more.
+    /// The vertices of a body that is not at rest. If they are new, uploads them into a buffer that no drawn body uses.
     fn bent(&mut self, gpu: &Gpu, mesh: &Rc<MeshOnGpu>, bent: &Arc<Bent>) -> Result<&BentOnGpu, GlError> {
         if let Some(known) = self.bent.iter().position(|known| known.is_of(bent)) {
             return Ok(&self.bent[known]);
@@ -242,7 +242,7 @@ impl MeshCache {
             }
         };
         let entry = &mut self.bent[index];
-        // Empty meanwhile, so that what was not uploaded whole is not taken for it.
+        // Empty during the upload, so that one that failed half-way is not taken for these vertices.
         entry.bent = Weak::new();
         let BodyVertices { positions, normals } = &bent.vertices;
         entry.vertices.upload(bytemuck::cast_slice(&interleaved(positions, normals)))?;

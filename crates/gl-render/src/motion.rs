@@ -1,5 +1,5 @@
-//! The motion pass: how far each visible surface point moves from one picture to another. It serves measuring, not
-//! painting.
+//! The motion pass: how far each visible surface point moves from one picture to another. Measures and AOVs need it,
+//! painting does not.
 
 use std::rc::Rc;
 

@@ -100,13 +100,14 @@ impl ReferencePass {
         Ok(lights)
     }
 
-    /// Lets go what it holds of its targets.
+    /// Lets go of the targets that it holds.
     pub(crate) fn let_go(&mut self) {
         self.noise.let_go();
     }
 
-    /// Draws the light on the surfaces of the last picture, apart from their colours: what arrives and how much of the sun; how open
-    /// each place is. Bottom row first.
+    /// Draws the light on the surfaces of the last picture, apart from their colours. Returns first the light that
+    /// arrives, with how much arrives of the light that casts shadows; second, how open each place is. Bottom row
+    /// first.
     pub(crate) fn draw_light_parts(
         &mut self,
         frame: &Frame,
@@ -163,7 +164,7 @@ impl ReferencePass {
         frame.bodies.iter().map(|body| self.meshes.drawn(&gpu, body)).collect()
     }
 
-    /// A vertex array that has a body of `now` also as it stands `then`.
+    /// A vertex array of a body in two frames: the inputs of `now`, and the positions of `then` as one more input.
     pub(crate) fn with_then(&mut self, now: &FrameBody, then: &FrameBody) -> Result<VertexArray, GlError> {
         let gpu = self.gpu.clone();
         self.meshes.with_then(&gpu, now, then)

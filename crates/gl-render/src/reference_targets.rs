@@ -9,7 +9,7 @@ use crate::gl::{Bound, Filter, Format, Framebuffer, GlError, Gpu, Texture};
 /// The textures that light is found from, as shaders name them.
 pub(crate) const SURFACE_TEXTURES: [&str; 4] = ["albedo_and_lit", "normal", "depth_and_id", "openness"];
 
-/// The textures of the reference pass, all of the picture's size but for `openness`.
+/// The textures of the reference pass. All have the picture's size, except `openness`.
 pub(crate) struct ReferenceTargets {
     size_px: [u32; 2],
     /// The lit picture, display-linear.
@@ -19,17 +19,17 @@ pub(crate) struct ReferenceTargets {
     pub(crate) depth_and_id: Rc<Texture>,
     /// How strong the highlight is.
     pub(crate) glint: Rc<Texture>,
-    /// `None` once they were let go.
+    /// `None` after they were let go.
     unlit: Option<UnlitTargets>,
     pub(crate) light_pass: Framebuffer,
-    /// `depth_and_id` alone, to be read.
+    /// `depth_and_id` alone, to read it back.
     place_pass: Framebuffer,
 }
 
-/// What only light is found from.
+/// The unlit targets of the reference pass: beside other passes of it, only the ink style and AOVs read them.
 pub(crate) struct UnlitTargets {
     pub(crate) depth: Rc<Texture>,
-    /// Unlit colour, and whether light falls on it.
+    /// Colour without light; alpha is 1 where the surface is lit, 0 where it is unlit.
     pub(crate) albedo: Rc<Texture>,
     /// How open each place is to ambient light; half the size.
     openness: Rc<Texture>,
@@ -77,7 +77,7 @@ impl ReferenceTargets {
         }
     }
 
-    /// What only light is found from; fails once it was let go.
+    /// The unlit targets of the reference pass; fails after they were let go.
     pub(crate) fn unlit(&self) -> Result<&UnlitTargets, GlError> {
         self.unlit.as_ref().ok_or_else(|| GlError::Resource {
             what: "the surfaces of the last picture".to_owned(),
@@ -85,7 +85,7 @@ impl ReferenceTargets {
         })
     }
 
-    /// Lets go what only light is found from: the lit picture is done.
+    /// Lets go of the unlit targets of the reference pass: the lit picture is done.
     pub(crate) fn let_unlit_go(&mut self) {
         self.unlit = None;
     }

@@ -33,7 +33,7 @@ pub enum RenderError {
         /// The longest side that works.
         limit_px: u32,
     },
-    /// A picture has at least one pixel.
+    /// The picture has no pixels.
     #[error("a picture of no pixels")]
     Empty,
     /// The driver refused, or a shader is broken.
@@ -251,7 +251,7 @@ impl Renderer {
     fn draw_reference(&mut self, frame: &Frame, watch: &mut Watch<'_>) -> Result<LightSetup, Halt> {
         self.last = None;
         if self.keeps.lets_go() {
-            // What the last picture left.
+            // Frees what the last picture left.
             self.encoder.let_go();
             (self.painted, self.with_billboards, self.targets) = (None, None, None);
         }
@@ -332,7 +332,7 @@ fn finished(drawn: Result<Picture, Halt>) -> Result<Picture, RenderError> {
     })
 }
 
-/// Turns rows of so many values round, in their place.
+/// Reverses the order of rows in place; a row has `row` values.
 fn top_row_first<T>(mut values: Vec<T>, row: usize) -> Vec<T> {
     let rows = values.len() / row;
     let (above, below) = values.split_at_mut(rows / 2 * row);

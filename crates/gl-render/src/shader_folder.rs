@@ -48,7 +48,7 @@ impl ShaderFolder {
 
     /// Checks the files once. Reads them again if they differ from those that were last read, but only when two checks
     /// in a row find them the same: a file that still changes may be half written. The program's own text replaces a
-    /// file that is gone.
+    /// file that is gone. `None` where nothing is read.
     ///
     /// # Errors
     /// A message: a file cannot be read.

@@ -1,4 +1,4 @@
-//! Draws the shadow map: the depth of the scene as the first sun sees it, or the brightest lamp.
+//! Draws the shadow map: the depth of the scene as the first sun sees it or, without a sun, the brightest lamp.
 
 use std::rc::Rc;
 use std::sync::{Arc, Weak};
@@ -127,7 +127,7 @@ pub(crate) struct Sight {
     pub shadow_from_world: Mat4,
     /// Side of a texel, world units; of a lamp, at a distance of 1.
     pub texel: f32,
-    /// How far depths in the map may differ: as they are, and over the square of the distance.
+    /// How far depths in the map may differ: a constant, plus a number that is divided by the square of the distance.
     pub bias: [f32; 2],
 }
 
@@ -141,8 +141,8 @@ impl Sight {
         }
     }
 
-    /// What a lamp sees of a sphere: all of it from far away, else what lies in its cone, up to 70 degrees off its axis. What it does
-    /// not see is lit.
+    /// What a lamp sees of a sphere: from outside, all of it; from inside, what lies in its cone, up to 70 degrees off
+    /// the axis. What the map does not show counts as lit.
     pub(crate) fn of_lamp(center: Vec3, radius: f32, lamp: &PointLight) -> Self {
         /// Half the widest angle of a map.
         const WIDEST_RAD: f32 = 70.0 * std::f32::consts::PI / 180.0;
@@ -162,7 +162,8 @@ impl Sight {
         let far = away + radius;
         let lamp_from_world = glam::camera::rh::view::look_to_mat4(lamp.position, axis, up);
         let clip_from_lamp = glam::camera::rh::proj::opengl::perspective(2.0 * half_rad, 1.0, near, far);
-        // As far as a sun's map allows, in world units; half the range of depths lies between -1 and 1.
+        // The bias of a sun's map in world units (0.0006 of its range of depths, two radii), times the slope of the
+        // map's depth over the distance, which the shader divides by the square of the distance.
         let bias = 0.0012 * radius * far * near / (far - near);
         Self {
             shadow_from_world: clip_from_lamp * lamp_from_world,

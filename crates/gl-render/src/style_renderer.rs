@@ -46,7 +46,7 @@ pub(crate) trait StyleRenderer {
         Vec::new()
     }
 
-    /// Whether it draws from what only light is found from.
+    /// Whether the style reads the unlit targets of the reference pass.
     fn reads_unlit(&self) -> bool {
         false
     }

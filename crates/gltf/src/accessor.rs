@@ -142,9 +142,9 @@ pub(crate) struct Accessor {
     pub is_normalized: bool,
     pub shape: Shape,
     pub count: usize,
-    /// `None`: zeros.
+    /// `None`: all elements are zero, or `is_absent`.
     pub run: Option<Run>,
-    /// It has a view, but the view's bytes are compressed or not in the file: why it cannot be read.
+    /// Why it cannot be read, if the bytes of one of its views are compressed or not in the file.
     pub is_absent: Option<&'static str>,
     pub sparse: Option<Sparse>,
     /// Least and greatest of each number as stated.

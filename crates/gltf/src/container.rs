@@ -17,7 +17,7 @@ pub(crate) struct Container {
     pub bin: Option<Bytes>,
 }
 
-/// Splits a file. Every length of a `.glb` is held against the bytes that are there.
+/// Splits a file. Every length in a `.glb` is checked against the bytes that are there.
 ///
 /// # Errors
 /// A `.glb` that is cut short, of another version than 2, or without a JSON chunk at its start.

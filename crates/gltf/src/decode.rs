@@ -1,5 +1,5 @@
-//! The numbers of accessors, as `f32` or indices. Each accessor is read once for each use; those who share it share
-//! the memory.
+//! The numbers of accessors, as `f32` or indices. Each accessor is decoded once for each kind of use; all who use it in
+//! that way share the memory.
 
 use std::any::Any;
 use std::array;
@@ -57,7 +57,7 @@ pub(crate) struct Accessors<'o, 'p, 't> {
     cursors: List<'p, 't>,
     list: Vec<Accessor>,
     decoded: Decoded,
-    /// What was found: without it, a million primitives on one accessor would be a million scans.
+    /// Results of scans, kept so that a million primitives on one accessor cause one scan of it.
     scans: HashMap<(usize, Scan), Option<usize>>,
 }
 
@@ -164,7 +164,7 @@ impl<'o, 'p, 't> Accessors<'o, 'p, 't> {
         }
     }
 
-    /// The first element of an accessor's values in which something is found.
+    /// The first element of an accessor's values in which something is found; `None` if in no element.
     pub fn first<const N: usize>(&mut self, index: usize, scan: Scan, values: &[[f32; N]]) -> Option<usize> {
         let search = || values.iter().position(|value| scan.finds(value));
         *self.scans.entry((index, scan)).or_insert_with(search)
@@ -271,7 +271,7 @@ impl Reading {
         }
     }
 
-    /// Which bound, `min` or `max`, is not what it is stated to be.
+    /// The bound, `min` or `max`, that is stated wrongly; `None` if neither is.
     fn broken_bound<const N: usize>(self, accessor: &Accessor, values: &[[f32; N]]) -> Option<&'static str> {
         let (min, max) = (accessor.min.as_ref(), accessor.max.as_ref());
         if values.is_empty() || min.is_none() && max.is_none() {

@@ -54,8 +54,8 @@ struct Playable {
 /// A shot at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Posed {
-    /// From the space of each node to the world, finite: a node whose scales outgrow `f64` stands with its parent. For a node with a skin this says nothing of its mesh:
-    /// [`Self::world_from_bound`] does.
+    /// From the space of each node to the world. All are finite: a node whose scales outgrow `f64` stands where its
+    /// parent does. The mesh of a node with a skin stands elsewhere: see [`Self::world_from_bound`].
     pub world_from_node: Vec<DAffine3>,
     /// For each node: whether it is in the scene that is shown, and neither it nor a node above it is hidden.
     pub is_visible: Vec<bool>,
@@ -71,8 +71,8 @@ pub struct Posed {
 }
 
 impl Posed {
-    /// For each joint of a skin, from the space of the mesh as it was bound to the world: a vertex stands at the mean of
-    /// where its joints put it, by its weights, wherever the node of the mesh is.
+    /// For each joint of a skin, the matrix from the space in which the mesh was bound to the world. A vertex stands at
+    /// the weighted mean of where its joints put it, wherever the node of the mesh is.
     pub fn world_from_bound(&self, skin: &Skin) -> Vec<DAffine3> {
         let matrix_of = |(&joint, inverse_bind): (&usize, &glam::Mat4)| {
             self.world_from_node[joint] * DAffine3::from_mat4(inverse_bind.as_dmat4())
@@ -80,8 +80,8 @@ impl Posed {
         skin.joints.iter().zip(&skin.inverse_bind_matrices).map(matrix_of).collect()
     }
 
-    /// World from view (−Z forward, Y up) for a camera or light at a node: its place and turn without its scale, with
-    /// which glTF has nothing to do there.
+    /// World from view (−Z forward, Y up) for a camera or light at a node: the node's place and turn without its scale,
+    /// which glTF ignores for cameras and lights.
     pub fn world_from_view(&self, node: usize) -> DMat4 {
         let world = self.world_from_node[node];
         let back = world.matrix3.z_axis.try_normalize().unwrap_or(DVec3::Z);
@@ -93,10 +93,10 @@ impl Posed {
 }
 
 impl Animator {
-    /// Puts the tracks of a shot in order. Warns of what two animations drive.
+    /// Puts the tracks of a shot in order. Returns warnings about what two animations drive.
     ///
     /// # Errors
-    /// No animation has the name: the names that there are.
+    /// No animation has the name. The error lists the names that there are.
     pub fn new(gltf: &Gltf, playing: Playing<'_>) -> Result<(Self, Vec<Finding>), Vec<String>> {
         let chosen: Vec<usize> = match playing {
             Playing::All => (0..gltf.animations.len()).collect(),
@@ -128,7 +128,7 @@ impl Animator {
             }
         }
         animator.clocks = clocks.list;
-        // Memory is read in the order of the nodes.
+        // So that memory is read in the order of the nodes.
         animator.tracks.sort_by_key(|playable| match playable.track.target {
             Target::Node(node, _) => node,
             _ => usize::MAX,
@@ -331,7 +331,8 @@ fn drive_trs(trs: &mut Trs, property: NodeProperty, track: &Track, place: keys::
     }
 }
 
-/// Keys were checked to have a length; only a spline may pass through none, and then keeps its earlier key.
+/// The rotation at a place. Keys were checked to have a length; only a spline between them may pass through zero, and
+/// then has its earlier key.
 fn rotation(track: &Track, place: keys::Place) -> DQuat {
     let key = |key| DQuat::from_array(place.key::<4>(track, key)).normalize();
     match track.interpolation {
@@ -347,7 +348,7 @@ fn rotation(track: &Track, place: keys::Place) -> DQuat {
     }
 }
 
-/// Values that no camera can have leave it as it is.
+/// Sets a property of a camera; a value that no camera can have changes nothing.
 fn drive_lens(lens: &mut Lens, property: CameraProperty, value: f64) {
     match (lens, property) {
         (Lens::Perspective { yfov_rad, .. }, CameraProperty::Yfov) => {

@@ -46,7 +46,8 @@ const SILENT: [&str; 6] = [
 const UNSEEN: [&str; 5] =
     ["EXT_lights_image_based", "EXT_lights_ies", "KHR_audio_emitter", "KHR_physics_rigid_bodies", "MSFT_lod"];
 
-/// Reads `extensionsUsed` and `extensionsRequired`, before anything else: a file that needs Draco tells that first.
+/// Reads `extensionsUsed` and `extensionsRequired`. This comes before anything else, so that a file that needs Draco is
+/// refused for that reason.
 pub(crate) fn check(root: &Cursor<'_, '_>, findings: &mut Findings) -> Checked<()> {
     let required = root.list("extensionsRequired")?;
     let mut names = HashSet::new();

@@ -120,7 +120,7 @@ fn fetch(
     }
 }
 
-/// The media type that the bytes begin like.
+/// The media type, from the first bytes; `None` for another kind of file.
 fn sniffed(bytes: &[u8]) -> Option<&'static str> {
     if bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
         Some("image/png")

@@ -4,8 +4,8 @@ use std::array;
 
 use crate::animation::{Interpolation, Track};
 
-/// A key at most this share of its time after the time that is asked for counts as reached: files round the times of frames to 32 bits, and
-/// half of them upwards. Only steps jump there.
+/// A key that lies after the time that is asked for by at most this share of the key's time counts as reached: files
+/// round the times of frames to 32 bits, half of them upwards. Only stepped values depend on it.
 const ROUNDED: f64 = 2.0 * f32::EPSILON as f64;
 
 /// A time among the keys of a clock.
@@ -13,7 +13,7 @@ const ROUNDED: f64 = 2.0 * f32::EPSILON as f64;
 pub(crate) struct Place {
     /// The key at or before the time; the first, if the time is before all.
     pub before: usize,
-    /// The key whose value steps have; `before`, or the next one where the time differs from that by rounding only.
+    /// The key whose value a stepped track has: `before`, or the next key if only rounding puts the time before that.
     pub reached: usize,
     /// From the key before to the one after, seconds; 0 at or beyond the ends.
     span_s: f64,
@@ -27,7 +27,7 @@ impl Place {
         let last = times_s.len().saturating_sub(1);
         let time = |key: usize| f64::from(times_s[key]);
         let at_end = |key: usize| Self { before: key, reached: key, span_s: 0.0, fraction: 0.0 };
-        // A time that is no number counts as before all.
+        // NaN counts as before all keys.
         if last == 0 || time_s.is_nan() || time_s <= time(0) {
             return at_end(0);
         }

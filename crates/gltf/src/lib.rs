@@ -1,7 +1,7 @@
 //! Reads glTF 2.0 (`.gltf`, `.glb`), and tells where everything in it is at any time.
 //!
-//! The crate opens no file: [`read`] is given bytes and a function that gives more. It trusts no number of the file: each
-//! is held against what is there before it is used, and each complaint names its place ([`Finding::pointer`]).
+//! The crate opens no file: [`read`] is given bytes and a function that gives more. It trusts no number of the file:
+//! each is checked against the bytes before it is used, and each complaint names its place ([`Finding::pointer`]).
 //!
 //! Space and units are those of glTF: right-handed, Y up, metres, radians, seconds; colours are linear; texture
 //! coordinates have V pointing down. Matrices take columns.

@@ -130,12 +130,12 @@ pub enum Wrap {
 /// A picture, not decoded.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image {
-    /// The name in the file, or that of the file; empty for none.
+    /// The name that the glTF file gives, else the name of the picture's own file; empty for neither.
     pub name: String,
-    /// The picture's file. `None` where it could not be had (there was a warning), or where no base colour or emissive
-    /// texture uses it and it lies in a file of its own.
+    /// The bytes of the encoded picture. `None` if they could not be read (there was a warning), or if they lie in a
+    /// file of their own and no base colour or emissive texture uses them.
     pub bytes: Option<Bytes>,
-    /// Media type, as in `image/png`: as the bytes begin, else as stated; empty where neither tells.
+    /// Media type such as `image/png`: told from the first bytes, else as stated; empty if neither tells it.
     pub media_type: String,
 }
 

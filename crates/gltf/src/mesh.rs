@@ -28,7 +28,7 @@ pub struct Primitive {
     pub positions: Arc<Vec<[f32; 3]>>,
     /// One normal per vertex, finite, as in the file: mostly of unit length. `None`: the faces are flat.
     pub normals: Option<Arc<Vec<[f32; 3]>>>,
-    /// Texture coordinates of the sets 0 and 1, one per vertex, finite. **V points down**: (0, 0) is the top left corner
+    /// Texture coordinates of sets 0 and 1, one per vertex, finite. **V points down**: (0, 0) is the top left corner
     /// of the picture.
     pub uvs: [Option<Arc<Vec<[f32; 2]>>>; 2],
     /// Linear colour and alpha per vertex, finite; multiplies the base colour.
@@ -37,7 +37,8 @@ pub struct Primitive {
     pub influences: Option<Arc<Influences>>,
     /// Morph targets: as many as [`Mesh::target_count`].
     pub targets: Vec<MorphTarget>,
-    /// Index into the file's materials; `None`: the default one. With KHR_materials_variants, that of the first variant.
+    /// Index into the file's materials; `None`: the default material. With KHR_materials_variants, the one of the first
+    /// variant.
     pub material: Option<usize>,
     /// The point of the modelling program at which each vertex lies (the attribute `_POINT`), counted from 0.
     pub points: Option<Arc<Vec<u32>>>,

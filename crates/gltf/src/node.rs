@@ -21,8 +21,8 @@ pub struct Node {
     pub camera: Option<usize>,
     /// Index into the lights.
     pub light: Option<usize>,
-    /// Index into the skins. With a skin, the mesh stands where the joints put it, and the node's own place means nothing
-    /// for it.
+    /// Index into the skins. With a skin, the mesh stands where the joints put it, and the node's own place means
+    /// nothing for it.
     pub skin: Option<usize>,
     /// Weights of the mesh's morph targets, where they are not the mesh's own; as many as it has targets.
     pub weights: Option<Vec<f32>>,
@@ -74,7 +74,7 @@ impl LocalTransform {
         }
     }
 
-    /// The parts of a matrix where they give it again to a millionth, else the matrix.
+    /// A matrix as translation, rotation and scale, if these reproduce it to a millionth; else the matrix.
     pub fn of_matrix(matrix: DAffine3) -> Self {
         let axes = matrix.matrix3;
         let mut scale = DVec3::new(axes.x_axis.length(), axes.y_axis.length(), axes.z_axis.length());
@@ -104,7 +104,7 @@ pub struct Skin {
     pub name: String,
     /// Node of each joint. At least one.
     pub joints: Vec<usize>,
-    /// From the space of the mesh to that of each joint as the mesh was bound: one per joint, finite.
+    /// From the space of the mesh to that of each joint, as both were when the mesh was bound: one per joint, finite.
     pub inverse_bind_matrices: Vec<Mat4>,
     /// The node that is the root of the joints, where it is stated.
     pub skeleton: Option<usize>,

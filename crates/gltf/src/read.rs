@@ -30,7 +30,7 @@ pub fn read(file: Vec<u8>, open: &mut Open<'_>) -> Result<(Gltf, Vec<Finding>), 
     }
 }
 
-/// `None`: the findings say why.
+/// `None`: there are fatal findings, which say why.
 fn read_file(file: Bytes, open: &mut Open<'_>, findings: &mut Findings) -> Checked<Option<Gltf>> {
     let container = container::split(&file, findings)?;
     let json = json::parse(&container.json)?;
@@ -152,7 +152,7 @@ fn warn_of_empty_lists(root: &Cursor<'_, '_>, findings: &mut Findings) -> Checke
     Ok(())
 }
 
-/// Accounts for what stands on the JSON itself: `{}` is two bytes in the file, and a node here.
+/// Accounts for the lists that are made from the JSON: `{}` has two bytes in the file, and may be a node in memory.
 fn take_memory_of_lists(root: &Cursor<'_, '_>, accessors: &mut Accessors<'_, '_, '_>) -> Checked<()> {
     const BYTES_EACH: usize = 600;
     for name in LISTS {

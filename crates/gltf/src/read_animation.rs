@@ -31,7 +31,7 @@ pub(crate) struct Driven<'a> {
 struct Shared {
     times: HashMap<usize, Arc<Vec<f32>>>,
     values: HashMap<(usize, bool), Arc<Vec<f32>>>,
-    /// Rotations that were checked, with or without tangents between them.
+    /// Rotations that were checked: the accessor, and elements per key (3 with tangents, else 1).
     rotations: HashSet<(usize, usize)>,
 }
 
@@ -99,7 +99,7 @@ fn animation(
     Ok(Animation { name, tracks })
 }
 
-/// `None` (after a warning): it has no times.
+/// `None` (after a warning): its times are not in the file.
 fn sampler<'p, 't>(
     cursor: &'p Cursor<'p, 't>,
     accessors: &mut Accessors<'_, '_, '_>,
@@ -150,7 +150,7 @@ fn sampler<'p, 't>(
     Ok(Some(Sampler { times_s, interpolation, output }))
 }
 
-/// What a channel drives; `None` (after a warning) where that is not read.
+/// What a channel drives; `None` if it drives nothing or, after a warning, what is not read.
 fn target(cursor: &Cursor<'_, '_>, driven: &Driven<'_>, findings: &mut Findings) -> Checked<Option<Target>> {
     let path = cursor.required("path")?;
     let extensions = cursor.object("extensions")?;
@@ -207,7 +207,7 @@ fn pointed(member: &Cursor<'_, '_>, driven: &Driven<'_>, findings: &mut Findings
     checked(target, member, driven, findings)
 }
 
-/// The target, unless it has nothing that could be driven.
+/// The target; `None` (after a warning) if it has nothing that could be driven.
 fn checked(
     target: Target,
     cursor: &Cursor<'_, '_>,

@@ -242,8 +242,8 @@ impl MeshReader<'_, '_, '_, '_> {
         Ok(self.finite_or_left_out(&member, index, colors))
     }
 
-    /// Whole numbers of vertices, which stand as floats since attributes have no others. What an attribute of this name means to
-    /// others is not known: numbers that are not whole are left out.
+    /// An attribute of our own with one whole number per vertex, stored as floats. `None` if it is missing or, since
+    /// other programs may use the name for something else, if it has another format or, after a warning, fractions.
     fn numbers(
         &mut self,
         attributes: &Cursor<'_, '_>,
@@ -325,14 +325,14 @@ pub(crate) fn weights(cursor: &Cursor<'_, '_>, target_count: usize) -> Checked<O
     Ok(Some(weights))
 }
 
-/// Names of groups of vertices. What stands in `extras` is nobody's rule, so nothing there is an error.
+/// Names of groups of vertices. No rule says what `extras` holds, so nothing there is an error.
 fn group_names(cursor: &Cursor<'_, '_>) -> Vec<String> {
     let Some(extras) = cursor.member("extras") else { return Vec::new() };
     let Ok(names) = extras.list("groupNames") else { return Vec::new() };
     names.iter().map(|name| name.text().unwrap_or_default().to_owned()).collect()
 }
 
-/// Names of morph targets. What stands in `extras` is nobody's rule, so nothing there is an error.
+/// Names of morph targets. No rule says what `extras` holds, so nothing there is an error.
 fn target_names(cursor: &Cursor<'_, '_>, target_count: usize) -> Vec<String> {
     let Some(extras) = cursor.member("extras") else { return Vec::new() };
     let Ok(names) = extras.list("targetNames") else { return Vec::new() };

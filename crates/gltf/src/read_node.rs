@@ -118,7 +118,7 @@ fn skin(
     })
 }
 
-/// Reads `nodes`, and who is under whom.
+/// Reads `nodes`, and finds the parent of each.
 pub(crate) fn nodes(
     root: &Cursor<'_, '_>,
     referred: &Referred<'_>,
@@ -190,7 +190,7 @@ fn node(
         findings,
     )?;
     let target_count = mesh.map_or(0, |mesh| referred.meshes[mesh].target_count);
-    // Every pose holds them.
+    // Every pose holds the weights of the targets.
     accessors.take_memory(target_count, size_of::<f32>(), cursor)?;
     let extensions = cursor.object("extensions")?;
     let extension = |name| extensions.as_ref().map_or(Ok(None), |extensions| extensions.object(name));

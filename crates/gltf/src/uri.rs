@@ -13,7 +13,7 @@ pub(crate) enum Target {
 ///
 /// # Errors
 /// Absolute names, other schemes than `data:`, names that leave the folder, NUL and `\`, a data URI that is not
-/// well-formed: why, as a sentence without its subject.
+/// well-formed. The error says why, as a sentence without its subject.
 pub(crate) fn target(uri: &str) -> Result<Target, &'static str> {
     if uri.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:")) {
         return data(&uri[5..]);

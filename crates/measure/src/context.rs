@@ -45,7 +45,7 @@ pub struct MeasureContext<'a> {
     preparer: Preparer,
     paintings: HashMap<SceneVersion, Rc<Painting>>,
     drawn: HashMap<(SceneVersion, RotationKey, u64), Rc<DrawnFrame>>,
-    /// What a pass over every frame of the shot found, once it was taken.
+    /// What a pass over every frame of the shot found; `None` before such a pass.
     pub whole_shot: Option<Rc<WholeShot>>,
 }
 
@@ -153,7 +153,7 @@ impl<'a> MeasureContext<'a> {
         Ok(drawn)
     }
 
-    /// A drawn frame of the shot that is not kept: a whole shot's would not fit.
+    /// As [`MeasureContext::drawn_frame`], but the frame is not added to the cache: all frames of a shot would not fit.
     ///
     /// # Errors
     /// As [`MeasureContext::drawn_frame`].

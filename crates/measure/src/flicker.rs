@@ -9,7 +9,8 @@ pub const SEEN: f32 = 6.0;
 /// How many bins count the second differences, from 0 to 255.
 const BINS: usize = 5100;
 
-/// Where each pixel's surface point is in the frame before and in the one after, columns and rows; `None` where it is hidden.
+/// For each pixel of a frame, where its surface point is in the frame before and in the one after, in columns and rows;
+/// `None` where it is hidden.
 pub struct Along<'a> {
     /// In the frame before.
     pub before: &'a [Option<[f64; 2]>],
@@ -36,8 +37,8 @@ impl Default for Flicker {
 }
 
 impl Flicker {
-    /// Adds three neighbouring frames: |I₊(x + v₊) − 2 I(x) + I₋(x + v₋)| at every pixel x whose surface point is seen in
-    /// all three.
+    /// Adds three neighbouring frames: |I₊(x + v₊) − 2 I(x) + I₋(x + v₋)| at every pixel x whose surface point is seen
+    /// in all three.
     pub fn add(&mut self, frame: f64, [first, middle, last]: [&Plane; 3], along: &Along<'_>) {
         let width = middle.size_px[0];
         for (pixel, (before, after)) in along.before.iter().zip(along.after).enumerate() {

@@ -8,7 +8,7 @@ const STEP: f64 = 0.2;
 /// A stroke that moves by less than this, in pixels, stands still.
 const STILL_PX: f64 = 1e-3;
 
-/// How many times as long and wide as the stroke its quad is: the quad has room for ragged ends.
+/// The quad of a stroke is this many times as long and as wide as the stroke: it has room for ragged ends.
 const QUAD: f64 = 1.0 / impasto_core::brush::FILL as f64;
 
 /// What popped from one frame to the next.

@@ -16,8 +16,8 @@ pub struct QuarterDifference {
     pub pixels: usize,
 }
 
-/// M1 for quarter turns: compares the square picture of a rolled camera with that of the straight camera turned back by
-/// as many quarters, within a mask of the rolled picture.
+/// M1 for quarter turns: compares the square picture of a rolled camera with the picture of the straight camera, turned
+/// back by as many quarters, within a mask of the rolled picture.
 pub fn quarter_difference(
     straight: &Picture,
     rolled: &Picture,

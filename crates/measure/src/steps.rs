@@ -12,10 +12,10 @@ use crate::strokes::{MeasuredStroke, StrokeKey, StrokesByKey};
 /// Alpha that changes by more than this from frame to frame, where the stroke is seen, is a step.
 const STEP: f64 = 0.35;
 
-/// A surface nearer than the stroke's plane by this share of its depth hides it.
+/// A surface hides a stroke if it is nearer than the stroke's plane by more than this share of the stroke's depth.
 const NEARER: f64 = 0.01;
 
-/// Strokes on a surface that is seen at a sharper slant than this cosine count as at this one.
+/// A smaller cosine between the normal of a stroke's surface and the direction to the eye counts as this one.
 const LEAST_FACING: f64 = 0.2;
 
 /// Fainter strokes are not painted.
@@ -43,12 +43,12 @@ pub struct Steps {
     pub worst: Option<Place>,
     /// For how many frames each highlight has been there.
     living: BTreeMap<StrokeKey, usize>,
-    /// For how many frames each highlight was there that came and went within the shot.
+    /// Of each highlight that came and went within the shot, the number of frames in which it was there.
     lives: Vec<f64>,
 }
 
 impl Steps {
-    /// Adds two neighbouring frames of one size; `frame` is that of the second.
+    /// Adds two neighbouring frames of one size; `frame` is the number of the second.
     pub fn add(&mut self, frame: f64, before: Shown<'_>, after: Shown<'_>, size_px: [u32; 2]) {
         let carried_px = displacement_px(before.strokes, after.strokes);
         let came = after.strokes.iter().filter(|(key, _)| !before.strokes.contains_key(*key));
@@ -103,14 +103,14 @@ impl Steps {
         self.by_layer.values().map(|share| share.found).sum()
     }
 
-    /// For how many frames each highlight was there that came within the shot. One that is there still at its end counts
-    /// with what it has lived so far.
+    /// Of each highlight that came within the shot, the number of frames in which it was there. One that is still there
+    /// at the end counts with the frames so far.
     pub fn lives_of_highlights(&self) -> Vec<f64> {
         self.lives.iter().copied().chain(self.living.values().map(|&frames| frames as f64)).collect()
     }
 }
 
-/// The share of a stroke's area where its own body shows, and no nearer part of it.
+/// The share of a stroke's area where its own body shows, and not a nearer part of that body.
 fn visible_share(key: &StrokeKey, stroke: &MeasuredStroke, shown: Shown<'_>, size_px: [u32; 2]) -> f64 {
     let reference = shown.reference;
     let facing = stroke.facing.clamp(LEAST_FACING, 1.0);

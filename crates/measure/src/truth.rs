@@ -99,8 +99,8 @@ impl PointMotion {
         Self { before: point, after: point, carry: DMat3::IDENTITY }
     }
 
-    /// The motion of a particle on a surface that bends, between two shapes of it. F follows from the edges of the particle's triangle
-    /// and its normal.
+    /// The motion of a particle between two shapes of a surface that bends. F follows from the edges of the particle's
+    /// triangle and the normal.
     pub fn of(mesh: &TriangleMesh, particle: &Particle, shapes: [&Vertices; 2]) -> Self {
         let corners = mesh.triangles[particle.triangle as usize].map(|vertex| vertex as usize);
         let weights = {

@@ -8,8 +8,9 @@ use impasto_scene::motion;
 use crate::cameras;
 use crate::versions::{leave_out, orbit_blockers};
 
-/// The scene with its shot replaced by a whole turn of the reference camera about its target, one degree per frame, from the reference's
-/// frame on. Objects keep their reference pose, and objects that would hide the target are left out.
+/// The scene with its shot replaced by a whole turn of the reference camera about its target, one degree per frame,
+/// from the reference's frame on. Objects keep their reference pose, and objects that would hide the target are left
+/// out.
 pub fn turntable(loaded: &LoadedScene) -> LoadedScene {
     let mut version = loaded.clone();
     let scene = &mut version.scene;

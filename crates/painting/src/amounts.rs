@@ -2,7 +2,8 @@
 //! surface at rest, so that no view changes it.
 //!
 //! A dab of radius R that states a factor b multiplies by `1 + (b − 1) w`, with `w = (1 − (r/R)²)² s(n·m)` at a distance r on a surface
-//! with the normal n, where m is the dab's own; s rises smoothly from 0 at 90° to 1 at 60°. So it has no seam, and is 1 outside.
+//! with the normal n; m is the normal at the dab, and s rises smoothly from 0 at 90° to 1 at 60°. Outside the dab the
+//! factor is 1.
 
 use std::collections::HashMap;
 
@@ -10,10 +11,10 @@ use glam::{DVec3, IVec3, Vec3};
 use impasto_core::presence::smoothstep;
 use impasto_scene::document::{Amount, AmountDab, Scene};
 
-/// Cosine between the normals from which on a dab touches with its whole strength.
+/// From this cosine between the two normals on, a dab has its whole strength.
 const WHOLLY_FACING: f32 = 0.5;
 
-/// Factors on the number of particles: few, so that a drag does not sample anew at each movement.
+/// The factors on the number of particles are rounded up to these: few, so that a drag seldom samples anew.
 const COUNT_STEPS: [f32; 13] = [1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0, 48.0, 64.0];
 
 /// What is painted onto one body.
@@ -99,7 +100,7 @@ impl BodyAmounts {
         of(self) == of(other)
     }
 
-    /// By how much more strokes may be wanted than without: how many times as many particles are needed.
+    /// How many times as many particles are needed, because of what is painted.
     pub(crate) fn more_wanted(&self) -> f32 {
         let most = self.of_rule.iter().flat_map(|painted| {
             let sized = [Amount::Width, Amount::Length, Amount::Density];
@@ -133,7 +134,7 @@ impl RuleAmounts {
 
 impl Dabs {
     fn new(dabs: Vec<PlacedDab>) -> Self {
-        // A dab is at most as wide as a cell: it reaches into few of them.
+        // A dab is at most as wide as a cell, so it reaches into few cells.
         let cell = 2.0 * dabs.iter().map(|dab| dab.radius).fold(f32::MIN_POSITIVE, f32::max);
         let mut all = Self { dabs, cell, in_cell: HashMap::new() };
         for (index, dab) in all.dabs.iter().enumerate() {
@@ -194,12 +195,12 @@ pub(crate) struct Painted {
 impl Painted {
     pub(crate) const NOTHING: Self = Self { length: 1.0, width: 1.0, density: 1.0 };
 
-    /// The factor on how many strokes are wanted: those that keep the coverage at their new size, times the density.
+    /// The factor on how many strokes are wanted: as many as keep the coverage at their new size, times the density.
     pub(crate) fn wanted(self) -> f32 {
         self.density / (self.length * self.width)
     }
 
-    /// The greatest of each; of `density`, the greatest number wanted.
+    /// The greater of each field.
     pub(crate) fn most(self, other: Self) -> Self {
         Self {
             length: self.length.max(other.length),
@@ -209,7 +210,7 @@ impl Painted {
     }
 }
 
-/// A flatness of a rule with what is painted there.
+/// The flatness of a rule times the painted factor, within 0..=1.
 pub(crate) fn painted_flatness(of_rule: f32, by: f32) -> f32 {
     (of_rule * by).clamp(0.0, 1.0)
 }

@@ -96,7 +96,7 @@ pub(crate) struct BakedBody {
 }
 
 impl BakedBody {
-    /// As it was kept.
+    /// From what was kept.
     pub(crate) fn of_kept(baked: BakedParticles, base_angle_rad: Vec<f32>) -> Self {
         Self { baked, base_angle_rad }
     }

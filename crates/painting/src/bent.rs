@@ -1,4 +1,4 @@
-//! Bodies that have left their rest: where their vertices are at a frame, and what carries strokes there.
+//! Bodies that are not at rest: where their vertices are at a frame, and what carries strokes there.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, Weak};
@@ -126,7 +126,7 @@ impl BodySurface {
     }
 }
 
-/// Vertices, and F at each where it was needed for them.
+/// Vertices, and F at each, if finding them needed it.
 struct Strained {
     vertices: Vertices,
     gradients: Option<Vec<Mat3>>,
@@ -148,23 +148,23 @@ pub(crate) struct BentMemo(Mutex<VecDeque<Remembered>>);
 struct Remembered {
     frame: f64,
     shapes: Vec<BodyShape>,
-    /// Found again as long as anyone has them; `None` for a body at rest.
+    /// Weak: found again as long as somebody else holds them. `None` for a body at rest.
     bodies: Vec<Option<Weak<Bent>>>,
-    /// Had here.
+    /// The same bodies, if the memo itself holds them.
     kept: Option<BentBodies>,
 }
 
-/// So many frames are remembered.
+/// How many frames are remembered.
 const REMEMBERED: usize = 8;
 
-/// As many of them as take this many bytes are kept, and at least the last.
+/// The memo itself holds the bodies of the newest frames: about this many bytes of them, and at least the last frame's.
 const KEPT_BYTES: usize = 16 << 20;
 
-/// What a vertex of a bent body takes, with what carries strokes.
+/// Bytes of a vertex of a bent body, with what carries strokes.
 const VERTEX_BYTES: usize = size_of::<[Vec3; 2]>() + size_of::<[f32; 16]>();
 
 impl Remembered {
-    /// The body, unless nobody has it any more.
+    /// The body of an object, which is `None` at rest; outer `None` if nobody holds it any more.
     fn body(&self, object: usize) -> Option<Option<Arc<Bent>>> {
         match &self.bodies[object] {
             Some(body) => body.upgrade().map(Some),
@@ -172,7 +172,7 @@ impl Remembered {
         }
     }
 
-    /// All bodies, unless nobody has some of them any more.
+    /// All bodies; `None` if nobody holds one of them any more.
     fn all(&self) -> Option<BentBodies> {
         let found = || (0..self.bodies.len()).map(|object| self.body(object)).collect::<Option<_>>();
         self.kept.clone().or_else(|| found().map(Arc::new))
@@ -180,7 +180,7 @@ impl Remembered {
 }
 
 impl BentMemo {
-    /// The bodies at a frame, which have these surfaces. `shapes_at` is asked where the frame is not known.
+    /// The bodies with these surfaces at a frame. `shapes_at` is called if the frame is not remembered.
     pub(crate) fn at<'a>(
         &self,
         frame: f64,
@@ -194,7 +194,7 @@ impl BentMemo {
             return bodies;
         }
         let shapes = shapes_at();
-        // A body in the shape of a frame before is the same one: what was drawn or uploaded for it holds.
+        // A body that has the same shape at a remembered frame is reused, with all that was uploaded for it.
         let before: Vec<Option<Arc<Bent>>> = {
             let memo = self.lock();
             let of_shape = |(object, shape): (usize, &BodyShape)| {

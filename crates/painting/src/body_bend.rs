@@ -19,13 +19,13 @@ pub(crate) struct BodyBend {
     pub(crate) cache: Option<BodyCache>,
     /// The shape in which the surface's mesh is; its noise is left out.
     pub(crate) rest: BodyShape,
-    /// How the surface is strained; found when first asked for.
+    /// Gives F at each vertex; made when first asked for.
     pub(crate) gradients: OnceLock<Gradients>,
     /// What went wrong when a point cache was read.
     pub(crate) fault: OnceLock<String>,
 }
 
-/// A point cache, and how a mesh goes with it.
+/// A point cache, and which of its points each vertex of a mesh follows.
 #[derive(Clone, Debug)]
 pub(crate) struct BodyCache {
     pub(crate) cache: Arc<PointCache>,
@@ -54,7 +54,8 @@ impl BodyBend {
         Self { bend, cache, ..Self::default() }
     }
 
-    /// What tells vertices apart that lie on each other at rest. Noise parts none: it moves a vertex by its position and normal.
+    /// Says which vertices with the same place at rest stay together. Noise parts none: it moves a vertex by its
+    /// position and normal.
     pub(crate) fn bonds(&self) -> Bonds<'_> {
         match (&self.cache, &self.bend) {
             (Some(cache), _) => Bonds::Points(&cache.points.of_vertex),
@@ -63,13 +64,13 @@ impl BodyBend {
         }
     }
 
-    /// The same at rest in another shape, of which nothing was measured yet. What went wrong stays known.
+    /// The same with another shape as its rest. The gradients are made anew; a fault stays known.
     pub(crate) fn resting(self, rest: BodyShape) -> Self {
         Self { bend: self.bend, cache: self.cache, fault: self.fault, rest, ..Self::default() }
     }
 }
 
-/// A bend in model space: joints take vertices there; without joints, the vertices themselves are placed.
+/// Brings a bend into model space: by its joints or, without joints, by its vertices and targets.
 fn placed(mut bend: Bend, model_from_file: DMat3) -> Bend {
     if bend.skin.is_some() {
         let place = DAffine3::from_mat3(model_from_file);

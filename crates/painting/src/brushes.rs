@@ -37,7 +37,7 @@ pub(crate) fn of_names(loaded: &LoadedScene, names: Vec<String>) -> Brushes {
     Brushes { names, marks }
 }
 
-/// Takes the marks of built-in brushes over where they have not been made yet.
+/// Puts the marks of built-in brushes among those made in this process, if they have not been made yet.
 pub(crate) fn know(brushes: &Brushes) {
     for (name, marks) in brushes.names.iter().zip(&brushes.marks) {
         if let Some(index) = brush::NAMES.iter().position(|known| known == name) {

@@ -46,7 +46,7 @@ pub(crate) struct Coat {
 }
 
 impl Sampled {
-    /// As they were kept; what is large is taken out of `kept`.
+    /// From what was kept; the large arrays are taken out of `kept`.
     pub(crate) fn of_kept(body: &Arc<BodySurface>, kept: &mut KeptCoat) -> Self {
         let none = Particles::new(body, Arc::default(), 0);
         Self {
@@ -66,7 +66,7 @@ impl Sampled {
         self.state
     }
 
-    /// The albedo of every particle sampled so far; none where the surface's materials tell it.
+    /// The albedo of every particle sampled so far; empty where it follows from the surface's materials.
     pub(crate) fn albedo_of_particles(&self) -> &[u32] {
         match &*self.albedo {
             Albedo::OfParticle(all) => all,
@@ -82,14 +82,14 @@ impl Coat {
         bent.carrier().carry(&self.surface.mesh, places, &self.baked.baked, self.heights())
     }
 
-    /// One of them: position, normal and the columns of its lift.
+    /// One baked particle, carried likewise: position, normal and the columns of its lift.
     pub(crate) fn carried_one(&self, bent: &Bent, index: usize) -> [Vec3; 4] {
         let place = self.sampled.particles.places()[index];
         let baked = (&self.baked.baked, index);
         bent.carrier().particle(&self.surface.mesh, place, baked, self.heights()(index))
     }
 
-    /// One of them at rest.
+    /// One baked particle at rest.
     pub(crate) fn raised(&self, index: usize) -> RaisedPlace {
         let baked = &self.baked.baked;
         RaisedPlace {

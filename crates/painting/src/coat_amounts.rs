@@ -16,7 +16,8 @@ pub(crate) struct CoatAmounts {
     painted: Vec<Painted>,
     /// Factors on the flatness; empty where none is painted.
     flatness: Vec<f32>,
-    /// For each rule that has any, the greatest factors on length and width, and on the number wanted in place of the density.
+    /// For each rule with painted amounts, the greatest factors; `density` holds the one on how many strokes are
+    /// wanted.
     most: Vec<(u16, Painted)>,
 }
 

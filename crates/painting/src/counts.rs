@@ -27,11 +27,11 @@ pub(crate) struct CountInputs {
     /// For each rule how far strokes fit the form.
     fits: Vec<f32>,
     left_out: [bool; LAYERS],
-    /// The least number that is found.
+    /// The least count of a layer: see [`particle_count::least`].
     least: u32,
     /// The body layer's count, where the object states it.
     stated: Option<u64>,
-    /// How many times as many what is painted asks for.
+    /// How many times as many particles the painted amounts ask for.
     more_wanted: f32,
     paper: bool,
 }

@@ -73,8 +73,8 @@ impl Frame {
         self.background.map_or(Vec4::ZERO, |[r, g, b]| Vec4::new(r, g, b, 1.0))
     }
 
-    /// How many samples a pixel has, a side, where a texture may have sides of `most_side_px`: one in drafts, and where the
-    /// samples of a very large picture would take too much memory.
+    /// How many samples a pixel has along each axis: one in drafts, and where the samples of a very large picture would
+    /// take too much memory or a texture with a side of more than `most_side_px`.
     pub fn samples(&self, most_side_px: u32) -> u32 {
         match self.quality {
             Quality::Exact => samples_that_fit(self.finish.samples, self.size_px, most_side_px),
@@ -89,8 +89,8 @@ impl Frame {
     }
 }
 
-/// How many samples a pixel of an exact picture of this size has, a side, where `wanted` are stated and a texture may have sides of
-/// `most_side_px`: one where the samples of a very large picture would take too much memory.
+/// How many samples a pixel of an exact picture of this size has along each axis: `wanted`, or one where they would
+/// take too much memory or a texture with a side of more than `most_side_px`.
 pub fn samples_that_fit(wanted: u32, size_px: [u32; 2], most_side_px: u32) -> u32 {
     let [width, height] = size_px.map(|side| u64::from(side) * u64::from(wanted));
     let fits = width.max(height) <= u64::from(most_side_px) && width * height <= MAX_PIXELS;
@@ -110,8 +110,9 @@ pub enum Quality {
 /// The camera of a frame.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameView {
-    /// The place in world space that is the origin of all that the frame calls world space: single precision is finest there. It is 0
-    /// but for scenes that lie far from the world's own origin, and the same in all frames of a painting.
+    /// The place in world space that is the origin of all that the frame calls world space: single precision is finest
+    /// there. It is 0, except in scenes that lie far from the world's own origin, and the same in all frames of a
+    /// painting.
     pub origin_in_world: DVec3,
     /// Right-handed, looks down −Z.
     pub view_from_world: Mat4,
@@ -188,7 +189,7 @@ pub struct FrameBody {
     pub world_from_model: Mat4,
     /// Where its vertices are; `None` at rest.
     pub bent: Option<Arc<Bent>>,
-    /// The noise that colours it; its vertices are moved already.
+    /// The noise that colours it; if it also displaces vertices, `bent` has them displaced.
     pub noise: Option<FrameNoise>,
 }
 
@@ -210,7 +211,7 @@ pub struct Finish {
     pub weave: f32,
     /// From pixels of the picture (at the scene's size, origin in the middle) to pixels of the canvas.
     pub canvas_from_px: Affine2,
-    /// How many samples a pixel of an exact picture has, a side.
+    /// How many samples a pixel of an exact picture has along each axis.
     pub samples: u32,
     /// Height of the paint; 1 is oil.
     pub relief: f32,

@@ -2,8 +2,8 @@
 //! marks) as plain arrays, under a key that is a hash of all that these steps are given. Nothing here opens a file: bytes are handed
 //! in ([`crate::PrepareOptions::kept`]) and out (`Painting::keep`).
 //!
-//! A kept painting equals, to the bit, one that is prepared from nothing. Bytes that do not fit in any way (cut, damaged, of another
-//! version or scene) are as good as none.
+//! A kept painting equals, to the bit, one that is prepared from nothing. Bytes that do not fit (cut, damaged, of
+//! another version or scene) are treated as if nothing were kept.
 
 mod arrays;
 mod contents;
@@ -45,10 +45,10 @@ pub trait KeptBytes: Send + Sync {
     /// How many there are.
     fn count(&self) -> u64;
 
-    /// Reads all of `to`, from a place on.
+    /// Fills `to` with the bytes from `from` on.
     ///
     /// # Errors
-    /// Those of the system; fewer bytes than were said to be there.
+    /// Those of the system, and when fewer bytes are there than `count` said.
     fn read(&self, from: u64, to: &mut [u8]) -> io::Result<()>;
 }
 
@@ -66,7 +66,7 @@ impl KeptBytes for Vec<u8> {
 /// Gives what is kept under a key.
 pub type FindKept<'a> = dyn Fn(&KeptKey) -> Option<Box<dyn KeptBytes>> + Sync + 'a;
 
-/// What came of asking for what was kept.
+/// Whether a painting was taken from what another process kept.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Kept {
     /// Nobody asked: the painting was prepared from nothing.

@@ -1,4 +1,4 @@
-//! The direction field of a body, where a painting may be had without it: particles that were kept have their directions already.
+//! The direction field of a body, solved only when it is asked for: particles that were kept already have directions.
 
 use std::fmt;
 use std::sync::{Arc, OnceLock};

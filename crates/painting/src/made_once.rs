@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-/// What is in the cell; if it is empty, what `make` makes goes in. `make` must always make the same.
+/// The value in the cell; an empty cell is filled with what `make` makes, which must always be the same.
 ///
 /// This is not `get_or_init`, under which `make` must never use rayon: a thread that waits for its own tasks takes up others meanwhile.
 /// If one of those asks for the same cell, it waits for a value that is made further up on its own stack, forever. Here nobody waits;

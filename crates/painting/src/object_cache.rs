@@ -42,7 +42,7 @@ pub(crate) struct ObjectCache {
     /// In the order of [`LayerKind::ALL`].
     counts: Cached<CountInputs, [usize; LAYERS]>,
     samples: Cached<FieldSampleInputs, Arc<FieldSamples>>,
-    /// No field where every direction is stated outright.
+    /// `None` where every direction is stated outright.
     field: Cached<Arc<FieldInputs>, Option<Arc<BodyField>>>,
     coats: [CoatCache; LAYERS],
 }
@@ -168,7 +168,7 @@ impl ObjectCache {
         bounds.map(|(low, high)| (low - noise, high + noise))
     }
 
-    /// How the body stands in these shapes.
+    /// The body in each of these shapes.
     pub(crate) fn stands(&mut self, shapes: Vec<BodyShape>) -> Vec<Standing> {
         let (surface, parts) = (self.surface(), self.parts());
         let known = self.stands.update(Shaped { surface: Arc::clone(&surface), shapes }, |inputs, before| {
@@ -323,7 +323,8 @@ impl ObjectCache {
             .collect()
     }
 
-    /// The coats as they were kept. What later edits may go on from is remembered: counts, particles and lists of neighbours.
+    /// The coats from what was kept. Counts, particles and lists of neighbours are cached, since later edits can use
+    /// them.
     pub(crate) fn take_kept(
         &mut self,
         context: &Context<'_>,

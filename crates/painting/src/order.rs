@@ -22,7 +22,7 @@ impl PaintingOrder {
     /// How many particles share one word of flags. Every coat begins with a new word.
     pub(crate) const WORD: usize = u64::BITS as usize;
 
-    /// An order that was kept, of coats of so many particles; `None` for numbers that are none of theirs.
+    /// A kept order of coats with these counts of particles; `None` if it does not fit them.
     pub(crate) fn of_kept(numbers: Vec<u32>, firsts: Vec<u32>, counts: &[usize]) -> Option<Self> {
         let (begins, end) = begins(counts.iter().copied());
         let mut coat_of_word = Vec::with_capacity(end / Self::WORD);
@@ -44,7 +44,7 @@ impl PaintingOrder {
         Self { numbers, firsts }
     }
 
-    /// What is kept of it.
+    /// The arrays that are kept.
     pub(crate) fn to_keep(&self) -> [&[u32]; 2] {
         [&self.numbers, &self.firsts]
     }

@@ -84,7 +84,7 @@ pub(crate) struct PreparedBody {
 }
 
 impl Painting {
-    /// The palettes at a frame; shared with the frames before where no key changes them.
+    /// The palettes at a frame; all frames share them if no rule has keys.
     pub(crate) fn palettes_at(&self, frame: f64) -> Arc<Vec<Palette>> {
         if self.rules.iter().all(|rule| rule.strokes.keys.is_empty()) {
             return Arc::clone(&self.palettes);
@@ -118,7 +118,7 @@ impl Painting {
         &self.steps
     }
 
-    /// What came of asking for what another process kept.
+    /// Whether the painting was taken from what another process kept.
     pub fn kept(&self) -> &Kept {
         &self.kept
     }
@@ -180,8 +180,8 @@ impl Painting {
         }
     }
 
-    /// What went wrong since its files were opened: point caches that could not be read any more. Such bodies stay at rest. Each is told
-    /// once, in the order of the words.
+    /// What went wrong since its files were opened: point caches that could not be read any more. Their bodies stay at
+    /// rest. Each message occurs once; they are sorted.
     pub fn faults(&self) -> Vec<String> {
         let mut faults: Vec<String> =
             self.bodies.iter().filter_map(|body| body.surface.fault().cloned()).collect();

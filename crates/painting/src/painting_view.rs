@@ -52,7 +52,7 @@ pub(crate) struct CoatView<'a> {
     pub(crate) coat: &'a Coat,
     /// Whether its body is hidden at this frame.
     pub(crate) hidden: bool,
-    /// How its body stands; `None` at rest.
+    /// Its body as it is bent; `None` at rest.
     bent: Option<Arc<Bent>>,
     pub(crate) map: ScreenMap,
     particle_view: ParticleView,
@@ -286,8 +286,8 @@ impl CoatView<'_> {
         self.coat.baked.baked.position_of(index)
     }
 
-    /// N without a stroke's direction, of the tangent plane, as the surface carries it now: κ is measured with it where the solver has no
-    /// lift of its own.
+    /// The lift N of the tangent plane, without a stroke's direction, carried to where the surface is now. κ is
+    /// measured with it where the solver has no lift of its own.
     pub(crate) fn surface_lift(&self, index: usize) -> Lift {
         let Lift { along, across } =
             self.coat.lift_sources.surface_lift(index, self.coat.traits.region(index));
@@ -298,7 +298,7 @@ impl CoatView<'_> {
         Lift { along: gradient * along, across: gradient * across }
     }
 
-    /// How much larger the surface is at a particle than at rest, along a line.
+    /// How much longer the surface is at a particle than at rest: the root of how much its area has grown.
     fn stretch(&self, bent: Option<&Arc<Bent>>, index: usize) -> f64 {
         let Some(bent) = bent else { return 1.0 };
         let place = bent.place(self.coat.sampled.particles.places()[index]);

@@ -15,7 +15,7 @@ pub(crate) struct PolygonCounts {
     /// For each particle, the index of its polygon side in `sides`, and its number on that side.
     of_particle: Vec<(u32, u32)>,
     sides: Vec<PolygonSide>,
-    /// The triangles, each with its side of a polygon, and whether that is its back.
+    /// For each face, its triangle, the index of its polygon side in `sides`, and whether it is the triangle's back.
     faces: Vec<(u32, u32, bool)>,
 }
 
@@ -39,7 +39,7 @@ pub(crate) struct KeptPolygons<'a> {
 }
 
 impl PolygonCounts {
-    /// As they were kept; `None` where a number counts in nothing.
+    /// From what was kept; `None` if an index is out of range.
     pub(crate) fn of_kept(
         of_particle: Vec<[u32; 2]>,
         sides: Vec<PolygonSide>,
@@ -104,8 +104,8 @@ impl PolygonCounts {
     }
 
     /// How many particles of each polygon side show in a view. Fractions are rounded at a threshold that is random but
-    /// fixed for each side, so that of the polygons smaller than a stroke the right share is painted. `moved` are the mesh and the
-    /// positions of its vertices now, where it is not at rest.
+    /// fixed for each side, so that of the polygons smaller than a stroke the right share is painted. `moved` are the
+    /// mesh and the positions of its vertices now; `None` at rest.
     pub(crate) fn shown(
         &self,
         map: &ScreenMap,

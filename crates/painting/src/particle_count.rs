@@ -8,28 +8,29 @@ use rayon::prelude::*;
 
 use crate::body_shape::BodyShape;
 
-/// The greatest number that is found.
+/// The greatest count that is found.
 const MOST: f64 = 400_000.0;
 
-/// The least number that is found, for a camera that comes nearer than the scene's own; and the least of that where there are many
-/// objects, so that a city of small things has what can be seen of it.
+/// The least count that is found: a reserve for cameras that come nearer than the scene's own. Where there are many
+/// objects it shrinks down to `LEAST_OF_MANY`, so that all reserves together stay small.
 const LEAST: u32 = 64;
 const LEAST_OF_MANY: u32 = 8;
 
-/// An object counts among many when there are more than this many; with twice as many, the least number is halved.
+/// With more objects than this the least count is halved, and again whenever their number doubles.
 const MANY: usize = 2048;
 
-/// The least number of particles of a layer, in a scene of so many objects. It has few steps, so that an edit hardly ever changes it.
+/// The least number of particles of a layer in a scene with this many objects. It has few steps, so that an edit hardly
+/// ever changes it.
 pub(crate) fn least(objects: usize) -> u32 {
     let halvings = (0..u32::BITS).take_while(|halvings| objects > MANY << halvings).count();
     (LEAST >> halvings.min(31)).max(LEAST_OF_MANY)
 }
 
-/// How far beyond the picture faces count, in its size.
+/// Faces count up to this many half sizes of the picture from its middle.
 const MARGIN: f64 = 1.1;
 
-/// An object whose faces, one behind the other, cover the picture more often than this has no more particles: nearly all of them are
-/// hidden, as in a heap of thousands of large triangles.
+/// Faces that cover the picture more often than this, one behind the other, give their object no more particles: nearly
+/// all of them are hidden, as in a heap of thousands of large triangles.
 const DEEPEST: f64 = 32.0;
 
 /// At most this many faces are examined.
@@ -51,7 +52,8 @@ const PIECE: f64 = 1.0 / 2000.0;
 /// A face is cut into at most the square of this many pieces.
 const MOST_CUTS: f64 = 64.0;
 
-/// How much farther than its nearest corner the farthest one of a face may be, of the nearest depth, so that its middle stands for it.
+/// The middle of a face stands for all of it while its corners' depths differ by at most this share of the nearest
+/// depth.
 const EVEN_DEPTH: f64 = 0.25;
 
 /// A face or a piece of one, with what its strokes need.
@@ -67,8 +69,9 @@ struct CountedFace<const LAYERS: usize> {
 }
 
 /// For each layer, how many particles give nine tenths of the object's area in the picture all the strokes wanted
-/// there, in the view that needs most; no fewer than `least`. `wanted_per_px` gives the strokes per pixel wanted on a triangle, `positions_at` where the
-/// vertices are in a shape; `None` at rest.
+/// there, in the view that needs most; no fewer than `least`. `wanted_per_px` gives the strokes per pixel wanted on a
+/// triangle, from its index, a point of it and its normal. `positions_at` gives the vertices' positions in a shape, or
+/// `None` at rest.
 pub(crate) fn find<const LAYERS: usize>(
     surface: &Surface<'_>,
     sightings: &[Sighting],
@@ -115,14 +118,15 @@ pub(crate) fn find<const LAYERS: usize>(
         .map(|needed| (needed * surface.area() * 1.25).clamp(f64::from(least), MOST).ceil() as usize)
 }
 
-/// A count that was found, and is wanted this many times as large: as far as the greatest number that is found.
+/// A count that was found, times `by`, but at most the greatest count that is found.
 pub(crate) fn times(found: usize, by: f32) -> usize {
     let most = found.max(MOST as usize);
     ((found as f64 * f64::from(by)).ceil() as usize).min(most)
 }
 
 impl<const LAYERS: usize> CountedFace<LAYERS> {
-    /// Its middle when the vertices are at these positions, and its normal, as long as its area now over that at rest.
+    /// Its middle when the vertices are at these positions, and its normal, whose length is its area now over that at
+    /// rest.
     fn moved(&self, mesh: &TriangleMesh, positions: &[Vec3]) -> (DVec3, DVec3) {
         let at = |positions: &[Vec3]| {
             mesh.triangles[self.triangle as usize].map(|vertex| positions[vertex as usize].as_dvec3())
@@ -153,7 +157,7 @@ impl Sighting {
     }
 }
 
-/// The middles of the equal triangles that cuts along each side, into so many parts, make of a triangle.
+/// Cuts each side of a triangle into `cuts` parts, which makes equal small triangles. Returns their middles.
 fn middles([a, b, c]: [DVec3; 3], cuts: usize) -> impl Iterator<Item = DVec3> {
     let at = move |row: usize, column: usize, third: f64| {
         let [v, w] = [row, column].map(|number| (number as f64 + third / 3.0) / cuts as f64);

@@ -18,8 +18,8 @@ const LENGTH_SHARE: f64 = 0.6;
 /// The least cap, pixels at the scene's size.
 const LEAST_CAP_PX: f64 = 3.0;
 
-/// A stroke that fits the form is at most this share of the form's size wide, the less the more it has to shrink, and at least this
-/// many pixels.
+/// A stroke that fits the form is at most `FORM_SHARE` of the form's size wide, even less if it would be much wider
+/// otherwise. This limit is never below `LEAST_FITTED_PX`.
 const FORM_SHARE: f32 = 0.13;
 const LEAST_FITTED_PX: f32 = 10.0;
 
@@ -87,7 +87,7 @@ impl BodyParts {
             corners.iter().map(|&vertex| positions[vertex as usize].as_dvec3()).sum::<DVec3>() / 3.0
         };
         for (corners, &part) in mesh.triangles.iter().zip(&self.of_triangle) {
-            // A part is moved as far as its triangles are in the mean, by their areas at rest.
+            // A part moves by the mean of how far its triangles move, weighted by their areas at rest.
             let [a, b, c] = corners.map(|vertex| mesh.positions[vertex as usize].as_dvec3());
             let area = (b - a).cross(c - a).length();
             let sum = &mut sums[part as usize];
@@ -115,7 +115,7 @@ impl Cap {
         [length_px.min(self.length_px).max(width * aspect), width]
     }
 
-    /// As [`Cap::apply`], and as far as `fit` says (0..=1) no larger than suits a form of this size, model units.
+    /// As [`Cap::apply`], then made to suit a form of this size (model units), as far as `fit` says, 0..=1.
     pub(crate) fn fitted(self, size_px: [f32; 2], form: f32, fit: f32) -> [f32; 2] {
         let capped = self.apply(size_px[0], size_px[1]);
         let suited_px = FORM_SHARE * form * self.px_per_unit;
@@ -126,7 +126,8 @@ impl Cap {
     }
 }
 
-/// How far the strokes of a layer fit the form. The underpainting and the scumble are there to be broad.
+/// How far the strokes of a layer fit the form. Underpainting and scumble stay broad, contour lines and touches as they
+/// are.
 pub(crate) fn fit_of(kind: LayerKind, fit: f32) -> f32 {
     match kind {
         LayerKind::Underpainting | LayerKind::Scumble | LayerKind::Contour | LayerKind::Touches => 0.0,

@@ -75,7 +75,8 @@ impl Preparer {
     /// time.
     ///
     /// # Errors
-    /// As there, [`PrepareError::GivenUp`], and [`PrepareError::Memory`] before any memory is taken for particles.
+    /// As [`Preparer::prepare`]; [`PrepareError::GivenUp`]; [`PrepareError::Memory`], before memory is taken for
+    /// particles.
     pub fn prepare_with(
         &mut self,
         loaded: Arc<LoadedScene>,
@@ -341,7 +342,7 @@ struct Plain {
     shapes: Vec<Vec<BodyShape>>,
 }
 
-/// Of objects whose surfaces are built.
+/// The painting without particles, of objects whose surfaces are built.
 fn plain(
     loaded: &Arc<LoadedScene>,
     caches: &mut [ObjectCache],

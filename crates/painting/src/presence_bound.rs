@@ -28,8 +28,8 @@ pub(crate) struct PresenceBound {
 }
 
 impl Painting {
-    /// For each rule, which has these strokes at the frame; `None` where it paints nothing on this coat. `by_polygon` where the
-    /// paper's rule decides what shows.
+    /// The bound of each rule, whose strokes at the frame are in `strokes_of_rule`; `None` where it paints nothing on
+    /// this coat. `by_polygon` says that the paper's rule decides what shows.
     pub(crate) fn presence_bounds(
         &self,
         coat: &Coat,

@@ -80,7 +80,7 @@ impl SceneReferences {
         &self.poses[0]
     }
 
-    /// As one body sees them; `stands` says how it stands at the frame of each.
+    /// The references as one body sees them; `stands` has the body at the frame of each.
     pub(crate) fn of_body(&self, object: usize, stands: Vec<Standing>) -> BodyReferences {
         let of_pose = |(reference, stands): (&ReferencePose, Standing)| {
             let pose = reference.poses[object];
@@ -101,7 +101,7 @@ impl SceneReferences {
     }
 }
 
-/// How a body stands at the frame of a reference.
+/// A body as it is bent at the frame of a reference.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Standing {
     pub(crate) shape: BodyShape,
@@ -111,7 +111,7 @@ pub(crate) struct Standing {
     pub(crate) centers: Vec<DVec3>,
 }
 
-/// All follows from the shape.
+/// Only shapes are compared: all else follows from the shape.
 impl PartialEq for Standing {
     fn eq(&self, other: &Self) -> bool {
         self.shape == other.shape
@@ -119,7 +119,7 @@ impl PartialEq for Standing {
 }
 
 impl Standing {
-    /// Where it stands.
+    /// Hashes where its vertices and its parts are.
     pub(crate) fn feed_key(&self, key: &mut KeyHasher) {
         // Its vertices follow from the shape.
         let Self { shape: _, bent, centers } = self;
@@ -190,7 +190,7 @@ pub(crate) struct RaisedPlace {
     pub(crate) height: f64,
 }
 
-/// The same place as a reference has it, as far off the surface.
+/// A [`RaisedPlace`] at the frame of a reference, as far off the surface as at rest.
 pub(crate) struct PlaceThen {
     /// Model space.
     pub(crate) position: DVec3,
@@ -248,7 +248,7 @@ impl BodyReferences {
         &self.all[0]
     }
 
-    /// All of them.
+    /// Hashes all of them.
     pub(crate) fn feed_key(&self, key: &mut KeyHasher) {
         let Self { all, further, of_rule } = self;
         for BodyReference { map, near, roll_sin_cos, up_in_model, size_px, stands } in all {

@@ -68,12 +68,12 @@ pub(crate) struct BodyGuideView {
     pub(crate) eye: DVec3,
     pub(crate) target: DVec3,
     pub(crate) frame: Option<f64>,
-    /// How the body stands at that frame; at rest without a frame.
+    /// The body at that frame; at rest without a frame.
     pub(crate) stands: Standing,
 }
 
 impl BodyGuide {
-    /// All of it.
+    /// Hashes all of it.
     pub(crate) fn feed_key(&self, key: &mut KeyHasher) {
         let Self { rule, mode, guide, view } = self;
         key.value(&(rule, mode, guide));
@@ -221,7 +221,7 @@ impl BodyRegions {
         self.of_triangle[triangle]
     }
 
-    /// All of them.
+    /// Hashes all of them.
     pub(crate) fn feed_key(&self, key: &mut KeyHasher) {
         let Self { of_triangle, dabbed, implicit } = self;
         key.numbers(of_triangle);

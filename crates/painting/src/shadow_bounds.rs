@@ -13,13 +13,13 @@ pub(crate) type View = (PictureView, Vec<DAffine3>);
 /// Least and greatest corner of a body, model space.
 pub(crate) type Corners = (Vec3, Vec3);
 
-/// Across and up, this many places of a picture are asked what they show.
+/// How many places of a picture, across and up, are tested for what they show.
 const PLACES: [usize; 2] = [24, 14];
 
-/// As many of the views are asked.
+/// At most this many of the views are tested.
 const VIEWS: usize = 5;
 
-/// How far beyond the picture places lie, in its size: what is just outside casts shadows into it.
+/// Places lie up to this many half sizes of the picture from its middle: what is just outside casts shadows into it.
 const MARGIN: f64 = 1.2;
 
 /// The share of what is seen that lies in its sphere. The rest is mostly the strip below a horizon.
@@ -32,14 +32,14 @@ const MUCH_SMALLER: f64 = 0.5;
 /// precision tells places apart that are 1/16,000 of the radius from each other.
 const FAR: f64 = 1024.0;
 
-/// Where the frames' world space begins: 0, and for scenes that lie far from there, their middle.
+/// The origin of the frames' world space: 0, or the middle of a scene that lies far from there.
 pub(crate) fn far_origin(all: &[Option<Corners>], views: &[View]) -> DVec3 {
     let (center, radius) = round_all(all, views.iter().map(|(_, poses)| poses.as_slice()));
     if center.length() > FAR * radius { center } else { DVec3::ZERO }
 }
 
-/// Centre and radius of the sphere; its centre is counted from `origin_in_world`. `all` are the boxes round the bodies, `lit` those of bodies that show and that light
-/// falls on.
+/// Centre and radius of the sphere; its centre is counted from `origin_in_world`. `all` are the boxes round the bodies,
+/// `lit` those round bodies that are visible and lit.
 pub(crate) fn find(
     all: &[Option<Corners>],
     lit: &[Option<Corners>],
@@ -91,7 +91,7 @@ fn round_seen(boxes: &[Option<Corners>], views: &[View]) -> Option<(DVec3, f64)>
             let hits = placed.iter().filter_map(|(model_from_world, corners)| {
                 ray.hits(*model_from_world, *corners).filter(|hit| hit.depth > view.near())
             });
-            // Of what the eye is inside of, the far side is seen.
+            // Boxes round the eye come last; their far side is seen.
             let nearest = hits.min_by(|a, b| {
                 (a.is_inside, a.depth).partial_cmp(&(b.is_inside, b.depth)).unwrap_or(Ordering::Equal)
             });
@@ -142,7 +142,7 @@ impl Ray {
         self.from + self.along * depth
     }
 
-    /// Kay and Kajiya's slabs (1986).
+    /// Where the ray meets a box, by Kay and Kajiya's slabs (1986); `None` where it misses.
     fn hits(&self, model_from_world: DAffine3, (low, high): Corners) -> Option<Hit> {
         let from = model_from_world.transform_point3(self.from);
         let along = model_from_world.transform_vector3(self.along);

@@ -48,7 +48,7 @@ impl<'a> BodyShapes<'a> {
         let cache = stated.cache.as_ref().and_then(|name| self.loaded.caches.get(name));
         let cache_frame = cache.map(|cache| {
             let [first, last] = cache.frames();
-            // The `max` and `min` of a number that is none give the other one.
+            // `max` and `min` also bring NaN into the range.
             self.cache_frames[object].max(first).min(last)
         });
         let rest = bend.map_or_else(BendPose::default, |bend| bend.rest.clone());

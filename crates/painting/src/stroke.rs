@@ -260,7 +260,7 @@ pub(crate) fn mixing(strokes: &ResolvedStrokes, boldness: f32, palette: u8) -> M
 }
 
 /// Turns a stroke near its body's outline towards that outline, by the share `contour`, and towards the nearer one of
-/// its two directions.
+/// the outline's two directions.
 pub(crate) fn along_contour(
     angle_rad: f32,
     contour: f32,

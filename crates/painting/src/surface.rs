@@ -81,8 +81,8 @@ impl SurfaceInputs {
         })
     }
 
-    /// For each of these, the first whose surface is the same: as a rule itself. Of one mesh file, only the first few kinds of surface
-    /// are compared.
+    /// For each of these, the index of the first with the same surface: mostly its own. For each mesh file, only its
+    /// first `COMPARED` different surfaces are compared.
     pub(crate) fn twins(all: &[Self]) -> Vec<usize> {
         const COMPARED: usize = 16;
         let mut kinds: HashMap<*const MeshFile, Vec<usize>> = HashMap::new();
@@ -121,7 +121,7 @@ impl SurfaceInputs {
         if surface.bends() && self.rest != BodyShape::default() {
             let Vertices { positions, normals } = surface.vertices_at(&self.rest);
             (surface.mesh.positions, surface.mesh.normals) = (positions, normals);
-            // What was measured was the mesh of the file.
+            // The gradients found so far were those of the file's mesh.
             surface.bending = surface.bending.resting(self.rest.clone());
         }
         surface.sides = sides(&surface.mesh);
@@ -197,7 +197,7 @@ fn placed(mut mesh: TriangleMesh, scale: Scale, up: Up) -> TriangleMesh {
 }
 
 impl BodySurface {
-    /// Whether light falls on any of it.
+    /// Whether any of its materials in use is lit.
     pub(crate) fn is_lit(&self) -> bool {
         let is_lit = |triangle| {
             let material = self.materials.get(self.material_of_triangle(triangle));
@@ -251,7 +251,7 @@ impl BodySurface {
     }
 }
 
-/// Stands for the albedo where a texture cuts the surface out: no stroke lies there. The albedo of a surface has an A of 0 or 255.
+/// Stands for the albedo where a texture cuts a hole: no stroke lies there. Real albedos have an A of 0 or 255.
 pub(crate) const HOLE: u32 = 0x0100_0000;
 
 /// The albedo of triangles without a material.
@@ -270,7 +270,7 @@ fn srgb8(material: &BodyMaterial, albedo: [f32; 3]) -> u32 {
 /// sRGB albedo of particles, 8 bits a channel, as 0xAABBGGRR; A is 0 where unlit.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Albedo {
-    /// One albedo per material: no material has a texture.
+    /// One albedo per material: no material has a texture, and the mesh has no colours of its own.
     OfMaterial(Vec<u32>),
     /// One albedo per particle.
     OfParticle(Vec<u32>),

@@ -23,14 +23,14 @@ const END: f64 = 0.36;
 /// By how much a line is narrower at its very ends.
 const LIFTED: f64 = 0.22;
 
-/// A line of this many widths, or more, needs so much more paint at its end.
+/// A line of this many widths, or more, needs `RUNS_DRY` more paint in its mark to show at its end.
 const DRY_AFTER: f64 = 12.0;
 const RUNS_DRY: f64 = 0.34;
 
 /// Steps of a touch at a single place.
 const STRAIGHT_STEPS: usize = 8;
 
-/// The slope of a surface that is seen edge-on counts as this slant; as in `paint.vert`.
+/// The least slant that a surface counts with, as in `paint.vert`.
 const LEAST_SLANT: f64 = 0.05;
 
 /// A point of a line in the picture.
@@ -49,7 +49,7 @@ struct LinePoint {
     slant: f64,
     /// Unit.
     normal_in_world: DVec3,
-    /// How far it lies from where its depth is that of the surface, pixels.
+    /// How far it lies from the place of the surface that has its depth, pixels.
     off_px: DVec2,
 }
 
@@ -100,7 +100,7 @@ impl PaintingView<'_> {
         strokes.sources.push(source);
     }
 
-    /// A place of a touch in the picture; its depth is not a number where the eye is not in front of it.
+    /// A place of a touch in the picture. Its depth is NaN if it is nearer or farther than the camera shows.
     fn line_point(&self, body: &PosedBody, place: &TouchPlace, share: f64) -> LinePoint {
         let (position, normal) = match &body.bent {
             Some(bent) => {
@@ -176,11 +176,11 @@ impl PaintingView<'_> {
         }
         let Some(nearest) = nearest else { return 0.0 };
         let mean = if sum.length() > 1e-6 { 0.5 * sum.to_angle() } else { nearest };
-        // Of its two ends the stroke begins at that of the nearest.
+        // A line has two ends: the touch begins at the one where the nearest stroke begins.
         if (mean - nearest).cos() < 0.0 { mean + std::f64::consts::PI } else { mean }
     }
 
-    /// The parts of a line that can be drawn: before the camera, and not wholly outside the picture.
+    /// The parts of a line that can be drawn: in front of the camera, facing it, and not wholly outside the picture.
     fn runs_in_view(&self, line: &[LinePoint], width_px: f64) -> Vec<Range<usize>> {
         let reach = DVec2::splat(width_px) + DVec2::from(self.half_px.map(f64::from));
         let half = DVec2::from(self.half_px.map(f64::from));
@@ -202,7 +202,7 @@ impl PaintingView<'_> {
         runs
     }
 
-    /// What all of a touch shares: where its colour is found, and its paint.
+    /// The stroke that stands for a touch in the frame: where its colour is found, and its paint.
     fn touch_stroke(
         &self,
         laid: &LaidTouch,
@@ -265,7 +265,7 @@ fn anchor(line: &[LinePoint], runs: &[Range<usize>]) -> Option<Anchor> {
     if whole <= 0.0 {
         return None;
     }
-    // Its share of the line changes slowly as the line turns away, so the place does.
+    // This share changes slowly as the line turns away, so the anchor moves slowly.
     let share = seen().map(|point| weight(point) * point.share).sum::<f64>() / whole;
     let next = seen().position(|point| point.share >= share).unwrap_or(0).max(1);
     let (from, to) = (seen().nth(next - 1)?, seen().nth(next)?);
@@ -319,7 +319,7 @@ impl Width {
         END * (STRETCHED / marks).min(1.0)
     }
 
-    /// Where a share of the line is along the mark.
+    /// The place along the mark, 0..=1, at a share of the line.
     fn on_mark(&self, share: f64) -> f64 {
         let end = self.end_share();
         let u = if share < end {

@@ -1,5 +1,5 @@
-//! Lays touches (strokes placed by hand) onto surfaces at rest: the places of a triangle mesh that each runs through. From there they are
-//! carried as particles are.
+//! Lays touches (strokes placed by hand) onto surfaces at rest: finds the places of a triangle mesh that each runs
+//! through. From there they are carried as particles are.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -28,7 +28,7 @@ const STEPS: std::ops::RangeInclusive<usize> = 24..=192;
 /// How often corners of a line are rounded.
 const ROUNDINGS: usize = 6;
 
-/// A touch at a single place lies along the mean of so many strokes round it: single ones stray.
+/// A touch at a single place lies along the mean of this many strokes round it, since single strokes stray.
 const ROUND: usize = 7;
 
 /// What touches are laid onto.
@@ -82,7 +82,7 @@ struct Remembered {
 }
 
 impl TouchMemo {
-    /// All touches of a scene that lie on something.
+    /// All touches of a scene that are not hidden and whose object has a surface.
     pub(crate) fn lay(&mut self, scene: &Scene, inputs: &TouchInputs<'_>) -> Arc<Vec<LaidTouch>> {
         let objects: HashMap<&str, usize> =
             scene.objects.iter().enumerate().map(|(index, object)| (object.name.as_str(), index)).collect();
@@ -195,7 +195,7 @@ fn places_of(points: &[TouchPoint], surface: &BodySurface) -> Vec<TouchPlace> {
     if path.is_empty() {
         return given.first().and_then(|&(at, normal)| near.place(at, normal)).into_iter().collect();
     }
-    // Which way the surface faces is taken from the two points that are nearest.
+    // Which way the surface faces is the mean of the points' normals, weighted by the inverse square of their distance.
     let onto = |path: &[DVec3]| -> Vec<TouchPlace> {
         let place = |&at: &DVec3| {
             let weight = |&(point, normal): &(DVec3, DVec3)| {
@@ -213,7 +213,7 @@ fn places_of(points: &[TouchPoint], surface: &BodySurface) -> Vec<TouchPlace> {
     onto(&path)
 }
 
-/// A line with each point but the ends drawn half-way to the middle of its neighbours.
+/// Moves each point of a line, except its ends, half-way to the middle of its neighbours.
 fn rounded(path: &[DVec3]) -> Vec<DVec3> {
     let mut rounded = path.to_vec();
     for (index, three) in path.windows(3).enumerate() {
@@ -229,7 +229,7 @@ struct Near<'a> {
 }
 
 impl<'a> Near<'a> {
-    /// `None` for a surface without triangles, and without points.
+    /// `None` for a surface without triangles, or no points.
     fn of(surface: &'a BodySurface, points: &[DVec3]) -> Option<Self> {
         let mesh = &surface.mesh;
         let (low, high) = mesh.bounds()?;

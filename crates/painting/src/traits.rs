@@ -39,7 +39,8 @@ const STRAY_SHARE: f32 = 0.08;
 const STRAY_DEG: f64 = 38.0;
 pub(crate) const USUAL_JITTER_DEG: f64 = 7.0;
 
-/// Two crossing families of strokes swing and scatter this much more than one family does; this share is of the second.
+/// Two crossing families of strokes swing and scatter this many times as much as one family does. The last number is
+/// the share of the strokes in the second family.
 const CROSSING_SWING: f64 = 26.0 / 6.0;
 const CROSSING_JITTER: f64 = 13.0 / 7.0;
 const SECOND_FAMILY: f32 = 0.42;
@@ -79,7 +80,7 @@ pub(crate) struct Traits {
     regions: Arc<BodyRegions>,
     pub(crate) parts: Arc<BodyParts>,
     pub(crate) name_hash: u32,
-    /// The region of each particle where there are dabs; empty where triangles tell it.
+    /// The region of each particle where there are dabs; empty where it follows from the triangles.
     dabbed: Vec<u16>,
     /// Slow noise of each particle: of hue and value, and of how firm edges are.
     pub(crate) drift: Vec<[f32; 2]>,
@@ -129,7 +130,7 @@ pub(crate) struct CoatTraits {
 }
 
 impl Traits {
-    /// The region of each particle where there are dabs; none where triangles tell it.
+    /// The region of each particle where there are dabs; empty where it follows from the triangles.
     pub(crate) fn dabbed(&self) -> &[u16] {
         &self.dabbed
     }

@@ -1,4 +1,4 @@
-//! What an EXR file can hold beside the colour, called AOVs ("arbitrary output variables") in the field: the one table of them.
+//! The table of AOVs ("arbitrary output variables"): the data that an EXR file can hold beside the colour.
 
 use crate::nearest::nearest;
 
@@ -20,11 +20,11 @@ pub enum Aov {
     Backward,
     /// Colour without light.
     Albedo,
-    /// Light that falls.
+    /// Light that falls on the surface.
     Light,
-    /// What the sun reaches.
+    /// How much of the light that casts shadows arrives.
     Shadow,
-    /// What ambient light reaches.
+    /// How open a place is to ambient light.
     Occlusion,
     /// Numbers of objects.
     ObjectId,
@@ -63,7 +63,7 @@ pub enum Aov {
 /// A row of the table.
 #[derive(Clone, Copy, Debug)]
 pub struct AovRow {
-    /// Which.
+    /// The AOV that the row describes.
     pub aov: Aov,
     /// Its name in a scene file and on the command line.
     pub name: &'static str,
@@ -258,15 +258,15 @@ impl AovSet {
     /// All of them.
     pub const ALL: Self = Self((1 << AOVS.len()) - 1);
 
-    /// Those of the scene: they need no paint.
+    /// The AOVs of the scene's surfaces, which need no paint.
     pub const OF_SCENE: Self = Self((1 << (Aov::ObjectId as u32 + 1)) - 1);
 
-    /// Whether this one is part of it.
+    /// Whether the set holds this AOV.
     pub fn has(self, aov: Aov) -> bool {
         self.0 & (1 << aov as u32) != 0
     }
 
-    /// Whether some of these are part of it.
+    /// Whether the set holds at least one of these.
     pub fn has_any(self, aovs: &[Aov]) -> bool {
         aovs.iter().any(|aov| self.has(*aov))
     }
@@ -299,10 +299,11 @@ impl AovSet {
         AOVS.iter().filter(move |row| self.has(row.aov))
     }
 
-    /// The set that a word stands for: `all`, `none`, `scene`, the name of one, or what several names begin with, as `stroke`.
+    /// The set that a word stands for: `all`, `none`, `scene`, the name of one AOV, or what several names have before
+    /// the dot, such as `stroke`.
     ///
     /// # Errors
-    /// A name that is close to an unknown word, if there is one.
+    /// The word is unknown. The error is the known name that is close to it, if there is one.
     pub fn named(word: &str) -> Result<Self, Option<&'static str>> {
         match word {
             "all" => return Ok(Self::ALL),

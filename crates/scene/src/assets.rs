@@ -15,7 +15,7 @@ pub const MAX_NAME_BYTES: usize = 4096;
 pub struct AssetFolders {
     /// Searched in this order, after the folder of the file that names the asset (`--asset-dir`).
     pub extra: Vec<PathBuf>,
-    /// Notes what is found.
+    /// The list to which every file that is found is added.
     found: FoundFiles,
 }
 
@@ -111,12 +111,12 @@ impl AssetError {
 }
 
 impl AssetFolders {
-    /// The scene's own folder, and these.
+    /// The scene's own folder, and the folders in `extra`.
     pub fn with(extra: Vec<PathBuf>) -> Self {
         Self { extra, found: FoundFiles::default() }
     }
 
-    /// The same folders, which note in `found` what is found from now on.
+    /// The same folders; files that are found from now on are added to the list `found`.
     pub(crate) fn noting(&self, found: &FoundFiles) -> Self {
         Self { found: found.clone(), ..self.clone() }
     }

@@ -20,9 +20,9 @@ pub const PATCH: &str = "impasto:patch";
 /// The names of all built-in meshes.
 pub const ALL: [&str; 2] = [BACKDROP, PATCH];
 
-/// The groups of the backdrop, and of the patch, which is a floor: the floor up to its bend, and what rises.
+/// The group of the backdrop's floor, up to the middle of the bend. All of the patch is in a group of this name.
 pub const FLOOR: &str = "floor";
-/// See [`FLOOR`].
+/// The group of the backdrop's wall, from the middle of the bend up.
 pub const WALL: &str = "wall";
 
 const FRONT: f32 = 1.0;
@@ -32,8 +32,9 @@ const HEIGHT: f32 = 1.3;
 /// Radius of the bend between floor and wall.
 const BEND: f32 = 0.12;
 
-/// Numbers of quads: across; and, along the profile, on the floor, in the bend and up the wall.
+/// Number of quads across the backdrop.
 const ACROSS: usize = 24;
+/// Numbers of quads along the profile: on the floor, in the bend, up the wall.
 const ALONG: [usize; 3] = [16, 10, 14];
 
 /// The built-in mesh of this name, if there is one.
@@ -48,7 +49,7 @@ pub fn of_name(name: &str) -> Option<MeshFile> {
     Some(MeshFile::still(mesh, groups, vec![material]))
 }
 
-/// Rings of quads round a middle, the outermost uneven.
+/// Rings of quads round a centre, with triangles in the innermost. Each ring has the uneven outline of the border.
 fn patch() -> TriangleMesh {
     const RINGS: u32 = 8;
     const AROUND: u32 = 64;
@@ -56,7 +57,7 @@ fn patch() -> TriangleMesh {
     for ring in 0..=RINGS {
         for step in 0..AROUND {
             let angle = std::f32::consts::TAU * step as f32 / AROUND as f32;
-            // Waves that come round to where they began.
+            // A whole number of waves fits round, so that the border closes.
             let uneven = 0.05 * (3.0 * angle + 0.7).sin()
                 + 0.035 * (5.0 * angle + 2.0).sin()
                 + 0.02 * (11.0 * angle).sin();

@@ -52,9 +52,9 @@ pub fn check(scene: &Scene) -> Vec<Finding> {
     findings.done()
 }
 
-/// Checks the document against its meshes, which are listed by the path written in the document: groups and materials
-/// exist, guides lie on the surface, morphs have equal topology. A mesh that is not listed is skipped; the failure to
-/// read it was reported before.
+/// Checks the document against its files: groups and materials exist, guides lie on the surface, morphs have equal
+/// topology, point caches fit. `meshes` and `caches` are keyed by the path written in the document. A file that is not
+/// in them is skipped, since the failure to read it was reported before.
 pub fn check_with_meshes(
     scene: &Scene,
     meshes: &BTreeMap<String, Arc<MeshFile>>,
@@ -63,7 +63,7 @@ pub fn check_with_meshes(
     check_anew(scene, meshes, caches, &Known::default())
 }
 
-/// Like [`check_with_meshes`], but skips what is known to be right.
+/// Like [`check_with_meshes`], but skips the parts listed in `known`.
 pub(crate) fn check_anew(
     scene: &Scene,
     meshes: &BTreeMap<String, Arc<MeshFile>>,

@@ -316,7 +316,7 @@ pub struct Object {
     pub locked: bool,
 }
 
-/// The shape of a body that bends in which strokes are laid.
+/// The shape in which strokes are laid on a body that bends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 pub enum Rest {
     /// The shape that the mesh file has without any motion.
@@ -347,7 +347,7 @@ usual_fields! {
 }
 
 impl MaterialOverride {
-    /// The picture files that it names, each with the field that names it.
+    /// The picture files that the material names, each with the path of its field inside the material.
     pub fn textures(&self) -> impl Iterator<Item = (&String, &'static str)> {
         let own = self.texture.as_ref().map(|name| (name, "texture"));
         own.into_iter().chain(self.noise_displace.iter().flat_map(NoiseDisplace::textures))
@@ -426,13 +426,13 @@ impl Scale {
         Self([scale; 3])
     }
 
-    /// The scale that leaves as much room: the geometric mean of the three.
+    /// The even scale that gives the same volume: the geometric mean of the three.
     pub fn mean(self) -> f64 {
         let [x, y, z] = self.0;
         if x == y && y == z { x } else { (x * y * z).cbrt() }
     }
 
-    /// With each factor made tidy by `tidy` after it was multiplied.
+    /// The scale times `factor`, each component rounded by `tidy` afterwards.
     pub fn times(self, factor: f64, tidy: impl Fn(f64) -> f64) -> Self {
         Self(self.0.map(|scale| tidy(scale * factor)))
     }

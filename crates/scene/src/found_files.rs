@@ -7,12 +7,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// The files that were found while a scene was read. Copies share one list.
 #[derive(Clone, Debug, Default)]
 pub struct FoundFiles {
-    /// By the path at which each was found: the place in the scene's folder at which its name would find it without further folders,
-    /// relative to that folder. `None` where there is no such place.
+    /// For each file, by the path at which it was found: the path, relative to the scene's folder, at which its name
+    /// would find it without further folders. `None` if there is no such path.
     places: Arc<Mutex<BTreeMap<PathBuf, Option<PathBuf>>>>,
 }
 
-/// What was found says nothing about the folders.
+/// All lists are equal, so that comparing `AssetFolders` compares the folders alone.
 impl PartialEq for FoundFiles {
     fn eq(&self, _: &Self) -> bool {
         true
@@ -25,7 +25,7 @@ impl FoundFiles {
     /// Notes a file that the file `beside` names, in a scene of the folder `root`. `name` has `/` between folders.
     pub(crate) fn note(&self, [beside, root]: [&Path; 2], path: &Path, name: &str) {
         let mut places = self.places.lock().unwrap_or_else(PoisonError::into_inner);
-        // A file in a further folder that names others is thought to lie in the scene's folder, and they beside it.
+        // If the naming file was itself found in a further folder, its place in the scene's folder counts.
         let naming = places.get(&without_dots(beside)).cloned().unwrap_or_else(|| {
             let root = std::fs::canonicalize(root).ok()?;
             let folder = beside.parent().filter(|folder| !folder.as_os_str().is_empty());
@@ -36,12 +36,13 @@ impl FoundFiles {
         places.insert(path.to_owned(), place);
     }
 
-    /// Every file found, with the place that it would have in the scene's folder, in the order of the paths.
+    /// Every file found, by its path, with the path relative to the scene's folder at which its name would find it
+    /// there. `None` if there is no such path.
     pub fn places(&self) -> BTreeMap<PathBuf, Option<PathBuf>> {
         self.places.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// A list of its own with what this one has.
+    /// A copy that does not share the list.
     pub(crate) fn copied(&self) -> Self {
         Self { places: Arc::new(Mutex::new(self.places())) }
     }

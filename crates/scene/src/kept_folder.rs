@@ -1,5 +1,5 @@
-//! A folder in which prepared scenes are kept from one process to the next. Any number of processes may use one folder at once, on a
-//! network share too: files come whole by their names or not at all, and nobody locks or waits.
+//! A folder in which prepared scenes are kept from one process to the next. Any number of processes may use one folder
+//! at once, on a network share too: a file appears under its name whole or not at all, and nobody locks or waits.
 
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -26,7 +26,7 @@ pub struct KeptFolder {
     pub most_bytes: u64,
 }
 
-/// A kept file, open: it stays what it is while another takes its name.
+/// An open kept file. Its contents stay the same even if another file takes its name.
 #[derive(Debug)]
 pub struct KeptFile {
     file: File,
@@ -35,10 +35,10 @@ pub struct KeptFile {
 }
 
 impl KeptFile {
-    /// Reads all of `to`, from a place of the file on; several threads may read at once.
+    /// Fills `to` with the bytes at the offset `from`. Several threads may read at once.
     ///
     /// # Errors
-    /// Those of the system; a file that ends before that.
+    /// Those of the system; the file ends too early.
     pub fn read(&self, from: u64, to: &mut [u8]) -> io::Result<()> {
         read_at(&self.file, from, to)
     }
@@ -52,7 +52,7 @@ fn read_at(file: &File, from: u64, to: &mut [u8]) -> io::Result<()> {
 #[cfg(not(unix))]
 fn read_at(mut file: &File, from: u64, to: &mut [u8]) -> io::Result<()> {
     use std::io::{Read as _, Seek as _, SeekFrom};
-    // All handles of the file share their place in it.
+    // All readers share the file's one position.
     static ONE: std::sync::Mutex<()> = std::sync::Mutex::new(());
     let _one = ONE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     file.seek(SeekFrom::Start(from))?;
@@ -65,7 +65,7 @@ pub struct ToWrite<'a> {
     pub key: String,
     /// How many bytes `write` writes.
     pub bytes: u64,
-    /// Writes them.
+    /// Writes these bytes.
     pub write: &'a dyn Fn(&mut dyn Write) -> io::Result<()>,
     /// Whether a file that is there already is replaced.
     pub replace: bool,
@@ -80,7 +80,7 @@ impl KeptFolder {
     /// The file that is kept under a key; `None` where there is none. It counts as used now.
     ///
     /// # Errors
-    /// Those of the system, and what is no regular file or larger than `most_bytes`.
+    /// Those of the system; the file is no regular file, or is larger than `most_bytes`.
     pub fn find(&self, key: &str, most_bytes: u64) -> io::Result<Option<KeptFile>> {
         let file = match File::open(self.file(key)) {
             Ok(file) => file,
@@ -91,7 +91,7 @@ impl KeptFolder {
         if !metadata.is_file() || metadata.len() > most_bytes {
             return Err(io::Error::other("it is no regular file, or larger than the memory that there is"));
         }
-        // Where this is not allowed, the file only seems older than it is.
+        // If this is not allowed, the file only seems to be unused for longer.
         let _ = file.set_modified(SystemTime::now());
         Ok(Some(KeptFile { file, bytes: metadata.len() }))
     }
@@ -123,8 +123,8 @@ impl KeptFolder {
         file.finish()
     }
 
-    /// Removes what was used longest ago until all files together are as large as they may be, and unfinished files of processes that
-    /// were killed long ago. The file of `key` stays in any case, as does whatever has a name that is none of ours.
+    /// Removes the files that were used longest ago until all others fit in `most_bytes`, and unfinished files of
+    /// processes that were killed long ago. The file of `key` stays in any case, as do files whose names are not ours.
     pub fn tidy(&self, key: &str) {
         let entries = fs::read_dir(&self.path).into_iter().flatten().flatten();
         let mut files: Vec<(SystemTime, u64, PathBuf)> = Vec::new();
@@ -151,7 +151,7 @@ impl KeptFolder {
     }
 }
 
-/// Another process may have removed it meanwhile.
+/// Removes a file. It may fail: another process may have removed it meanwhile.
 fn remove(path: &Path) {
     let _ = fs::remove_file(path);
 }

@@ -1,4 +1,5 @@
-//! Limits of a scene. What exceeds one is refused before memory is allocated for it, with a message that names it.
+//! Limits of a scene. What exceeds a limit is refused, by a message that names the limit, before memory is allocated
+//! for it.
 
 /// Bytes of a scene file.
 pub const MAX_SCENE_BYTES: u64 = 16 << 20;
@@ -78,7 +79,7 @@ pub const MAX_LAYER: i32 = 1000;
 /// Lights of kind `Sun`.
 pub const MAX_SUNS: usize = 8;
 
-/// Lights of kind `Point`.
+/// Lights of the kinds `Point` and `Spot`, together.
 pub const MAX_POINT_LIGHTS: usize = 16;
 
 /// Problems that one report lists.

@@ -56,8 +56,8 @@ pub fn parse(path: &Path, text: &str) -> Result<Scene, Report> {
     parse::parse(path, text).map(|parsed| parsed.scene)
 }
 
-/// Reads a scene file (`.ron`), or a mesh or shot (`.obj`, `.gltf`, `.glb`) in the scene that [`crate::new_scene`] makes for it, with everything
-/// that it names, and checks all of it.
+/// Reads a scene file (`.ron`) with everything that it names, and checks all of it. A mesh or a shot (`.obj`, `.gltf`,
+/// `.glb`) is read in the scene that [`crate::new_scene`] makes for it.
 ///
 /// # Errors
 ///
@@ -76,12 +76,12 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
     };
     let mut loaded = loaded?;
     if mesh_format::is_mesh(path) {
-        // A scene that is saved beside it reads it still.
+        // A scene that is saved beside the mesh will still read it.
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         files.note([path, folder_of(path)], path, &name);
     }
     loaded.files = files;
-    // Of an edited scene nothing is said: it may be about to get its first one.
+    // This is not among the checks, since an edited scene may be about to get its first object.
     if loaded.scene.objects.is_empty() {
         let mend = "add one, as in objects: [(name: \"cup\", mesh: \"cup.obj\")]";
         let problem =
@@ -121,8 +121,8 @@ fn load_scene(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report>
     finish(path, parsed, options, None)
 }
 
-/// Loads a mesh in a new scene. The scene is written as text and read again, so that `--set` works as on a file that
-/// `impasto new` writes, and both are painted alike.
+/// Loads a mesh or a shot in a new scene. The scene is written as text and read again, so that `--set` works as on a
+/// file that `impasto new` writes, and both are painted alike.
 fn load_alone(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
     source::check_regular(path).map_err(|problem| Report(vec![problem]))?;
     let mut made = Made::default();
@@ -133,7 +133,7 @@ fn load_alone(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report>
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
         let (shot, _) = Shot::new(file, &name, &Choice::default());
         if shot.has_camera() {
-            // What cannot be read is told of when the scene is.
+            // Meshes that cannot be read are reported when the scene is loaded.
             let read = |node| made.reader.read(path, Some(node), (root, &options.folders), false).ok();
             let meshes: Vec<Arc<MeshFile>> =
                 shot.object_names().filter_map(read).map(|(mesh, _)| mesh).collect();
@@ -182,7 +182,8 @@ fn unsure_of_up(path: &Path, scene: &Scene) -> Problem {
     }
 }
 
-/// Applies overrides, checks, and reads files. For a scene that was made for a mesh, `known_mesh` is that mesh.
+/// Applies overrides, checks the scene, and reads its files. `made` is what was read while the scene was made for a
+/// mesh or a shot; `None` for a scene file.
 fn finish(
     path: &Path,
     parsed: Parsed,
@@ -201,7 +202,7 @@ fn finish(
             problems.extend(findings.into_iter().map(|finding| locator.problem(finding)));
             warnings
         }
-        // Without the shot, what is checked is not what is meant.
+        // Without its shot the scene lacks objects, so the other findings would mislead.
         Err(Report(of_shot)) => {
             let at = |problem| locator.of_file(problem, "shot");
             return Err(Report(of_shot.into_iter().map(at).collect()));
@@ -211,7 +212,7 @@ fn finish(
     let known_mesh = known_mesh.map(|mesh| (own_name, mesh));
     let readers = Readers {
         mesh: &|name, with_points| match &known_mesh {
-            // Its points are not known. Its warnings are.
+            // The mesh was read without its points, so it is read again. Its warnings are known.
             Some((known, _)) if *known == name && with_points => {
                 let read = read_mesh(&reader, path, name, &options.folders, true);
                 read.map(|(mesh, _)| (mesh, Vec::new()))
@@ -248,7 +249,7 @@ fn finish(
 /// Findings about the document, and warnings about the file of its shot.
 type ShotRead = Result<(Vec<Finding>, Vec<Problem>), Report>;
 
-/// Reads the shot that a document names, and puts it on the stage.
+/// Reads the shot that a document names, and puts it on the stage unless a shot stands there.
 fn enter_shot(reader: &MeshReader, scene_path: &Path, scene: &mut Scene, folders: &AssetFolders) -> ShotRead {
     let Some(name) = scene.shot.clone().filter(|_| scene.stage.shot.is_none()) else {
         return Ok((Vec::new(), Vec::new()));
@@ -298,7 +299,7 @@ fn shared<T>((read, warnings): (T, Vec<Problem>)) -> (Arc<T>, Vec<Problem>) {
     (Arc::new(read), warnings)
 }
 
-/// Gives findings their position: in the file, or on the command line where that set the field.
+/// Gives findings their position: in the file or, for a field that `--set` has set, on the command line.
 struct FieldLocator<'a> {
     path: &'a Path,
     /// The file as it was written; `None` for a generated scene.

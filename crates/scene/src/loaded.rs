@@ -26,9 +26,9 @@ pub struct LoadedScene {
     pub textures: BTreeMap<String, Arc<Texture>>,
     /// Pictures that serve as brushes, by the path written in the document.
     pub brushes: BTreeMap<String, Arc<Texture>>,
-    /// The files that were found while it was read: those named above, and those that they name.
+    /// All files that were found while the scene was read: those above, and those that they name.
     pub files: FoundFiles,
-    /// Everything that was wrong but could be repaired while reading.
+    /// The problems that did not keep the scene from being loaded.
     pub warnings: Vec<Problem>,
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The largest peak that [`peak_since_last_bytes`] has read. It resets the system's own record of the peak each time.
+/// The largest peak that [`peak_since_last_bytes`] has read. That function resets the system's own record of the peak.
 static MOST: AtomicU64 = AtomicU64::new(0);
 
 /// Bytes that can still be allocated: what the system has free or can free, within the limits of the control group and of the process
@@ -17,13 +17,15 @@ pub fn available_bytes() -> Option<u64> {
     [of_system, of_group, left_of_process_bytes()].into_iter().flatten().min()
 }
 
-/// Bytes that this process may still allocate, whatever the system has free; `None` where nobody limits it (`ulimit -v`, `ulimit -d`).
+/// Bytes that this process may still allocate, whatever the system has free; `None` if it has no limit (`ulimit -v`,
+/// `ulimit -d`).
 pub fn left_of_process_bytes() -> Option<u64> {
     let left = |(most, now)| Some(limit_bytes(most)?.saturating_sub(field_bytes("/proc/self/status", now)?));
     [("Max address space", "VmSize:"), ("Max data size", "VmData:")].into_iter().filter_map(left).min()
 }
 
-/// What may be allocated where `wanted` bytes are stated, or nothing is: no statement lifts the limits of the process.
+/// The bytes that may be allocated: `wanted`, or without it all that is available; never more than the process's own
+/// limits leave.
 pub fn granted_bytes(wanted: Option<u64>) -> Option<u64> {
     match wanted {
         Some(wanted) => Some(left_of_process_bytes().map_or(wanted, |left| left.min(wanted))),
@@ -35,7 +37,7 @@ pub fn granted_bytes(wanted: Option<u64>) -> Option<u64> {
 fn limit_bytes(name: &str) -> Option<u64> {
     let text = std::fs::read_to_string("/proc/self/limits").ok()?;
     let line = text.lines().find_map(|line| line.strip_prefix(name))?;
-    // The limit that holds now comes first; "unlimited" is no number.
+    // The soft limit, which is in force, comes first; "unlimited" is no number.
     line.split_whitespace().next()?.parse().ok()
 }
 

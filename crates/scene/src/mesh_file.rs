@@ -17,7 +17,8 @@ pub struct MeshFile {
     pub materials: Vec<Material>,
     /// What bends it: morph targets and joints, in the file's own space.
     pub bend: Option<Arc<Bend>>,
-    /// The points of the file, where a point cache moves them.
+    /// The points of the file, for a point cache to move; `None` if nobody asked for them or the file does not have
+    /// them.
     pub points: Option<Arc<Points>>,
 }
 
@@ -28,7 +29,8 @@ impl MeshFile {
     }
 }
 
-/// The points of an OBJ file, its `v` lines, in the order of the file.
+/// The points of a mesh file, in the order of the file: the `v` lines of an OBJ file, the `_POINT` numbers of a glTF
+/// file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Points {
     /// How many there are.
@@ -48,8 +50,8 @@ pub struct Material {
     pub texture: Option<Arc<Texture>>,
     /// How the texture is read.
     pub sampler: Sampler,
-    /// Where the texture's alpha, 0..=1, is less than this, there is no surface; without a texture, alpha is 1. `None`: alpha means
-    /// nothing.
+    /// Where the texture's alpha, 0..=1, is less than this, there is no surface; without a texture, alpha is 1. `None`:
+    /// alpha is ignored.
     pub cutoff: Option<f32>,
     /// Strength of highlights, 0 matt .. 1 glazed.
     pub gloss: f32,

@@ -1,4 +1,4 @@
-//! The formats of mesh files, behind one door: nobody else knows one by its ending.
+//! Reads mesh files of all formats, OBJ and glTF, in one way: other modules need not know the format.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -66,12 +66,12 @@ pub fn name_of_node(file: &str, node: &str) -> String {
     format!("{file}{NODE}{node}")
 }
 
-/// The same for all paths of a file.
+/// One path for a file, whichever path it is named by.
 fn one_name(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| path.to_owned())
 }
 
-/// Reads mesh files; a glTF file of which many nodes are asked is read once.
+/// Reads mesh files. A glTF file is read once, however many of its nodes are asked for.
 #[derive(Default)]
 pub(crate) struct MeshReader {
     open: RefCell<BTreeMap<PathBuf, Shared>>,
@@ -79,7 +79,8 @@ pub(crate) struct MeshReader {
 }
 
 impl MeshReader {
-    /// Reads a mesh file, or one node of it; `with_points` where a point cache moves it, which only an OBJ file can have.
+    /// Reads a mesh file, or one node of it. With `with_points`, an OBJ file is read with its points, for a point
+    /// cache. A glTF node has its points anyway, if the file states them.
     pub fn read(
         &self,
         path: &Path,
@@ -105,7 +106,7 @@ impl MeshReader {
         Ok((mesh, warnings))
     }
 
-    /// A glTF file; its warnings come with the first use.
+    /// Reads a glTF file, or gives it again. Its warnings come the first time only.
     pub fn open(
         &self,
         path: &Path,

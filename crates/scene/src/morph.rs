@@ -5,7 +5,7 @@ use impasto_core::bending::Vertices;
 
 use crate::mesh_file::MeshFile;
 
-/// The vertices of `base` with their positions and normals in `target`.
+/// For each vertex of `base`, its position and normal in `target`.
 ///
 /// Both must have the same faces in the same order, corner by corner. Vertices are matched by the corners of triangles,
 /// so the two files may split their vertices differently.

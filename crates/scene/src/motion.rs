@@ -59,7 +59,8 @@ impl CameraPose {
 /// the last key.
 ///
 /// Eye, target, roll and field of view are interpolated as numbers, with the `ease` of the earlier key. A key without a
-/// field of view keeps the one of the key before it. Until a key states one, it is that of the lens.
+/// field of view keeps the one of the key before it. Until a key states one, it is that of the lens. Without keys, the
+/// camera is that of the shot, if it has one.
 pub fn camera_at(scene: &Scene, frame: f64) -> CameraPose {
     let keys = &scene.camera.keys;
     if keys.is_empty()
@@ -126,8 +127,8 @@ fn fov_y_deg_at_key(keys: &[CameraKey]) -> Option<f64> {
     keys.iter().rev().find_map(|key| key.fov_y_deg)
 }
 
-/// `world_from_model` of every object, in the order of the file: rotation, translation and uniform scale. Keys are in
-/// the space of the parent, which may come later in the file.
+/// `world_from_model` of every object, in the order of the file: rotation, translation and scale. Keys are in the space
+/// of the parent, which may come later in the file.
 ///
 /// Takes time and memory proportional to the number of objects and follows chains of any depth. An unknown parent, or
 /// one that closes a cycle, counts as none (`check` refuses both).
@@ -161,7 +162,7 @@ pub fn hidden_at(scene: &Scene, frame: f64) -> Vec<bool> {
     scene.objects.iter().map(|object| object.hidden || !is_shown(object)).collect()
 }
 
-/// Where a shot has its objects. Each time that is asked for is evaluated once.
+/// The poses of a shot at the frames that were asked for, each evaluated once.
 #[derive(Default)]
 struct ShotPoses {
     at_frames: Vec<(f64, Posed)>,
@@ -178,7 +179,7 @@ impl ShotPoses {
         shot.pose_of(self.at(scene, &**shot, frame), &object.name)
     }
 
-    /// Where everything of the shot is at a frame.
+    /// The pose of the shot at a frame.
     fn at(&mut self, scene: &Scene, shot: &dyn Brought, frame: f64) -> &Posed {
         let known = self.at_frames.iter().position(|(other, _)| *other == frame);
         let index = known.unwrap_or_else(|| {
@@ -210,7 +211,8 @@ pub fn bends(scene: &Scene, object: &Object) -> bool {
     by_shot || object.cache.is_some() || object.morph.is_some()
 }
 
-/// The frame at which every object shows the samples of its point cache, in the order of the file.
+/// For each object, in the order of the file, the frame at which its point cache is sampled: the frame whose pose it
+/// holds.
 pub fn cache_frames_at(scene: &Scene, frame: f64) -> Vec<f64> {
     scene.objects.iter().map(|object| held_frame(scene, object, frame)).collect()
 }
@@ -303,13 +305,13 @@ fn pose_in_parent(keys: &[ObjectKey], frame: f64) -> DAffine3 {
     let (left, right) = (&keys[span.left], &keys[span.right]);
     let rotation = rotation_from_euler_deg(span.mix_vec3(left.rotation_deg, right.rotation_deg));
     let scale = Scale(span.mix_vec3(left.scale.0, right.scale.0).to_array());
-    // A scale that is even multiplies the rotation as one number does.
+    // An even scale needs no product of matrices.
     let [x, y, z] = scale.0;
     let matrix = if x == y && y == z { rotation * x } else { rotation * scale.matrix() };
     DAffine3::from_mat3_translation(matrix, span.mix_vec3(left.translation, right.translation))
 }
 
-/// An object's pose at a frame as a key, in its parent's space.
+/// An object's pose at a frame as a key, in its parent's space; in world space if the shot moves it.
 pub fn key_at(scene: &Scene, object: &Object, frame: f64) -> ObjectKey {
     let held = held_frame(scene, object, frame);
     let Some(span) = Span::at(&object.keys, held) else {

@@ -1,12 +1,12 @@
 //! Suggests the known name that a mistyped one was probably meant to be.
 
-/// The known name nearest to a mistyped one; `None` where none is near. A name with more or fewer letters at its end is near too, as
-/// `Wall` and `Wall.001` are. Only the first thousand known names are compared.
+/// The known name nearest to a mistyped one; `None` if none is near. Two names of which one begins with the other, such
+/// as `Wall` and `Wall.001`, count as near. Only the first thousand known names are compared.
 pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     // Long texts are no typing mistakes, and comparing them takes time proportional to the product of their lengths.
     const LONGEST: usize = 128;
     const COMPARED: usize = 1000;
-    /// Fewer letters at the beginning of two names are chance.
+    /// A common beginning that is shorter than this is chance.
     const BEGINNING: usize = 3;
     /// The least likeness that counts.
     const ALIKE: f64 = 0.5;

@@ -1,4 +1,5 @@
-//! New scenes: for a bare mesh, upright, lit from one side, framed with its shadow before a quiet ground; and an empty one.
+//! Makes new scenes: one for a mesh, upright, lit from one side and framed with its shadow; one for a shot; and an
+//! empty one.
 
 mod add;
 mod axes;
@@ -58,10 +59,10 @@ pub struct NewScene {
 
 /// A scene with one model before a ground, framed with a margin of a tenth whatever its size and position.
 ///
-/// The model comes first and is named after the file; where it has groups and no colours, each group is an object, moved by the first
-/// one. The mesh is the file's bare name, so the scene belongs into the same folder. A model without colours gets one, chosen by its
-/// name. An open mesh that shows its back is seen from the other side; if that is from below, there is no ground, since the floor would
-/// hide the mesh.
+/// The model is the first object and is named after the file. If it has groups and no colours, each group is an object,
+/// moved by the first one. Objects name the mesh by its bare file name, so the scene must lie in the same folder. A
+/// model without colours gets one, chosen by its name. An open mesh that shows its back is seen from the other side; if
+/// that is from below, there is no ground, since the floor would hide the mesh.
 pub fn for_mesh(path: &Path, mesh: &MeshFile, placing: Placing) -> NewScene {
     let name = object_name(path);
     let name_hash = scheme::name_hash(&name);
@@ -137,12 +138,12 @@ pub fn empty() -> Scene {
     }
 }
 
-/// A light of this colour that comes from nowhere yet.
+/// A light of this colour, without a direction or a position.
 fn light(name: &str, kind: LightKind, hex: &str, intensity: f64) -> Light {
     Light { color: Color::from_hex(hex).unwrap_or_default(), intensity, ..Light::new(name, kind) }
 }
 
-/// A scene with nothing in it, not even a camera's key.
+/// A scene with nothing in it; its camera has no key.
 fn bare() -> Scene {
     Scene {
         version: Scene::VERSION,
@@ -179,7 +180,7 @@ fn round_to(vector: DVec3, step: f64) -> DVec3 {
     vector.map(|component| round_at(component, step.log10().floor() as i32))
 }
 
-/// Two significant digits.
+/// Rounds to two significant digits.
 fn significant(value: f64) -> f64 {
     round_at(value, value.abs().max(f64::MIN_POSITIVE).log10().floor() as i32 - 1)
 }

@@ -26,10 +26,10 @@ const HEADER: u64 = 32;
 /// One point of a sample, in bytes.
 const POINT: u64 = 12;
 
-/// A file of at most so many bytes is read whole when its places are checked. Of a larger one, some samples are.
+/// A file of at most this many bytes is read whole when its places are checked. Of a larger one, some samples are read.
 const READ_WHOLE: u64 = 256 << 20;
 
-/// Of a large file, so many samples are read when its places are checked.
+/// How many samples of a larger file are read when its places are checked.
 const READ_SAMPLES: u64 = 16;
 
 /// Coordinates beyond this are refused, as in meshes.
@@ -110,8 +110,8 @@ impl PointCache {
         })
     }
 
-    /// What is wrong with its places, found once by reading them. Ask only where the number of points is that of a mesh: memory for a
-    /// sample is taken.
+    /// What is wrong with its places, found by reading them at the first call. Call it only if the number of points is
+    /// that of a mesh, since memory for a whole sample is taken.
     pub(crate) fn fault_of_places(&self) -> Option<&Fault> {
         let find = || {
             let whole = self.count as u64 * self.samples * POINT <= READ_WHOLE;
@@ -170,7 +170,7 @@ impl PointCache {
     fn bytes(&self, number: u64) -> io::Result<Vec<u8>> {
         let mut bytes = vec![0; self.count * POINT as usize];
         {
-            // What a thread that panicked left behind is only the place in the file.
+            // A thread that panicked can only have left the file at another position, which is set anew here.
             let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
             file.seek(SeekFrom::Start(HEADER + number * self.count as u64 * POINT))?;
             file.read_exact(&mut bytes)?;

@@ -33,7 +33,7 @@ pub enum LayerKind {
     Scumble,
     /// Small strokes where colours meet.
     Accents,
-    /// Thin lines where a body ends, lost and found.
+    /// Thin lines where a body ends, fading out in places.
     Contour,
     /// A few thick ones on highlights.
     Lights,
@@ -125,7 +125,8 @@ pub fn resolve_with(
     strokes
 }
 
-/// The tone under the scene's layers: an earthy brown that lets most of each body's own colour through.
+/// The tone under the scene's layers. If the scene states none, it is an earthy brown that lets most of each body's own
+/// colour through.
 pub fn ground(scene: &Scene) -> ResolvedGround {
     let stated = scene.strokes.layers.iter().rfind(|layer| layer.name == GROUND);
     ResolvedGround {

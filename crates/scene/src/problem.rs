@@ -52,8 +52,8 @@ impl Severity {
 pub struct Report(pub Vec<Problem>);
 
 impl Problem {
-    /// Where a file is missing that another file names: its path beside the file that names it. `None` where the problem is
-    /// another one. The name is that of [`crate::assets::AssetError::Missing`], which a problem has as words.
+    /// For a file that another file names and that is missing: its path beside the file that names it. `None` for any
+    /// other problem. The name is read from the message, which is that of [`crate::assets::AssetError::Missing`].
     pub fn missing_file(&self) -> Option<PathBuf> {
         let (named, _) = self.message.split_once("\" was not found (tried ")?;
         let (_, name) = named.rsplit_once('"')?;
@@ -82,7 +82,7 @@ impl fmt::Display for Problem {
 /// The most characters of a word that are shown: no name of a file needs more, and a hostile one may have millions.
 const MOST_OF_A_WORD: usize = 200;
 
-/// A text that a terminal shows as it stands: no character steers it, and no word goes on without end.
+/// A text that is safe to show in a terminal: control characters are escaped, and very long words are cut.
 pub fn harmless(text: &str) -> String {
     let mut shown = String::with_capacity(text.len().min(1 << 12));
     let mut length = 0;

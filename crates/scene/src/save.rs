@@ -13,7 +13,8 @@ mod serializer;
 
 use layout::Value;
 
-/// The document as text that [`crate::load::parse`] reads back as an equal document; what it only has from its shot is left out.
+/// The document as text that [`crate::load::parse`] reads back as an equal document. What comes from its shot alone is
+/// left out.
 ///
 /// Colours are written with 8 bits a channel, which is all that a scene file can hold.
 pub fn to_ron(scene: &Scene) -> String {

@@ -1,8 +1,9 @@
-//! A shot: what a glTF file brings into a scene, its objects, camera, lights, motion and frame range.
+//! A shot: the objects, camera, lights, motion and frame range that a glTF file brings into a scene.
 //!
-//! Nothing of it is written into the scene file. [`Brought::enter`] adds it to the document in memory, so that all who read a document
-//! find objects, lights and frames where they always are; [`Brought::left`] takes out again what the document only has from the shot, before it
-//! is saved. What moves is never turned into keys: [`crate::motion`] asks the shot for each frame.
+//! Nothing of it is written into the scene file. [`Brought::enter`] adds it to the document in memory, so that all who
+//! read a document find objects, lights and frames where they always are. Before the document is saved,
+//! [`Brought::left`] takes out what comes from the shot alone. What moves is never turned into keys: [`crate::motion`]
+//! asks the shot for each frame.
 
 mod camera;
 mod enter;
@@ -36,9 +37,9 @@ pub struct Shot {
     is_chosen: bool,
     /// The lights as they are at rest, each with its node; the soft light all around has none.
     lights: Vec<(Light, Option<usize>)>,
-    /// Our intensity of a light over that of the file.
+    /// A light's intensity in the scene, over that in the file.
     exposure: f64,
-    /// Intensity of the soft light all around that surfaces give each other.
+    /// Intensity of the soft light all around, which stands for the light that surfaces give each other.
     around: f64,
     /// For each light of the file, a factor on the intensities of its keys.
     key_factors: Vec<f64>,
@@ -49,14 +50,15 @@ pub struct Shot {
 struct ShotObject {
     object: Object,
     node: usize,
-    /// Undoes the stretch that its mesh has already.
+    /// The inverse of the stretch that its mesh already has.
     unstretched: DMat3,
 }
 
 /// What a scene chooses of a shot's file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Choice {
-    /// The camera that is looked through, by the name of its node; left out, the first.
+    /// The camera that is looked through, by the name of its node; left out, that of the sidecar's cuts, or else the
+    /// one that sees the most objects.
     camera: Option<String>,
     /// The animation that plays; left out, all of them together.
     animation: Option<String>,
@@ -69,7 +71,7 @@ impl Choice {
     }
 }
 
-/// The animation of this name, or else all of them. Says where the file is not clear.
+/// The animation of this name, or else all of them. Adds to `odd` what is not clear in the file.
 fn playing(file: &GltfFile, name: Option<&str>, odd: &mut Vec<[String; 2]>) -> Animator {
     let named = name.map_or(Playing::All, Playing::Named);
     let (animator, double) = Animator::new(&file.gltf, named).unwrap_or_else(|names| {
@@ -86,7 +88,8 @@ fn playing(file: &GltfFile, name: Option<&str>, odd: &mut Vec<[String; 2]>) -> A
 }
 
 impl Shot {
-    /// The shot in a file that a scene names so. Also returns what a user should know of the file: each what is odd, and the mend.
+    /// The shot in a file that a scene calls `name`. Also returns what a user should know of the file: for each, a
+    /// message and the mend.
     pub(crate) fn new(file: Arc<GltfFile>, name: &str, choice: &Choice) -> (Self, Vec<[String; 2]>) {
         let mut odd = Vec::new();
         let animator = playing(&file, choice.animation.as_deref(), &mut odd);
@@ -141,7 +144,7 @@ impl Shot {
         &self.file.path
     }
 
-    /// The names of what it shows.
+    /// The names of its objects.
     pub fn object_names(&self) -> impl Iterator<Item = &str> {
         self.objects.iter().map(|object| object.object.name.as_str())
     }
@@ -151,18 +154,18 @@ impl Shot {
         !self.lights.is_empty()
     }
 
-    /// Frames per second at which all keys lie on whole frames; `None` where there are too few keys to tell, and where the rate is
-    /// stated.
+    /// Frames per second at which all keys lie on whole frames; `None` if there are too few keys to tell, if no usual
+    /// rate fits, or if the sidecar states the rate.
     pub(crate) fn rate_of_keys(&self) -> Option<f64> {
         if self.file.sidecar.fps.is_some() { None } else { rate_of(self.animator.key_times_s()) }
     }
 
-    /// Frames per second that are stated.
+    /// Frames per second, if the sidecar states them.
     fn stated_rate(&self) -> Option<f64> {
         self.file.sidecar.fps
     }
 
-    /// The size of the picture that is stated, pixels.
+    /// The size of the picture in pixels, if the sidecar states it.
     pub fn size_px(&self) -> Option<[u32; 2]> {
         self.file.sidecar.size
     }
@@ -172,7 +175,8 @@ impl Shot {
         self.stated_rate().or_else(|| self.rate_of_keys()).unwrap_or(24.0)
     }
 
-    /// The first and the last frame: those stated, or those between which it moves, at this rate: frame = time · rate.
+    /// The first and the last frame at `fps` frames per second: those that the sidecar states, unless it states another
+    /// rate, or else those between which the shot moves, where frame = time · fps.
     pub fn frames(&self, fps: f64) -> (i64, i64) {
         if let Some([first, last]) =
             self.file.sidecar.frames.filter(|_| self.stated_rate().is_none_or(|rate| rate == fps))
@@ -180,7 +184,7 @@ impl Shot {
             return (first, last);
         }
         let [first, last] = self.span_s().unwrap_or_default().map(|time_s| f64::from(time_s) * fps);
-        // What rounding of times to 32 bits leaves over is no frame.
+        // Times are rounded to 32 bits: what this leaves over is no frame.
         let last = (last - 1e-3).ceil().max(0.0) as i64;
         (((first + 1e-3).floor() as i64).min(last), last)
     }
@@ -264,7 +268,7 @@ impl Brought for Shot {
     }
 }
 
-/// The name in a scene of a file that a shot of this name has beside it.
+/// How a scene names `file`, which lies beside the shot that the scene names `shot`.
 fn name_beside(shot: &str, file: &str) -> String {
     match shot.rfind(['/', '\\']) {
         Some(end) => format!("{}{file}", &shot[..=end]),
@@ -272,13 +276,14 @@ fn name_beside(shot: &str, file: &str) -> String {
     }
 }
 
-/// Frames per second at which all these times lie on whole frames; `None` where there are too few to tell.
+/// Frames per second at which all these times lie on whole frames; `None` if there are too few to tell, or no usual
+/// rate fits.
 fn rate_of(times_s: impl Iterator<Item = f32>) -> Option<f64> {
     const FEW: usize = 4;
     /// How far from a whole frame a key may be: times have 32 bits.
     const OFF: f64 = 2e-3;
     let ntsc = |rate: f64| rate * 1000.0 / 1001.0;
-    // The commonest first: what fits several is the first of them.
+    // The commonest rate comes first, since the first that fits is taken.
     let rates = [24.0, 25.0, 30.0, 12.0, 15.0, 48.0, 50.0, 60.0, ntsc(24.0), ntsc(30.0)];
     let times_s: Vec<f64> = times_s.map(f64::from).collect();
     let is_whole = |frame: f64| (frame - frame.round()).abs() < OFF;

@@ -43,7 +43,7 @@ pub(crate) struct Geometry {
     pub corners: Vec<u32>,
     /// Where the corners of each face end; they begin where those of the face before it end.
     pub ends: Vec<u32>,
-    /// Vertices stay apart even where they agree in all values, since they may part when the mesh bends.
+    /// Whether vertices stay apart even where they agree in all values, since they may part when the mesh bends.
     pub keeps_vertices: bool,
 }
 
@@ -52,7 +52,8 @@ pub(crate) struct Built {
     pub mesh: TriangleMesh,
     /// For each triangle, the number of the face that it was cut from.
     pub face_of_triangle: Vec<u32>,
-    /// For each vertex of the mesh, that of the [`Geometry`] which it is; empty unless vertices are kept apart.
+    /// For each vertex of the mesh, the index of the [`Geometry`]'s vertex that it comes from; empty unless vertices
+    /// are kept apart.
     pub source_of_vertex: Vec<u32>,
 }
 
@@ -68,7 +69,8 @@ pub(crate) struct Oddities {
     pub rough_faces: (usize, u32),
     /// How many faces have over 1,000 corners, and the index of the first.
     pub large_faces: (usize, u32),
-    /// How many faces have normals of the file that run along them, and the index of the first. Their normals are made.
+    /// How many faces have normals in the file that run along them, and the index of the first. New normals are made
+    /// for them.
     pub along_faces: (usize, u32),
     /// How many faces lie on others with the same corners, and the index of the first. They are left out.
     pub doubled_faces: (usize, u32),
@@ -99,7 +101,7 @@ pub(crate) struct Builder<'a> {
     triangles: Vec<Triangle>,
     /// Cutting a polygon with care takes tests of its corners against each other; this many more may be made.
     tests_left: u64,
-    /// Whether normals of the file that run along their faces are not used.
+    /// Whether the file's normals are ignored where they run along their face.
     drops_along: bool,
     pub odd: Oddities,
 }
@@ -147,17 +149,18 @@ impl<'a> Builder<'a> {
         whole.mended()
     }
 
-    /// Without what lies double, and with an eye on the file's normals.
+    /// Drops doubled triangles, and looks for normals that run along their faces.
     fn mended(mut self) -> Self {
         self.drop_doubled();
         self.find_along();
         self
     }
 
-    /// Leaves out triangles that lie on others with the same corners in the same order, where there are so many that the area is
-    /// many times what a body of this size has. They would take strokes that cannot show.
+    /// Drops triangles that lie on others with the same corners in the same order: they would take strokes that cannot
+    /// show. Does so only if the area of all triangles is far too large for a body of this size, and never if vertices
+    /// are kept apart.
     fn drop_doubled(&mut self) {
-        /// The area of a body over that of the box around it.
+        /// The area of a mesh over that of the box around it, from which on doubled triangles are looked for.
         const MUCH_AREA: f64 = 16.0;
         if self.geometry.keeps_vertices {
             return;
@@ -178,7 +181,7 @@ impl<'a> Builder<'a> {
         self.triangles.retain(|triangle| {
             let mut places =
                 triangle.vertices.map(|vertex| bits(geometry.positions[vertex as usize].to_array()));
-            // From the least corner on, in the same sense.
+            // The corners from the least one on, in the same winding.
             let least = (0..3).min_by_key(|&corner| places[corner]).unwrap_or_default();
             places.rotate_left(least);
             let is_new = seen.insert(places);
@@ -189,8 +192,8 @@ impl<'a> Builder<'a> {
         });
     }
 
-    /// Finds faces whose normals in the file run along them, which would be lit from nowhere. Slivers may have such normals and be
-    /// right, so it takes a share of the area.
+    /// Finds faces whose normals in the file run along them: they would get no light. A sliver may rightly have such
+    /// normals, so nothing is done if such faces have only a small share of the area.
     fn find_along(&mut self) {
         const SHARE_OF_AREA: f64 = 0.01;
         let mut areas = [0.0; 2];
@@ -209,7 +212,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Whether the normals of all three corners, which the file gives, run along the triangle. `None` where it does not give them.
+    /// Whether the file's normals of all three corners run along the triangle. `None` if the file lacks one of them.
     fn is_along(&self, triangle: &Triangle) -> Option<bool> {
         /// The cosine of 84 degrees.
         const NEARLY_ALONG: f64 = 0.1;
@@ -302,7 +305,7 @@ impl<'a> Builder<'a> {
             let ([x, y, z], [nx, ny, nz]) = (bits(positions[vertex].to_array()), normal);
             let [u, v] = bits(uvs[vertex].unwrap_or_default().to_array());
             let [r, g, b] = colors.get(vertex).copied().unwrap_or_default();
-            // Where vertices are kept apart, their number stands for their colour.
+            // If vertices are kept apart, their index stands in the place of their colour.
             let color = if *keeps_vertices { vertex as u32 } else { u32::from_be_bytes([0, r, g, b]) };
             let number = vertices.insert_full([x, y, z, u, v, nx, ny, nz, color]).0 as u32;
             last[vertex] = number;
@@ -350,12 +353,13 @@ impl<'a> Builder<'a> {
         Built { mesh, face_of_triangle, source_of_vertex }
     }
 
-    /// The file's normals for a triangle, where all three corners have one that can be used.
+    /// The file's normals for a triangle. `None` if a corner has none, or if they run along the triangle and such are
+    /// ignored.
     fn file_normals(&self, triangle: &Triangle) -> Option<[Vec3; 3]> {
         self.stated_normals(triangle).filter(|_| !self.drops_along || self.is_along(triangle) == Some(false))
     }
 
-    /// The file's normals for a triangle, where all three corners have one.
+    /// The file's normals for a triangle. `None` if a corner has none.
     fn stated_normals(&self, triangle: &Triangle) -> Option<[Vec3; 3]> {
         let [a, b, c] = triangle.vertices.map(|vertex| self.geometry.normals[vertex as usize]);
         Some([a?, b?, c?])

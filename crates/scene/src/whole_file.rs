@@ -1,4 +1,4 @@
-//! Writing a file whole or not at all: whatever happens meanwhile, its name stands for the old file or for the new one.
+//! Writes files whole or not at all: at any moment, the name stands for the old file or for the new one.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -37,7 +37,7 @@ pub fn failure_in_words(error: &io::Error) -> String {
         Kind::FileTooLarge => "the disk takes no file of that size",
         Kind::NotFound => "its folder is not there",
         Kind::InvalidFilename => "the disk takes no such name",
-        // What was said on purpose says more than the kind.
+        // The message that [`WholeFile`] gives says more than the kind.
         Kind::PermissionDenied
             if error.raw_os_error().is_none() && error.to_string().contains("read-only") =>
         {
@@ -55,7 +55,7 @@ pub fn failure_in_words(error: &io::Error) -> String {
 }
 
 impl WholeFile {
-    /// Begins a file; a new one may be read by whoever the user's umask lets.
+    /// Begins a file. The permissions of a new one follow the user's umask.
     ///
     /// # Errors
     /// What the file system said; a target that is read-only.
@@ -63,7 +63,7 @@ impl WholeFile {
         Self::with_mode(path, SHARED_MODE)
     }
 
-    /// Begins a file; a new one may be read by the user only.
+    /// Begins a file. A new one may be read by the user only.
     ///
     /// # Errors
     /// As [`WholeFile::create`].
@@ -104,7 +104,8 @@ impl WholeFile {
         Ok(Self { writer: BufWriter::new(file), part: Some(part), target })
     }
 
-    /// Where another program may write the contents in place of this one.
+    /// The path of the unfinished file, or the target if that is no regular file. Another program may write the
+    /// contents there, in place of this one.
     pub fn part_path(&self) -> &Path {
         self.part.as_deref().unwrap_or(&self.target)
     }
@@ -133,8 +134,8 @@ impl WholeFile {
         let Some(part) = self.part else { return Ok(()) };
         file.sync_all()?;
         rename(part, &self.target)?;
-        // The new name is on the disk only with its folder. The file is in place: where this fails, there is nothing to
-        // take back.
+        // The new name is on the disk only once its folder is. The file is in place already, so an error here is
+        // ignored.
         #[cfg(unix)]
         let _ = File::open(folder_of(&self.target)).and_then(|folder| folder.sync_all());
         Ok(())
@@ -211,7 +212,7 @@ mod tests {
         another.write_all(b"another").unwrap();
         assert_eq!(another.finish_new().unwrap_err().kind(), io::ErrorKind::AlreadyExists);
         assert_eq!((names(folder.path()).len(), fs::read_to_string(&path).unwrap()), (1, "new".to_owned()));
-        // As long as a file system allows.
+        // A name as long as a file system allows.
         let long = folder.path().join("ä".repeat(127));
         write(&long, b"long").unwrap();
         assert_eq!(fs::read_to_string(&long).unwrap(), "long");

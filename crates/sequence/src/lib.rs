@@ -55,16 +55,16 @@ pub enum FileOutcome {
 pub struct FrameFiles<'a> {
     /// Which frames, in their order.
     pub frames: &'a FrameList,
-    /// The file of each; a frame that has files of several kinds has them under this name with other endings.
+    /// The file of each frame. If a frame has files of several kinds, they have this name with other endings.
     pub path: &'a (dyn Fn(i64) -> PathBuf + Sync),
-    /// Frames whose files exist already, and are whole, are left as they are.
+    /// Whether frames whose files exist already, and are whole, are left as they are.
     pub keep_existing: bool,
 }
 
 /// How a sequence ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Ending {
-    /// After its last frame. What the frames do not show as the scene has it, in words; `None` where all is well.
+    /// After its last frame. The text says what the frames do not show as the scene states it; `None` if nothing.
     Done(Option<String>),
     /// It was stopped; frames that were under way are given up.
     Stopped,

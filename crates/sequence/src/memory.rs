@@ -8,8 +8,8 @@ use impasto_scene::memory;
 
 use crate::shot::Wanted;
 
-/// What the frames and files of one painter take at most, bytes of a picture of this size; what was prepared comes on top. Measured with
-/// llvmpipe at 7680 x 4320 and 8192 x 8192.
+/// The most memory that one painter takes while it draws and encodes pictures of this size, bytes. What was prepared is
+/// not counted. Measured with llvmpipe at 7680 x 4320 and 8192 x 8192.
 pub(crate) fn picture_bytes(scene: &Scene, wanted: Wanted, size_px: [u32; 2], renderer: &Renderer) -> u64 {
     let style = scene.style.settings();
     let samples = samples_that_fit(style.preparation().samples, size_px, renderer.max_side_px());
@@ -27,10 +27,11 @@ pub(crate) fn picture_bytes(scene: &Scene, wanted: Wanted, size_px: [u32; 2], re
     size_px.map(u64::from).iter().product::<u64>() * while_read
 }
 
-/// Whether a software driver has the memory for such pictures: without it, it would end the process in the middle.
+/// Checks that a software driver has the memory for such pictures. Without enough, it would abort the process while
+/// drawing.
 ///
 /// # Errors
-/// What they take and what is left, in words.
+/// How much the pictures take and how much is left, in words.
 pub fn fits_in_memory(
     scene: &Scene,
     wanted: Wanted,
@@ -50,7 +51,7 @@ pub fn fits_in_memory(
     }
 }
 
-/// Those of the scene, but for the depth, which takes next to nothing.
+/// The AOVs of the scene, without the depth, which takes next to nothing.
 const OF_SCENE: &[Aov] = &[
     Aov::Position,
     Aov::ObjectId,
@@ -64,8 +65,8 @@ const OF_SCENE: &[Aov] = &[
     Aov::Backward,
 ];
 
-/// Bytes per pixel while they are read and encoded.
+/// Bytes per pixel while AOVs of the scene are read and encoded.
 const OF_SCENE_READ: u64 = 230;
 
-/// The same for a file with everything that a picture knows.
+/// The same for a file with all AOVs.
 const OF_PAINT: u64 = 844;

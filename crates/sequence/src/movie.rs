@@ -1,4 +1,5 @@
-//! Writes movies: pipes raw frames to ffmpeg, where that is installed. For `impasto render`, `impasto movie` and the window alike.
+//! Writes movies by piping raw frames to ffmpeg, which has to be installed. `impasto render`, `impasto movie` and the
+//! window all write them here.
 
 use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
@@ -15,9 +16,9 @@ use crate::shot::FrameError;
 #[cfg(test)]
 mod tests;
 
-/// Converts sRGB pixels to BT.709 in the limited range of television, and states that in the file. Players assume it;
-/// by default ffmpeg writes BT.601 and states nothing, and players show wrong colours. The statement is a filter, because
-/// newer versions of ffmpeg pass over options of the same meaning.
+/// Converts sRGB pixels to BT.709 in the limited range of television, and states that in the file. Players assume
+/// BT.709, but ffmpeg by default writes BT.601 and states nothing, so players would show wrong colours. The statement
+/// is made by a filter, because newer versions of ffmpeg ignore the options of the same meaning.
 const COLOR_FILTERS: &str = "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int,\
     setparams=range=tv:color_primaries=bt709:color_trc=bt709:colorspace=bt709";
 
@@ -70,7 +71,7 @@ pub struct Encoding {
     pub deep: bool,
 }
 
-/// What every player takes, at a quality where strokes stay strokes.
+/// What every player takes, at a quality that keeps strokes crisp.
 const fn h264(arguments: &'static [&'static str]) -> Encoding {
     Encoding {
         encoder: "libx264",
@@ -82,8 +83,8 @@ const fn h264(arguments: &'static [&'static str]) -> Encoding {
     }
 }
 
-/// What programs that edit films take. All colours are kept at every pixel: where a quarter or a half of them is dropped, as
-/// in ProRes 422, saturated strokes fray.
+/// What programs that edit films take. Colour is kept at every pixel (4:4:4): where it is subsampled, as in ProRes 422,
+/// the edges of saturated strokes fray.
 const fn prores_4444(pixels: &'static str) -> Encoding {
     let arguments = &["-profile:v", "4", "-vendor", "apl0", "-movflags", "+faststart", "-f", "mov"];
     Encoding { encoder: "prores_ks", codec: "ProRes 4444", pixels, arguments, even_sides: false, deep: true }
@@ -185,7 +186,7 @@ impl Encoding {
         )))
     }
 
-    /// The endings of names whose movies are encoded otherwise.
+    /// The endings of movies that need another encoder.
     fn others(&self) -> Vec<String> {
         let others = KINDS.iter().filter(|kind| kind.opaque.encoder != self.encoder);
         others.map(|kind| format!(".{}", kind.ending)).collect()

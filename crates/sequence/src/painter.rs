@@ -1,4 +1,4 @@
-//! A painter: draws whole frames with a renderer of its own, and makes the wanted picture or PNG file of each.
+//! A painter: draws whole frames with a renderer of its own, and makes the wanted picture and files of each.
 
 use std::time::Instant;
 
@@ -41,7 +41,7 @@ pub(crate) fn further<'a>(
 }
 
 impl<'a> Painter<'a> {
-    /// A painter of a sequence; `is_alone` where it draws all the frames.
+    /// A painter of a sequence; `is_alone` says whether it draws all the frames.
     pub(crate) fn new(sequence: &'a Sequence, renderer: &'a mut Renderer, is_alone: bool) -> Self {
         Self { sequence, is_alone, renderer }
     }

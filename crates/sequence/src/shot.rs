@@ -16,7 +16,7 @@ pub struct Wanted {
     pub picture: bool,
     /// A PNG file.
     pub png: Option<PngDepth>,
-    /// An EXR file, with these beside the colour, where the style has them.
+    /// An EXR file with these AOVs beside the colour, as far as the style has them.
     pub exr: Option<AovSet>,
     /// How small EXR files are made.
     pub packing: Packing,
@@ -54,7 +54,7 @@ pub struct Sequence {
     pub options: FrameOptions,
     /// The scene's file name, which is noted in each file.
     pub scene_name: String,
-    /// What [`crate::state`] gives, noted in each file; empty where nobody asks.
+    /// What [`crate::state`] gives, noted in each file; empty to note nothing.
     pub state: String,
     /// The driver that further painters open.
     pub driver: Driver,

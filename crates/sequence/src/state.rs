@@ -1,4 +1,5 @@
-//! What a frame depends on, as one short text that is noted in its file: frames of another state are not taken for done.
+//! The state of a frame: one short text that stands for everything that the frame depends on. It is noted in the
+//! frame's file, so that frames of another state are not taken for done.
 
 use impasto_gl_render::ShaderTexts;
 use impasto_painting::FrameOptions;
@@ -7,9 +8,9 @@ use impasto_scene::save;
 
 use crate::Wanted;
 
-/// A sum of the scene as it was read (with what the command line changed), of the bytes of all files that it reads, of the settings of its
-/// frames, and of the program's version: 32 hexadecimal digits. It does not depend on where the files lie. A file that cannot be
-/// read any more counts as empty.
+/// A hash of the scene as it was read (with what the command line changed), the bytes of all files that it reads, the
+/// settings of its frames, and the program's version: 32 hexadecimal digits. It does not depend on where the files lie.
+/// A file that cannot be opened any more counts as empty.
 pub fn state(loaded: &LoadedScene, options: &FrameOptions, wanted: &Wanted, shaders: &ShaderTexts) -> String {
     let mut sum = blake3::Hasher::new();
     let mut add = |bytes: &[u8]| {
@@ -19,12 +20,12 @@ pub fn state(loaded: &LoadedScene, options: &FrameOptions, wanted: &Wanted, shad
     add(env!("CARGO_PKG_VERSION").as_bytes());
     add(save::to_ron(&loaded.scene).as_bytes());
     add(format!("{options:?} {:?} {:?} {shaders:?}", wanted.png, wanted.exr).as_bytes());
-    // A scene file counts by what it says: its comments show in no picture.
+    // The text of the scene file does not count: the scene itself is counted above, and comments change no picture.
     let is_text =
         |path: &std::path::Path| path == loaded.path && path.extension().is_some_and(|it| it == "ron");
     let of_file = |path: &std::path::PathBuf| {
         let mut sum = blake3::Hasher::new();
-        // What was read of it so far counts, where reading fails.
+        // If reading fails, the bytes that were read until then count.
         let _ = std::fs::File::open(path).and_then(|file| sum.update_reader(file).map(|_| ()));
         *sum.finalize().as_bytes()
     };

@@ -1,7 +1,7 @@
-//! What a system has to bring for Impasto, and the words that tell somebody how to get it *there*: nobody is told to use a
-//! program that their system does not have.
+//! What a system has to bring for Impasto (libraries, drivers, ffmpeg), and the words that tell users how to install it
+//! on *their* system. Nobody is told to use a program that their system does not have.
 //!
-//! What is known of a single kind of system is known here, and asked for by name elsewhere.
+//! Only this crate knows the differences between systems; others name the parts that they need.
 
 mod parts;
 mod systems;
@@ -10,7 +10,7 @@ pub use parts::{FOR_EGL, FOR_MOVIES, FOR_OSMESA, FOR_WAYLAND, FOR_X11, Part};
 pub use systems::System;
 
 impl System {
-    /// The packages that bring these parts here, each once; none where they are not known.
+    /// The packages that bring these parts on this system, each once; parts whose package is not known are left out.
     pub fn packages(self, parts: &[Part]) -> Vec<&'static str> {
         let mut packages: Vec<&str> = Vec::new();
         for name in parts.iter().filter_map(|part| part.package(self)) {
@@ -21,7 +21,7 @@ impl System {
         packages
     }
 
-    /// What to do so that these parts are there: a command where one is known, else a sentence.
+    /// How to install these parts: a command where one is known, else a sentence.
     pub fn mend(self, parts: &[Part]) -> String {
         let command = match self {
             Self::Debian => "apt-get install",
@@ -37,7 +37,7 @@ impl System {
     }
 }
 
-/// "install this and that", with the files of a Linux or without them.
+/// "install this and that", with or without the names of the files on Linux.
 fn in_words(parts: &[Part], with_files: bool) -> String {
     let name = |part: &Part| match part.file {
         file if with_files && file != part.what => format!("{} ({file})", part.what),

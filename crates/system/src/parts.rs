@@ -1,5 +1,5 @@
-//! The parts that a system has to bring, with the packages that bring them. The names for Debian are tried; those for Fedora
-//! and Arch are from their package lists.
+//! The parts that a system has to bring, with the packages that bring them. The names for Debian were tried; those for
+//! Fedora and Arch are from their package lists.
 
 use crate::systems::System;
 
@@ -15,7 +15,7 @@ pub struct Part {
 }
 
 impl Part {
-    /// The package that brings it on this system, where one is known.
+    /// The package that brings it on this system; `None` if none is known.
     pub fn package(&self, system: System) -> Option<&'static str> {
         let [debian, fedora, arch] = self.packages;
         let name = match system {

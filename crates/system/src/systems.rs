@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-/// The kinds of systems that are told apart: by the names of their packages.
+/// A kind of system. Two kinds differ in the names of their packages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum System {
     /// Debian, Ubuntu and what is made from them, with apt.
@@ -34,7 +34,7 @@ impl System {
         })
     }
 
-    /// The Linux that calls itself so in `os-release`, if it also has the program that installs packages.
+    /// The kind of Linux that the text of `os-release` names, if the program that installs its packages is there too.
     fn of(release: &str, has: impl Fn(&str) -> bool) -> Self {
         let named = |family: &str| {
             let lines = release.lines().filter_map(|line| line.split_once('='));
@@ -69,7 +69,7 @@ mod tests {
         assert_eq!(System::of(MINT, has("apt-get")), System::Debian);
         assert_eq!(System::of(ROCKY, has("dnf")), System::Fedora);
         assert_eq!(System::of(ARCH, has("pacman")), System::Arch);
-        // Fedora has apt among its packages: with it, it is still no Debian.
+        // Fedora also packages `apt-get`, but a Fedora that has it is no Debian.
         assert_eq!(System::of("ID=fedora\n", has("apt-get")), System::OtherLinux);
         assert_eq!(
             System::of(DEBIAN, |_| false),

@@ -1,5 +1,5 @@
-# How fast the extension is: a large mesh that bends, and the engine against the program by itself. Run with the extension installed, as
-# `cargo xtask blender` does.
+# Times the extension: exporting a large mesh that bends, and rendering by the engine against the program alone. Run
+# with the extension installed, as `cargo xtask blender` does.
 import sys
 import time
 
@@ -29,7 +29,7 @@ session.save()
 timed("48 frames of 160,801 points exported", bpy.ops.impasto.export)
 timed("again, where nothing has changed", bpy.ops.impasto.export)
 
-# 24 frames by the engine, and by the program on the folder that it made.
+# 24 frames by the engine, and by the program from the folder that the export made.
 scene = session.fresh(last=24, size=(640, 360))
 session.turning_monkey(scene)
 folder = session.save()

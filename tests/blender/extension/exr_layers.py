@@ -1,5 +1,5 @@
-# Reads the EXR files that Blender writes without compression: one part or several, rows one after the other. It shares nothing with the
-# reader of the extension.
+# Reads the EXR files that Blender writes without compression: one part or several, rows one after the other. It shares
+# nothing with the reader of the extension.
 import struct
 
 import numpy as np

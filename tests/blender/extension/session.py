@@ -1,5 +1,5 @@
-# A Blender with the extension enabled, for the tests of this folder. The profile into which the extension was installed is that of
-# BLENDER_USER_RESOURCES; `impasto` is on the PATH.
+# A Blender with the extension enabled, for the tests of this folder. BLENDER_USER_RESOURCES names the profile into
+# which the extension was installed; `impasto` must be on the PATH.
 import os
 import subprocess
 import sys

@@ -1,5 +1,6 @@
-# Makes shots in a real Blender, exports each into OUT/NAME/ with Impasto's extension, and writes what Blender itself says of every
-# frame as OUT/NAME.json: field of view, and where vertices are in the world and in a picture of 640 by 360 pixels.
+# Makes shots in a real Blender, exports each into OUT/NAME/ with Impasto's extension, and writes what Blender itself
+# says of every frame as OUT/NAME.json: field of view, and where vertices are in the world and in a picture of 640 by
+# 360 pixels.
 # Run: python shots.py OUT [NAME ...] (with bpy).
 import json
 import math

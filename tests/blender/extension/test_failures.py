@@ -1,4 +1,4 @@
-# What goes wrong is said in our words, in Blender's own place; Blender lives on, and nothing is lost.
+# Errors are told in our words, where Blender shows its own errors. Blender goes on, and nothing is lost.
 import os
 import shutil
 import threading
@@ -23,7 +23,7 @@ scene_file = folder / "film_impasto" / "film.ron"
 scene.render.filepath = str(folder / "still.png")
 assert not session.render(write_still=True)
 
-# A missing program, and one that is another.
+# A program that is missing, and one that is not Impasto.
 path = os.environ["PATH"]
 session.module("painter").stop_all_painters()
 os.environ["PATH"] = "/nowhere"
@@ -66,8 +66,8 @@ scene_file.write_text(text)
 assert not session.render(write_still=True)
 session.report("an error in the scene file, and its mend")
 
-# Esc: while exporting, while the scene is prepared, and while a frame is painted. How long it took is told, not judged: that
-# depends on what else the machine does.
+# Esc while exporting, while the scene is prepared, and while a frame is painted. How long it takes is told, not judged:
+# that depends on what else the machine does.
 engine = session.module("engine").ImpastoEngine
 heeded = engine._is_stopped
 

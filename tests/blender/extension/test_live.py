@@ -1,4 +1,5 @@
-# Comb in Impasto: the window is told of frame and view where the scene asks for it. A program that only notes its lines stands for it.
+# "Comb in Impasto": where the scene asks for it, the editor's window is told of frame and view. A stand-in for the
+# program notes the lines that it gets.
 import json
 import os
 import time

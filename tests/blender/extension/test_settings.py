@@ -35,7 +35,7 @@ for wanted in (
 assert (monkey.impasto.coverage, group.impasto.boil, material.impasto.contour) == (3.5, 0.25, 0.5)
 monkey.impasto.coverage = 4.0
 assert scene_file.read_text().count("Object(") == 1
-# What says more of a place stands behind, whichever was written first; the last value taken back takes the region out.
+# The more specific region stands later, whichever was written first. Taking back a region's last value removes it.
 regions = [region["name"] for region in session.module("scene_file").document(scene_file)["regions"]]
 assert regions == ["Toys", "Red", "Suzanne"], regions
 assert session.module("settings").stands_over(monkey) == "Red"

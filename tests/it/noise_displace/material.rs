@@ -58,7 +58,7 @@ fn layers_are_those_of_the_sources_shader_on_either_driver() {
     let tint = Color([1.0, 0.75, 0.4]);
     let tint_linear = [255u8, 191, 102].map(linear);
     let mut renderers = [Driver::Egl, Driver::Osmesa].map(|driver| (driver, renderer(driver)));
-    // Enlarged, so that no driver reads a smaller mipmap level.
+    // These enlarge the texture, so that no driver reads a smaller mipmap level.
     let tiling = [0.22, 0.17];
     for (layer_count, forward) in [
         (1, NoiseForward::Odd),
@@ -246,7 +246,7 @@ fn other_layer_counts_give_other_patterns() {
     };
     let all = [2, 4, 22].map(contrast);
     assert!(all[0].1 != all[1].1 && all[1].1 != all[2].1);
-    // More layers spread their product wider; the root takes back much of that.
+    // More layers give their product more contrast. The root takes back much of it.
     println!("contrast at k = 2, 4, 22: {:.3} {:.3} {:.3}", all[0].0, all[1].0, all[2].0);
     assert!(all.iter().all(|(contrast, _)| *contrast > 0.02));
 }

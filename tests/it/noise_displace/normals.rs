@@ -85,7 +85,9 @@ fn displaced(normals: NoiseNormals) -> Arc<LoadedScene> {
     Arc::new(loaded)
 }
 
-/// How the ramp moves the sheet: along which step for each texture along U and along V, and how far along those a step on the sheet leads.
+/// How the ramp moves the sheet, in the space of the model. `along` is the displacement that one whole texture adds,
+/// along U and along V. The dot products of `textures` with a step on the sheet are the textures it crosses along U
+/// and along V.
 #[derive(Clone, Copy)]
 struct Ramp {
     along: [DVec3; 2],
@@ -100,7 +102,7 @@ impl Ramp {
         Self { along, textures: [model_from_world.x_axis * VALUE[0], model_from_world.y_axis * VALUE[1]] }
     }
 
-    /// The normal of the sheet.
+    /// The normal of the sheared sheet.
     fn normal(&self) -> DVec3 {
         let edge = |axis: DVec3| {
             axis + self.along[0] * self.textures[0].dot(axis) + self.along[1] * self.textures[1].dot(axis)
@@ -109,7 +111,7 @@ impl Ramp {
     }
 }
 
-/// A sheet that stands as the ramp shears it, and has another normal.
+/// The sheet of [`modelled`], but with this normal.
 fn modelled_with(normal: DVec3) -> Arc<LoadedScene> {
     let mut sheet = LoadedScene::clone(&modelled());
     for file in sheet.meshes.values_mut() {

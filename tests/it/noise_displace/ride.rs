@@ -54,7 +54,7 @@ fn pixel(at: DVec3) -> DVec2 {
     at.truncate() * focal_px / (4.0 - at.z)
 }
 
-/// Where the shader that the technique comes from, as [`super::seed`] has it, puts a place of the surface at this time.
+/// Displaces a place of the surface at this time as the source's shader does, by its rewrite in [`super::seed`].
 fn judge(seconds: f64) -> impl Fn(DVec3) -> DVec3 {
     let tile = gaussian();
     move |at| {

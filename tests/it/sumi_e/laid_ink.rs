@@ -1,4 +1,4 @@
-//! Tests of how dark ink is, beside closed forms: along one stroke, where strokes cross, and between two tones.
+//! Tests how dark ink is, against closed forms: along one stroke, where strokes cross, and between two tones.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ const BLACK: Color = Color([0.0; 3]);
 const LENGTH_PX: f32 = 160.0;
 const WIDTH_PX: f32 = 60.0;
 
-/// Strokes of black ink on white paper without fibres, over a sheet whose ink is half of black. Their mark is paint all over.
+/// Strokes of black ink on white paper without fibres, over a sheet of tone 0.5. Their brush mark is paint all over.
 fn ink_strokes(strokes: Vec<Stroke>) -> Frame {
     let mut scene = scene_in(SumiE {
         drawing: InkDrawing::Strokes,
@@ -56,7 +56,7 @@ fn stroke(angle_deg: f32) -> Stroke {
     }
 }
 
-/// Draws the strokes; also how dark each is, 0..1, before the brush gives it away.
+/// Draws the strokes. Returns the picture, and how dark each stroke is, 0..1, before its ink runs low along it.
 fn drawn_strokes(renderer: &mut Renderer, strokes: Vec<Stroke>) -> (Picture, Vec<f64>) {
     let picture = renderer.render(&ink_strokes(strokes)).unwrap();
     let dark = renderer.resolved_strokes().into_iter().map(|stroke| {
@@ -66,16 +66,16 @@ fn drawn_strokes(renderer: &mut Renderer, strokes: Vec<Stroke>) -> (Picture, Vec
     (picture, dark.collect())
 }
 
-/// The ink that a stroke of this darkness lays, so many pixels after its middle: 1.06 of it at its start, 0.78 at its end, and evenly
-/// less between.
+/// The ink that a stroke of this darkness lays this many pixels after its middle. It falls linearly from 1.06 of the
+/// darkness at the start to 0.78 at the end.
 fn carried(dark: f64, after_middle_px: f64) -> f64 {
     let share = 0.5 + after_middle_px * f64::from(FILL / LENGTH_PX);
-    // The middle of a byte, which changes no ink, is not quite 128.
+    // The mark's tint of 128 is 0.5 above the neutral 127.5, which adds a little ink.
     dark * (1.06 + (0.78 - 1.06) * share) * (1.0 + 0.2 / 255.0)
 }
 
-/// How dark ink is where these strokes lie over each other: as the darkest, and darker by 0.45 of how far they cover each other beyond
-/// what half of that one does. A stroke covers 0.55 of what it takes.
+/// How dark ink is where these strokes cross. Each stroke covers a share of 0.55 of its ink, and `covers` is the share
+/// that all cover together. The darkest ink is raised by 0.45 of the excess of `covers` over half of that ink.
 fn crossed(inks: &[f64]) -> f64 {
     let most = inks.iter().copied().fold(0.0, f64::max);
     let covers = 1.0 - inks.iter().map(|ink| 1.0 - 0.55 * ink).product::<f64>();
@@ -89,7 +89,7 @@ fn assert_ink(picture: &Picture, [x, y]: [usize; 2], ink: f64) {
     assert!((found - wanted).abs() <= 2.0, "at {x}, {y}: {found} for {wanted}");
 }
 
-/// Pixels after the middle of the picture, of the middle of a pixel.
+/// How far the middle of a pixel lies after the middle of the picture along an axis, in pixels.
 fn after_middle_px(at: usize, axis: usize) -> f64 {
     at as f64 + 0.5 - f64::from(SIZE_PX[axis]) * 0.5
 }
@@ -97,7 +97,7 @@ fn after_middle_px(at: usize, axis: usize) -> f64 {
 #[test]
 fn a_stroke_gives_less_ink_as_it_goes() {
     let mut renderer = renderer(Driver::Egl);
-    // Half a turn the other way round, the loaded end is at the other side.
+    // Turned by 180 degrees, the stroke has its loaded end at the other side.
     for (angle_deg, forward) in [(0.0, 1.0), (180.0, -1.0)] {
         let (picture, dark) = drawn_strokes(&mut renderer, vec![stroke(angle_deg)]);
         assert!((0.3..0.8).contains(&dark[0]), "no ink to measure: {}", dark[0]);
@@ -130,8 +130,8 @@ fn ink_is_darker_where_strokes_cross() {
     }
 }
 
-/// A sheet whose normals turn so evenly towards the light that its picture shows less than three texels of the ramp of tones, which has
-/// 256. The steps are as hard as they can be: from one texel to the next.
+/// The sheet's normals turn so slowly towards the light that its picture shows less than 3 of the 256 texels of the
+/// ramp of tones. The steps are as hard as they can be: from one texel to the next.
 #[test]
 fn between_two_texels_of_the_ramp_tones_go_over_evenly() {
     let size_px = [640, 360];

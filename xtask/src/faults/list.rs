@@ -1,8 +1,8 @@
-//! The faults: in each shader that makes the picture, those a reader would not see at once.
+//! The faults that are planted: for each shader that makes the picture, some that a reader would not see at once.
 
 use super::Fault;
 
-/// The pictures that a person found good, of seven scenes, through both drivers.
+/// The tests that compare seven scenes, drawn by both drivers, with pictures that a person found good.
 const GOLDENS: &str = "goldens::shipped";
 
 /// Every fault, file by file.

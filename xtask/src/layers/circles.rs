@@ -120,7 +120,7 @@ fn reached(uses: &Uses, from: &PathBuf) -> BTreeSet<PathBuf> {
     reached
 }
 
-/// The shortest way from a file back to itself; the file is its first and its last entry.
+/// The shortest way from a file back to itself; the file is its first and its last entry. `None` if there is no way.
 fn shortest(uses: &Uses, file: &PathBuf) -> Option<Vec<PathBuf>> {
     let mut queue = VecDeque::from([vec![file.clone()]]);
     let mut seen = BTreeSet::new();

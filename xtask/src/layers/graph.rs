@@ -75,7 +75,8 @@ impl Graph {
         self.uses.get(name).into_iter().flatten()
     }
 
-    /// The shortest path from our crate `from` to `to` that passes through no other crate of ours.
+    /// The shortest path from our crate `from` to `to` that passes through no other crate of ours; `None` if there is
+    /// none.
     pub fn path_outside(&self, from: &str, to: &str) -> Option<Vec<String>> {
         let mut queue = VecDeque::from([vec![from.to_owned()]]);
         let mut seen = BTreeSet::new();

@@ -1,4 +1,4 @@
-//! Debian's changelog, made from CHANGELOG.md: what is unreleased, and the version of the program.
+//! Makes Debian's changelog from two sections of CHANGELOG.md: `Unreleased`, and the version of the program.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use super::{Moment, version};
 /// How long a line may be.
 const COLUMNS: usize = 78;
 
-/// Who stands below an entry.
+/// The maintainer, named below an entry.
 const MAINTAINER: &str = "The Impasto authors <impasto@localhost>";
 
 /// Writes the changelog.
@@ -43,7 +43,7 @@ fn entry(changelog: &str, version: &str) -> String {
     points.iter().map(|point| laid_out(&plain(point))).collect()
 }
 
-/// Markdown without its marks: links keep their words.
+/// A Markdown text without its marks; a link is replaced by its words.
 fn plain(text: &str) -> String {
     let mut plain = String::new();
     let mut rest = text;

@@ -1,4 +1,4 @@
-//! The licences of the libraries that the program holds, as those ask that they go with it.
+//! Collects the licences of the libraries that are linked into the program, since they must be shipped with it.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -11,7 +11,7 @@ use crate::steps::{cargo, output};
 /// Beginnings of the names of files that hold a licence or a notice.
 const NAMES: [&str; 6] = ["LICENSE", "LICENCE", "COPYING", "NOTICE", "COPYRIGHT", "UNLICENSE"];
 
-/// One text: all libraries with version and licence, then each text of a licence once, with the libraries it belongs to.
+/// One text: all libraries with version and licence, then each licence text once, with the libraries it belongs to.
 pub fn of_dependencies(root: &Path) -> anyhow::Result<String> {
     let packages = in_the_program(root)?;
     ensure!(packages.len() > 100, "only {} libraries were found in the program", packages.len());
@@ -48,7 +48,7 @@ pub fn of_dependencies(root: &Path) -> anyhow::Result<String> {
     Ok(said)
 }
 
-/// What cargo knows of each outside library that is linked into `impasto` here, by name.
+/// Cargo's metadata of each outside library that is linked into `impasto` on this system.
 fn in_the_program(root: &Path) -> anyhow::Result<Vec<Value>> {
     let host = output(root, "rustc", &["--print", "host-tuple"])?;
     let listed = ["tree", "--package", "impasto-cli", "--edges", "normal", "--prefix", "none", "--locked"];

@@ -1,4 +1,4 @@
-//! The files as they lie when installed: `bin/` and `share/`, which the Debian package has below `/usr`.
+//! Lays out the files as they are installed: `bin/` and `share/`, which the Debian package has below `/usr`.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -19,7 +19,8 @@ const COPIED: &[(&str, &str)] = &[
     ("blender", "share/impasto/blender"),
 ];
 
-/// Names of files that no package has: what Python leaves behind, and pictures of the docs, which weigh more than all the rest.
+/// Whether a file of the repository's folder `below` is left out of all packages: hidden files, what Python leaves
+/// behind, and the pictures of the docs, which are larger than all the rest.
 fn is_left_out(name: &str, below: &str) -> bool {
     name == "__pycache__" || name.starts_with('.') || (below == "docs" && name == "pictures")
 }
@@ -31,7 +32,7 @@ const COMPLETIONS: &[(&str, &str)] = &[
     ("fish", "share/fish/vendor_completions.d/impasto.fish"),
 ];
 
-/// Lays the tree anew in `folder`, and gives back where it is.
+/// Lays out the tree anew in `folder`. Returns its path.
 pub fn lay(root: &Path, folder: &Path, binary: &Path) -> anyhow::Result<PathBuf> {
     let tree = folder.join("tree");
     if tree.exists() {
@@ -71,7 +72,7 @@ pub fn add_licences(root: &Path, tree: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The path of a file in the tree, whose folder is made.
+/// The path of a file in the tree; makes the folder that it lies in.
 fn place(tree: &Path, file: &str) -> anyhow::Result<PathBuf> {
     let path = tree.join(file);
     std::fs::create_dir_all(path.parent().context("a file lies in a folder")?)?;

@@ -45,7 +45,7 @@ impl Times {
         }
     }
 
-    /// All tests of a program have ended.
+    /// Takes in that all tests of a program have ended, and computes how long each took.
     fn close(&mut self) {
         let mut order: Vec<&str> = self.ended.iter().map(|(name, _)| name.as_str()).collect();
         order.sort_unstable();

@@ -5,7 +5,7 @@ use super::finding::Finding;
 /// Starts of names that say nothing about what is inside.
 const EMPTY_NAMES: &[&str] = &["util", "misc", "helper", "common", "manager"];
 
-/// The parts of a path that say nothing.
+/// A finding for each part of a path that says nothing.
 pub fn check(file: &str) -> Vec<Finding> {
     let empty = |part: &&str| EMPTY_NAMES.iter().any(|name| part.to_lowercase().starts_with(name));
     file.split('/')

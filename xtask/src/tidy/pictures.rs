@@ -10,7 +10,7 @@ pub const DOCS_LIMIT_BYTES: u64 = 400 * 1024;
 /// Greatest size of any file.
 const FILE_LIMIT_BYTES: u64 = 1024 * 1024;
 
-/// Whether the file is bigger than its kind may be.
+/// A finding if the file is bigger than its kind may be.
 pub fn check(file: &str, bytes: u64) -> Option<Finding> {
     let is_picture = matches!(extension(file), "png" | "jpg" | "jpeg" | "webp" | "gif" | "svg");
     let (limit, mend) = if is_picture && file.split('/').any(|part| part == "goldens" || part == "snapshots")

@@ -46,8 +46,8 @@ fn length(file: &str, content: &str) -> Option<Finding> {
     (lines > LONGEST_FILE_LINES).then(|| Finding::at(file, LONGEST_FILE_LINES + 1, what, mend))
 }
 
-/// The lines of a file without its modules of tests. `#[cfg(test)]` before anything else, as `mod tests;`, leaves out that
-/// item alone.
+/// The lines of a file without its tests. After each `#[cfg(test)]` one item is left out: a module in braces, or a
+/// statement such as `mod tests;`.
 fn lines_without_tests(content: &str) -> usize {
     let mut count = 0;
     let mut lines = content.lines();

@@ -14,7 +14,7 @@ pub type Influence = [(usize, f64); 4];
 pub struct Target<'a> {
     /// Its name.
     pub name: &'a str,
-    /// Where it has each point of the mesh.
+    /// The places of the mesh's points in this shape.
     pub positions: Vec<DVec3>,
 }
 
@@ -32,7 +32,8 @@ impl Glb {
     /// Adds a mesh with one normal per point, so that no edge shows. Returns its index.
     ///
     /// # Errors
-    /// It has more points than 16 bits count, a colour of its palette is none, or `bend` does not fit its points.
+    /// It has more points than 16 bits can count, a colour of its palette cannot be read, or `bend` does not have one
+    /// entry for each point.
     pub fn smooth_mesh(
         &mut self,
         mesh: &PolyMesh,
@@ -76,8 +77,8 @@ impl Glb {
         index
     }
 
-    /// Adds a mesh that bends with a skeleton: `joints` gives the node of each joint, and where it rests. Its node stands
-    /// at the root, without a place of its own.
+    /// Adds a node with a mesh that bends with a skeleton: `joints` gives the node of each joint, and where it rests.
+    /// The new node stands at the root, without a place of its own.
     pub fn skinned(&mut self, name: &str, mesh: usize, joints: &[(usize, DVec3)]) {
         let bind = |at: &DVec3| {
             let [x, y, z] = (-*at).to_array();
@@ -91,7 +92,7 @@ impl Glb {
         self.roots.push(self.nodes.len() - 1);
     }
 
-    /// Gives nodes keys of their turns alone, all at the same times in seconds; linear between.
+    /// Gives nodes keys of their turns only, all at the same times in seconds; linear between.
     pub fn turns(&mut self, times_s: &[f64], nodes: &[(usize, Vec<DQuat>)]) {
         let input = self.floats(times_s, "SCALAR");
         for (node, turns) in nodes {
@@ -152,8 +153,8 @@ impl Glb {
         json!({ "POSITION": self.sparse(&moved, 5e-5), "NORMAL": self.sparse(&turned, 4e-3) })
     }
 
-    /// Adds vectors most of which are zero, or shorter than `least`; only the others are stored. Returns the index of
-    /// their accessor.
+    /// Adds vectors as a sparse accessor: those not longer than `least` count as zero and are not stored, except the
+    /// first. Returns the accessor's index.
     fn sparse(&mut self, vectors: &[DVec3], least: f64) -> usize {
         let kept =
             |(index, vector): (usize, &DVec3)| (index == 0 || vector.length() > least).then_some(index);

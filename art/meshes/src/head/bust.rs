@@ -25,7 +25,7 @@ const JACKET: [[f64; 7]; 12] = [
     [-1.210, -0.100, 0.000, -1.210, -0.120, -1.210, -0.140],
 ];
 
-/// How high the bust sits: the collar comes up to the middle of the neck.
+/// How far the rows of `JACKET` are raised, so that the collar comes up to the middle of the neck.
 const LIFT: f64 = 0.095;
 
 /// Shoulders in a jacket with a linen collar, in the same place as [`super::head`].

@@ -131,7 +131,7 @@ impl Form {
         self.parts(point).into_iter().reduce(nearest).map_or(Part::Trunk, |(part, _)| part)
     }
 
-    /// How much farther a part is than the nearest of the others: negative where the skin is this part's.
+    /// The distance to `part` less the distance to the nearest other part: negative where the skin belongs to `part`.
     fn ahead(&self, point: DVec3, part: Part) -> f64 {
         let (mut own, mut others) = (f64::INFINITY, f64::INFINITY);
         for (other, distance) in self.parts(point) {
@@ -151,7 +151,7 @@ impl Form {
     }
 }
 
-/// What of a body (the first distance) lies in another one, with a rounded edge.
+/// The distance from what two bodies have in common, given the distances from each; the edge between them is rounded.
 fn cut(a: f64, b: f64) -> f64 {
     -blend(-a, -b, 0.03)
 }
@@ -196,7 +196,7 @@ pub fn body(form: &Form) -> PolyMesh {
     let low = DVec3::new(-26.5 * cell, -0.0305, -0.245);
     let grid = Grid { low, high: DVec3::new(26.5 * cell, 1.60, 0.285), cell: DVec3::splat(cell) };
     let bare = Look { group: "body", material: "tunic" };
-    // What is thin is woven a little thicker.
+    // Woven a little too thick, so that thin parts are not torn; `tighten` then pulls the points onto the body.
     let points = weave(&mut mesh, &grid, |point| field(point) - 0.004, bare);
     tighten(&mut mesh, points, field, 5);
     trim(&mut mesh, |at| (at.y - SASH[0]).abs() - SASH[1]);
@@ -212,8 +212,9 @@ pub fn body(form: &Form) -> PolyMesh {
     mesh
 }
 
-/// Lays edges of a mesh along the line where `side` is zero, so that cloths meet there without teeth: where an edge
-/// crosses the line its nearer end goes there, and a face that the line still crosses is cut in two.
+/// Lays edges of a mesh along the line where `side` is zero, so that two cloths meet there without a jagged border. Of
+/// each edge that crosses the line, the nearer end is moved onto the crossing. A quad that the line then crosses from
+/// corner to corner is cut in two.
 fn trim(mesh: &mut PolyMesh, side: impl Fn(DVec3) -> f64) {
     let mut sides: Vec<f64> = mesh.positions.iter().map(|&at| side(at)).collect();
     for face in &mesh.faces {

@@ -8,7 +8,7 @@ use super::skin::{MIDDLE, Mood, skin};
 use crate::curve::smoothstep;
 use crate::poly_mesh::{Look, PolyMesh};
 
-/// Curly hair from temple to temple round the back, in the face's place.
+/// Curly hair from temple to temple round the back; its origin is that of the face.
 pub fn hair() -> PolyMesh {
     const COLUMNS: usize = 44;
     const ROWS: usize = 16;
@@ -32,7 +32,7 @@ pub fn hair() -> PolyMesh {
     mesh
 }
 
-/// A paper crown with a red band, in the face's place.
+/// A paper crown with a red band; its origin is that of the face.
 pub fn crown() -> PolyMesh {
     const POINTS: usize = 9;
     const COLUMNS: usize = 6 * POINTS;

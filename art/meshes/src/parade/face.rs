@@ -1,5 +1,5 @@
-//! The giant's papier-mache face, which turns into others: it smiles, blinks and lifts its brows. Its origin is the joint
-//! of the head; it looks to +Z, and its left is +X.
+//! Makes the giant's papier-mache face in each of its moods: it smiles, blinks and lifts its brows. Its origin is the
+//! joint of the head; it looks to +Z, and its left is +X.
 
 use std::f64::consts::PI;
 
@@ -42,7 +42,7 @@ fn head(mesh: &mut PolyMesh, mood: Mood) {
     );
 }
 
-/// The angles up at which the skin's rings lie, from the crown down: close together from the brows to the chin.
+/// The elevations of the skin's rings, radians, from the crown down: close together from the brows to the chin.
 fn rings() -> Vec<f64> {
     let mut rings = vec![0.5 * PI];
     for (to, count) in [(0.62, 7), (0.36, 6), (-0.30, 15), (-1.10, 14), (-0.5 * PI, 4)] {
@@ -55,7 +55,7 @@ fn rings() -> Vec<f64> {
 /// The paint at each point of the face: rosy cheeks and nose, red lips, dark brows.
 ///
 /// # Errors
-/// A colour is none.
+/// A colour cannot be read.
 pub fn paint(mesh: &PolyMesh) -> anyhow::Result<Vec<DVec3>> {
     let paint = |hex: &str| linear(hex).map(DVec3::from);
     let (flesh, rose, light) = (paint("#eeb68c")?, paint("#dd6a52")?, paint("#f6cfa8")?);

@@ -1,5 +1,5 @@
-//! What lies on the skin of the giant's face and moves with it: lips, mouth and teeth, lids, brows; its ears; and its
-//! eyes, which stand by themselves.
+//! Makes the features of the giant's face: lips, mouth and teeth, lids and brows, which move with its skin; its ears;
+//! and its eyes, which are meshes of their own.
 
 use std::f64::consts::{PI, TAU};
 
@@ -179,7 +179,7 @@ pub fn eye(side: f64) -> PolyMesh {
 /// The lids of both eyes: shells over the balls.
 pub fn lids(mesh: &mut PolyMesh, mood: Mood) {
     for side in [1.0, -1.0] {
-        // Where the free edge is in the middle of the eye, and where the lid ends in the socket.
+        // Elevations of the free edges in the middle of the eye. In the socket the lids end at ±1.45.
         let shut = -0.50;
         let upper = 0.86 - 0.12 * mood.smile + 0.10 * mood.brows;
         let lower = -0.90 + 0.24 * mood.smile;

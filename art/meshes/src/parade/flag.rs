@@ -18,7 +18,7 @@ const CORNER: DVec3 = DVec3::new(-3.12, 2.46, -2.30);
 pub const MAST: [DVec3; 2] =
     [DVec3::new(CORNER.x - 0.045, 0.0, CORNER.z), DVec3::new(CORNER.x - 0.045, 3.72, CORNER.z)];
 
-/// The flag spread out, its waves hardly seen: so its strokes lie well.
+/// The flag spread out almost flat, so that strokes can be laid on it well.
 pub fn flag() -> PolyMesh {
     let mut mesh = PolyMesh::new(
         "flag",
@@ -40,7 +40,7 @@ pub fn flag() -> PolyMesh {
     mesh
 }
 
-/// The bytes of the flag's point cache: where the wind has its points in each frame, as `flag.pc2`.
+/// The bytes of `flag.pc2`, the flag's point cache: where its points are in the wind, frame by frame.
 pub fn cache() -> Vec<u8> {
     let count = (SIDES[0] + 1) * (SIDES[1] + 1);
     let mut bytes = b"POINTCACHE2\0".to_vec();
@@ -58,10 +58,10 @@ pub fn cache() -> Vec<u8> {
     bytes
 }
 
-/// The points of the cloth, row by row from the hem up, at a share of the shot, in a wind of some strength. Along a row
-/// the cloth keeps its length: its angle to the wind is what waves.
+/// The points of the cloth, row by row from the hem up. `time` is a share of the shot, `wind` a strength, at most 1. A
+/// row keeps its length: what waves is its direction.
 fn points(time: f64, wind: f64) -> Vec<DVec3> {
-    /// Steps of a row's sum for each face.
+    /// Steps in which a row is summed up, for each face.
     const FINE: usize = 4;
     let mut points = Vec::new();
     for row in 0..=SIDES[1] {

@@ -1,4 +1,4 @@
-//! Makes the shot of the scene `parade`: a carnival giant walks over a square in the sun, turns to us, smiles and blinks.
+//! Makes the shot of the scene `parade`: a carnival giant walks over a sunny square, turns to us, smiles and blinks.
 
 mod body;
 mod dress;
@@ -65,12 +65,12 @@ fn time_s(frame: usize) -> f64 {
     frame as f64 / FPS
 }
 
-/// The way that the giant goes.
+/// The rotation from +Z to the way that the giant goes.
 fn heading() -> DQuat {
     DQuat::from_rotation_y(HEADING.to_radians())
 }
 
-/// Where the giant is: in the middle of its way in the middle of the shot.
+/// Where the giant is in a frame. In the middle of the shot it is at the origin.
 fn root(frame: f64) -> DVec3 {
     let gone = (frame - 0.5 * (FRAMES - 1) as f64) / walk::STRIDE_FRAMES * walk::STRIDE;
     heading() * DVec3::Z * gone
@@ -124,7 +124,7 @@ fn face(shot: &mut Glb) -> anyhow::Result<usize> {
     shot.smooth_mesh(&rest, &Coat::Tinted(&face::paint(&rest)?), &Bend::Targets(&targets))
 }
 
-/// Keys of the giant, of its joints and of its face, one for each frame.
+/// Adds keys of the giant, of its joints and of its face, one for each frame.
 fn moves(shot: &mut Glb, root_node: usize, nodes: &[usize], face: usize) {
     let way: Vec<(f64, DVec3, DQuat)> =
         (0..FRAMES).map(|frame| (time_s(frame), root(frame as f64), heading())).collect();
@@ -145,7 +145,7 @@ fn moves(shot: &mut Glb, root_node: usize, nodes: &[usize], face: usize) {
     shot.weights(face, &moods);
 }
 
-/// 0 up to a frame, 1 from another one to a third, and 0 again from the last.
+/// 0 up to frame `from`, 1 from `full` to `ebbs`, and 0 again from `over` on; smooth between.
 fn held([from, full, ebbs, over]: [f64; 4], frame: f64) -> f64 {
     smoothstep(from, full, frame) * (1.0 - smoothstep(ebbs, over, frame))
 }
@@ -177,7 +177,7 @@ fn tracking() -> Vec<(f64, DVec3, DQuat)> {
         .collect()
 }
 
-/// The turn of what looks or shines along −Z, with Y up.
+/// The rotation that points −Z, the way cameras look and lights shine, along `along`, and keeps Y upwards.
 fn looking(along: DVec3) -> DQuat {
     let back = -along.normalize();
     let right = DVec3::Y.cross(back).normalize();
@@ -192,7 +192,7 @@ mod tests {
     use super::*;
     use crate::surface_net;
 
-    /// Where the joints of a pose take what rests.
+    /// For each joint, the transform that moves a point from rest into a pose.
     fn takes(pose: &walk::Pose) -> Vec<DMat4> {
         let placed = walk::placed(pose);
         let take = |(&(at, turn), joint): (&(DVec3, DQuat), &rig::Joint)| {
@@ -246,7 +246,7 @@ mod tests {
         assert!(thinnest > 0.6, "the skin shrinks to {thinnest} at a joint");
     }
 
-    /// The faces of the body look out of it, but for a few small ones between the legs.
+    /// The faces of the body wind outwards, except a few small ones between the legs.
     #[test]
     fn the_body_winds_outwards() {
         let form = Form::new();

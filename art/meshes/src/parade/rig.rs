@@ -1,5 +1,5 @@
-//! The giant's skeleton: its joints at rest, and how much of the skin follows which of them. It stands on y = 0 and looks
-//! to +Z; its left is +X.
+//! The giant's skeleton: its joints at rest, and how much each point of the skin follows each joint. The giant stands
+//! on y = 0 and looks to +Z; its left is +X.
 
 use glam::DVec3;
 
@@ -65,7 +65,7 @@ pub const JOINTS: [Joint; COUNT] = [
     joint("Toes.R", Some(FOOT + SIDE), [-0.125, 0.03, 0.13]),
 ];
 
-/// Where a joint rests, seen from the one that carries it.
+/// Where a joint rests, relative to its parent.
 pub fn offset(joint: usize) -> DVec3 {
     let Joint { parent, at, .. } = JOINTS[joint];
     at - parent.map_or(DVec3::ZERO, |parent| JOINTS[parent].at)
@@ -74,8 +74,8 @@ pub fn offset(joint: usize) -> DVec3 {
 /// Shares of all joints.
 type Shares = [f64; COUNT];
 
-/// What each point of the skin follows. First a point follows the joint of the part that it lies on; then the shares
-/// spread along the skin, so that it bends round.
+/// The joints that each point of the skin follows. First a point follows the joint of the part that it lies on. Then
+/// the shares are smoothed along the skin, so that it bends in curves.
 pub fn influences(mesh: &PolyMesh, part: impl Fn(DVec3) -> Part) -> Vec<Influence> {
     const ROUNDS: usize = 12;
     let mut neighbours = vec![Vec::new(); mesh.positions.len()];
@@ -99,18 +99,18 @@ pub fn influences(mesh: &PolyMesh, part: impl Fn(DVec3) -> Part) -> Vec<Influenc
     shares.iter().map(greatest).collect()
 }
 
-/// The four greatest shares, the greatest first, so that they sum to one.
+/// The four greatest shares, the greatest first, scaled so that they sum to one.
 fn greatest(shares: &Shares) -> Influence {
     let mut order: Vec<usize> = (0..COUNT).collect();
     order.sort_by(|&a, &b| shares[b].total_cmp(&shares[a]));
-    // What is less than a two-hundredth is not seen.
+    // Smaller shares make no difference that can be seen.
     let four: [usize; 4] = std::array::from_fn(|index| order[index]);
     let four = four.map(|joint| (joint, if shares[joint] > 0.005 { shares[joint] } else { 0.0 }));
     let sum: f64 = four.iter().map(|(_, share)| share).sum();
     four.map(|(joint, share)| if share > 0.0 { (joint, share / sum) } else { (0, 0.0) })
 }
 
-/// The shares of a point of a part before they spread.
+/// The shares of a point that lies on `part`, before they are smoothed.
 fn own(at: DVec3, part: Part) -> Shares {
     let mut shares = [0.0; COUNT];
     let side = if at.x < 0.0 { SIDE } else { 0 };
@@ -123,7 +123,7 @@ fn own(at: DVec3, part: Part) -> Shares {
         }
         Part::Trunk if at.y > JOINTS[SPINE].at.y => shares[SPINE] = 1.0,
         Part::Trunk => {
-            // The skirt goes half with the hips and half with the legs, more and more towards its hem.
+            // The skirt follows the hips, and more and more the legs towards its hem.
             let legs = 0.75 * smoothstep(0.90, 0.66, at.y);
             let left = smoothstep(-0.10, 0.10, at.x);
             shares[HIPS] = 1.0 - legs;

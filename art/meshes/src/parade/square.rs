@@ -30,14 +30,14 @@ pub fn paving() -> PolyMesh {
     mesh
 }
 
-/// A house front, turned to +Z: how wide and high it is, and how far from its left end its windows stand.
+/// A house front that faces +Z: its width and height, the lower left corners of its windows, the material of its wall.
 struct Front {
     size: [f64; 2],
     windows: &'static [[f64; 2]],
     wall: &'static str,
 }
 
-/// Both house fronts; they stand on y = 0, the street in front of them is at z = 0.
+/// Both house fronts. They stand on y = 0, and their walls meet the street at z = 0.
 pub fn houses() -> [PolyMesh; 2] {
     let mut left = PolyMesh::new(
         "house_left",
@@ -97,7 +97,7 @@ fn block(mesh: &mut PolyMesh, [low, high]: [DVec3; 2], material: &'static str) {
     }));
 }
 
-/// A low wall far behind, round the gap between the houses.
+/// A low wall far behind, which shows in the gap between the houses.
 pub fn far_wall() -> PolyMesh {
     let mut mesh = PolyMesh::new("far_wall", "A low wall.", &[("stone", "#b9a6a0"), ("coping", "#d9cbbf")]);
     block(&mut mesh, [DVec3::new(-9.0, 0.0, -6.5), DVec3::new(9.0, 0.95, -6.2)], "stone");

@@ -18,9 +18,9 @@ pub const STRIDE: f64 = 1.06;
 
 /// How long a foot stays on the ground, as a share of the stride.
 const STANCE: f64 = 0.62;
-/// How far in front of the hips the heel's ankle would stand flat when the heel meets the ground.
+/// How far the ankle is in front of the hips when the heel meets the ground, if the foot were flat then.
 const REACH: f64 = 0.285;
-/// When the whole sole is on the ground, and when the heel leaves it.
+/// When the whole sole is on the ground, and when the heel leaves it, as shares of the stride.
 const SOLE: [f64; 2] = [0.11, 0.36];
 /// How far the toes point up when the heel meets the ground, and down when they leave it, degrees.
 const PITCH: [f64; 2] = [20.0, -44.0];
@@ -31,7 +31,7 @@ const OUT: f64 = 7.0;
 pub struct Pose {
     /// Where the hips are.
     pub hips: DVec3,
-    /// How each joint is turned, seen from the one that carries it.
+    /// How each joint is turned, relative to its parent.
     pub turns: [DQuat; COUNT],
 }
 
@@ -44,7 +44,7 @@ pub fn pose(frame: f64, look: Look) -> Pose {
     let wave = |shift: f64| (TAU * (phase - shift)).cos();
     let bob = (2.0 * TAU * (phase - 0.31)).cos();
     let hips = DVec3::new(0.024 * wave(0.3), 0.822 + 0.022 * bob, 0.0);
-    // Turns in the space that moves with the giant; in the end they are seen from the parents.
+    // Rotations in the space that moves with the giant. At the end they are made relative to the parents.
     let mut turns = [DQuat::IDENTITY; COUNT];
     turns[HIPS] = turn(1.5, -8.0 * wave(0.0), 3.5 * wave(0.2));
     turns[SPINE] = turn(2.0 + 0.8 * bob, 1.0 * wave(0.02), 0.5 * wave(0.2));
@@ -65,7 +65,7 @@ pub fn pose(frame: f64, look: Look) -> Pose {
     Pose { hips, turns: std::array::from_fn(seen) }
 }
 
-/// A turn about Y, then X, then Z of the result, degrees: forwards and down, to the left, and to the right shoulder.
+/// The rotation Y(`left`) X(`down`) Z(`tilt`), angles in degrees; `tilt` is towards the right shoulder.
 fn turn(down: f64, left: f64, tilt: f64) -> DQuat {
     DQuat::from_rotation_y(left.to_radians())
         * DQuat::from_rotation_x(down.to_radians())
@@ -79,7 +79,8 @@ fn arm(turns: &mut [DQuat; COUNT], first: usize, phase: f64) {
     let about_z = |degrees: f64| DQuat::from_rotation_z((side * degrees).to_radians());
     let forwards = |degrees: f64| DQuat::from_rotation_x(-degrees.to_radians());
     turns[SHOULDER + first] = turns[CHEST] * DQuat::from_rotation_y((-side * 4.0 * swing(0.0)).to_radians());
-    // At rest the arm stands out by forty degrees; hanging, by less, and farther when it swings in front of the belly.
+    // At rest the arm stands out by forty degrees. Hanging it stands out less, but a little more at both ends of its
+    // swing.
     let hang = about_z(-20.0 + 3.0 * swing(0.0).abs());
     turns[UPPER_ARM + first] = turns[SHOULDER + first] * forwards(3.0 + 27.0 * swing(0.0)) * hang;
     // The elbow bends in the plane of the arm and the way ahead, and a little inwards.
@@ -104,7 +105,8 @@ fn leg(turns: &mut [DQuat; COUNT], first: usize, phase: f64, hips: DVec3) {
     turns[TOES + first] = foot.toes;
 }
 
-/// Where a leg of two bones bends that reaches from `hip` to `ankle`, with its knee towards `ahead`.
+/// Where the knee is, towards `ahead`, of a leg that reaches from `hip` to `ankle`. Its bones have the lengths `upper`
+/// and `lower`.
 fn bent(hip: DVec3, ankle: DVec3, [upper, lower]: [f64; 2], ahead: DVec3) -> DVec3 {
     let reach = (ankle - hip).length().min(0.9995 * (upper + lower));
     let along = (ankle - hip).normalize();
@@ -113,7 +115,7 @@ fn bent(hip: DVec3, ankle: DVec3, [upper, lower]: [f64; 2], ahead: DVec3) -> DVe
     hip + along * down + across * (upper * upper - down * down).max(0.0).sqrt()
 }
 
-/// The turn that takes a bone and the way that it looks from `rest` to `now`.
+/// The rotation that takes a bone from `rest` to `now`. Both state the bone's direction and the direction it faces.
 fn aim(now: [DVec3; 2], rest: [DVec3; 2]) -> DQuat {
     let frame = |[along, ahead]: [DVec3; 2]| {
         let y = along.normalize();
@@ -151,8 +153,8 @@ fn pitched(up: f64) -> DQuat {
     DQuat::from_rotation_x(-up.to_radians())
 }
 
-/// The ankle, and how far the toes point up, while the foot is on the ground: it rolls over the heel, stands, and rolls
-/// over the ball. What it stands on goes back evenly.
+/// The ankle, and how far the toes point up in degrees, while the foot is on the ground: it rolls over the heel,
+/// stands, and rolls over the ball. The ground under it moves back evenly.
 fn stance(phase: f64, level: DQuat) -> (DVec3, f64) {
     const HEEL: DVec3 = DVec3::new(0.0, -0.085, -0.060);
     let ball = offset(TOES) * DVec3::new(0.0, 1.0, 1.0);
@@ -186,7 +188,7 @@ fn swing(phase: f64, level: DQuat) -> (DVec3, f64) {
     (ankle + DVec3::Y * lift, pitch)
 }
 
-/// Where each joint is in a pose, and how it is turned, seen from the point that moves with the giant.
+/// Where each joint is in a pose, and how it is turned, in the space that moves with the giant.
 #[cfg(test)]
 pub fn placed(pose: &Pose) -> [(DVec3, DQuat); COUNT] {
     let mut placed = [(pose.hips, pose.turns[HIPS]); COUNT];
@@ -203,7 +205,7 @@ pub fn placed(pose: &Pose) -> [(DVec3, DQuat); COUNT] {
 mod tests {
     use super::*;
 
-    /// What a foot stands on stays where it is while the giant goes on over it.
+    /// A foot on the ground stays where it is while the giant moves on over it.
     #[test]
     fn feet_do_not_slide() {
         for first in [0, SIDE] {

@@ -1,5 +1,5 @@
-//! What is asked of `impasto serve`: lines of standard input, read on a thread of their own, so that a stop is heeded while a frame is
-//! painted.
+//! The orders to `impasto serve`: lines of standard input, read on a thread of their own, so that a stop is noticed
+//! while a frame is painted.
 
 use std::io::BufRead as _;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -11,7 +11,7 @@ use serde::Deserialize;
 /// The longest line that is read, in bytes.
 const LONGEST_LINE: u64 = 1 << 20;
 
-/// A line, as it stands.
+/// A line of the input.
 #[derive(Debug, Deserialize)]
 #[serde(tag = "command", rename_all = "snake_case")]
 enum Line {
@@ -52,7 +52,7 @@ pub(super) struct RenderOrder {
     /// Whether files are written without compression.
     #[serde(default)]
     pub plain: bool,
-    /// How many files may lie about that nobody has said to have taken; 0 for any number.
+    /// How many written files may wait for their `taken` line; 0 for any number.
     #[serde(default)]
     pub ahead: usize,
 }
@@ -63,7 +63,7 @@ pub(super) enum Order {
         id: u64,
     },
     Render(RenderOrder),
-    /// A line that nobody understands, and why.
+    /// A line that cannot be read, in words that say why.
     Unread(String),
 }
 
@@ -81,7 +81,7 @@ impl Current {
         self.is_stopped.load(Ordering::SeqCst)
     }
 
-    /// Waits while as many as `ahead` of the `written` files are not taken yet.
+    /// Waits while `ahead` or more of the `written` files are not taken yet, unless the order is given up.
     pub fn wait_until_taken(&self, written: usize, ahead: usize) {
         if ahead == 0 {
             return;

@@ -1,4 +1,4 @@
-//! Which vertices that lie on each other at rest stay so when the surface bends.
+//! Which vertices with the same place at rest stay together when the surface bends.
 
 use std::cmp::Ordering;
 
@@ -6,14 +6,14 @@ use glam::Vec3;
 
 use super::Bend;
 
-/// What tells vertices apart that lie on each other at rest.
+/// Says which vertices with the same place at rest stay together.
 #[derive(Clone, Copy, Debug)]
 pub enum Bonds<'a> {
-    /// Nothing: they stay together.
+    /// All of them.
     All,
-    /// The points that a cache moves, one for each vertex: those of one point stay together.
+    /// Those of one point; holds, for each vertex, the point of the cache that moves it.
     Points(&'a [u32]),
-    /// Those stay together that targets and joints move alike.
+    /// Those that targets and joints move alike.
     Bend(&'a Bend),
 }
 
@@ -48,7 +48,7 @@ impl Bend {
     }
 }
 
-/// Numbers in an order, in which −0 and 0 are the same.
+/// Numbers that can be compared; −0 and 0 are the same.
 fn ordered(vector: Vec3) -> [u32; 3] {
     vector.to_array().map(|value| (value + 0.0).to_bits())
 }

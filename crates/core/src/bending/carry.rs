@@ -23,7 +23,7 @@ const BATCH: usize = 32;
 #[repr(C, align(64))]
 struct Vertex([f32; 16]);
 
-/// What is looked up of one vertex.
+/// A vertex without its padding.
 type Record = [f32; 12];
 
 /// A bent surface, ready to carry what lies on it.
@@ -32,8 +32,8 @@ pub struct Carrier {
     vertices: Vec<Vertex>,
 }
 
-/// What culling needs of particles, in the order of their triangles: particles follow each other as they lie on the surface, so that their
-/// vertices are near in memory.
+/// What culling needs of particles, sorted by triangle, so that particles in sequence read vertices that are near in
+/// memory.
 #[derive(Clone, Debug, Default)]
 pub struct SortedParticles(Vec<SortedParticle>);
 
@@ -76,12 +76,12 @@ pub struct CarriedPlace {
 }
 
 impl CarriedPlace {
-    /// The unit normal now of a side that had this normal at rest; that one where the surface has collapsed.
+    /// The unit normal now of the side whose normal at rest is `at_rest`; `at_rest` where the surface has collapsed.
     pub fn normal(&self, at_rest: DVec3) -> DVec3 {
         self.area_normal(at_rest).normalize_or(at_rest)
     }
 
-    /// The same normal, as long as the surface has grown: the area now over that at rest. Zero where the surface has collapsed.
+    /// The same normal, its length the area now over the area at rest. Zero where the surface has collapsed.
     pub fn area_normal(&self, at_rest: DVec3) -> DVec3 {
         cofactors(self.gradient) * at_rest
     }
@@ -130,8 +130,8 @@ impl Carrier {
         moved(baked, index, &blended(&corners, place.weights()), height)
     }
 
-    /// Of particles in the order of their triangles: one bit for each, by its number, set where it faces the eye and is within the bounds;
-    /// 64 to a word, the first in the lowest bit.
+    /// Culls particles. Returns one bit for each, in the order of their numbers, set where the particle faces the eye
+    /// and is within the bounds; 64 to a word, the first in the lowest bit.
     pub fn within(
         &self,
         mesh: &TriangleMesh,
@@ -182,13 +182,13 @@ impl Carrier {
     }
 }
 
-/// The mean of three vertices.
+/// The weighted mean of three vertices.
 #[inline(always)]
 fn blended([a, b, c]: &[Record; 3], [u, v, w]: [f32; 3]) -> Record {
     std::array::from_fn(|index| a[index] * u + b[index] * v + c[index] * w)
 }
 
-/// Position, normal and the columns of the lift of a particle where the surface has these position and F.
+/// Position, normal and the columns of the lift of a particle; `record` is the surface's position and F there.
 #[inline(always)]
 fn moved(baked: &BakedParticles, index: usize, record: &Record, height: f32) -> [Vec3; 4] {
     let [x, y, z, columns @ ..] = *record;

@@ -14,10 +14,10 @@ const CHUNK: usize = 1024;
 
 /// Weights that give the deformation gradient F at each vertex from where the vertices are.
 ///
-/// At a vertex, the two tangential columns of F are fitted to the edges round it (least squares, edges of any length counting
-/// alike); the third takes the normal of the fitted plane to the unit normal of where that plane goes. So F is exact for any rigid
-/// motion and, on the surface, for any affine one, and it does not step at edges. Vertices with equal positions and normals
-/// that stay together, as along a seam of texture coordinates, are one place.
+/// At a vertex, the two tangential columns of F are fitted to the edges round it (least squares, edges of any length
+/// counting alike); the third takes the normal of the fitted plane at rest to its unit normal now. So F is exact for
+/// any rigid motion and, on the surface, for any affine one, and it does not step at edges. Vertices with equal
+/// positions and normals that stay together, as along a seam of texture coordinates, are one place.
 #[derive(Debug)]
 pub struct Gradients {
     /// The place of each vertex.

@@ -64,7 +64,7 @@ fn the_gradient_of_an_affine_map_is_exact_on_a_flat_surface() {
     }
 }
 
-/// Where a surface is not stretched alike to all sides, every edge counts alike, however long: here those to the right and to the left.
+/// Edges count alike, however long, also where a surface is stretched unevenly: here those to the right and the left.
 #[test]
 fn the_gradient_is_the_mean_of_what_edges_say_whatever_their_length() {
     let [right, up, left, down] = [Vec3::X, Vec3::Y, Vec3::X * -3.0, Vec3::Y * -0.5];

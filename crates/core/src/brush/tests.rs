@@ -86,8 +86,8 @@ fn a_picture_with_contrast_makes_a_brush() {
     assert!(marks_of_picture([64, 32], &light[..10]).is_empty());
 }
 
-/// Whether a mark is dark on light is told by all four borders of its picture: here those that the mark reaches are lighter than the
-/// whole, and the others dark.
+/// All four borders of a picture decide whether its mark is dark on light. Here the two borders that the mark reaches
+/// are lighter than the picture's mean, and the other two are dark.
 #[test]
 fn a_light_mark_that_reaches_two_borders_of_its_picture_is_no_dark_one() {
     let upright = |x: usize, y: usize| match (x, y) {

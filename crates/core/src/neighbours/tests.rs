@@ -132,7 +132,7 @@ fn threads_do_not_change_the_lists() {
     assert_eq!(on_threads(1), on_threads(3));
 }
 
-/// Of points on a grid, about as many as a list holds lie within the radius.
+/// About as many points of a grid lie within the radius as a list holds.
 #[test]
 fn a_list_is_full_at_its_radius() {
     let (side, spacing) = (100, 0.3);
@@ -160,7 +160,7 @@ fn arrays_that_no_lists_have_are_refused() {
         |arrays| arrays.0[3] = 40,
         |arrays| arrays.2[3] = 40,
         |arrays| arrays.1[3] = 51,
-        // As many indices as there would be, but longer lists than any.
+        // The number of indices fits, but the lists are longer than any may be.
         |arrays| (arrays.3, arrays.2) = (MAX_NEIGHBOURS + 1, vec![0; 40 * (MAX_NEIGHBOURS + 1)]),
     ];
     for (number, fault) in faults.iter().enumerate() {

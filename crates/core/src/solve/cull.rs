@@ -56,7 +56,7 @@ impl ParticleView {
         self.solved_at(vectors, particles.flatness.get(particle).copied())
     }
 
-    /// Solves a particle with this position, normal and columns of N', and this flatness; without one, 1.
+    /// Solves a particle with this position, normal and columns of N'. `None` stands for a flatness of 1.
     #[inline]
     pub fn solved_at(
         &self,
@@ -210,11 +210,11 @@ mod tests {
         }
     }
 
-    /// Beside the same formulas in double precision, where the particle is well before the eye.
+    /// Compares with the same formulas in double precision, for particles well in front of the eye.
     #[test]
     fn what_is_solved_is_the_projection_and_the_angle_of_the_lift() {
         for wrapped in [false, true] {
-            // Turned about no axis of its own, so that every number of the map counts.
+            // Turned about a slanted axis, so that every number of the map counts.
             let pose = DAffine3::from_axis_angle(DVec3::new(0.5, 0.7, -0.3).normalize(), 0.9);
             let view = DMat4::from_translation(DVec3::new(0.3, -0.2, -4.0));
             let map = ScreenMap::new(view, pose, PixelLens::Perspective { focal_px: 900.0 });
@@ -239,7 +239,7 @@ mod tests {
                 assert!(off.iter().all(|off| off.abs() < 1e-4), "particle {index}: {off:?}");
                 let flatness = particles.flatness.get(index).map_or(1.0, |&flatness| f64::from(flatness));
                 let wanted = on_screen.shown_rad(flatness);
-                // Where the sums that the angle is of nearly cancel, single precision says nothing.
+                // Where the sums that give the angle nearly cancel, single precision is too coarse.
                 let beside = wrap_pi(on_screen.shown_rad(flatness - 1e-3) - wanted);
                 if on_screen.kappa() > 0.05 && beside.abs() < 0.01 {
                     let off = wrap_pi(f64::from(solved.angle_rad[index]) - wanted);

@@ -28,7 +28,7 @@ use crate::selection::{Item, Selection};
 pub struct Shift {
     /// Where each point of the world goes: a rotation, a uniform scale above 0 and a translation.
     pub world_from_world: DAffine3,
-    /// A child is shifted in the space of its parent, as the parent stands at this frame.
+    /// The shift of a child is converted to its parent's space with the parent's pose at this frame.
     pub frame: f64,
 }
 
@@ -104,13 +104,13 @@ pub enum Arrange {
         /// What it shines on.
         toward: DVec3,
     },
-    /// Changes a light, with what changed in words.
+    /// Changes a light.
     SetLight {
         /// Its name.
         name: String,
         /// Its new values; the name stays.
         light: Light,
-        /// What changed: *brighter*.
+        /// What changed, in words: *brighter*.
         what: String,
     },
     /// The lens of the shot.
@@ -262,7 +262,7 @@ fn shift_motion(scene: &mut Scene, objects: &[String], shift: &Shift) -> Result<
     Ok(())
 }
 
-/// Whether an object that this one is a child of, directly or not, is among `objects`.
+/// Whether an ancestor of the object with this index is among `objects`.
 fn has_ancestor_among(scene: &Scene, index: usize, objects: &[String]) -> bool {
     let mut above = scene.objects[index].parent.as_deref();
     for _ in 0..scene.objects.len() {
@@ -412,8 +412,8 @@ fn add_light(scene: &mut Scene, kind: LightKind, at: DVec3, toward: DVec3) -> Do
     Done::new(format!("Add {name}")).selecting(Selection::only(Item::Light(name)))
 }
 
-/// The command that gives a light what `stated` states: at its frame if the light has keys, else for the whole shot. `what` are the
-/// words for it. `None` if there is no such light.
+/// The command that gives a light the values of `stated`: as a key at the frame of `stated` if the light has keys, else
+/// for the whole shot. `what` says in words what changed. `None` if there is no such light.
 pub fn set_light(scene: &Scene, name: &str, stated: LightKey, what: &str) -> Option<Command> {
     let light = scene.lights.iter().find(|light| light.name == name)?;
     if !light.keys.is_empty() {

@@ -116,8 +116,8 @@ pub enum Directions {
     Flip(RegionTarget),
     /// States whether the strokes of a region have a beginning and an end.
     SetSense(String, Sense),
-    /// Leaves out points of guides that lie within a distance of the line between their neighbours, and guides that
-    /// later ones cover.
+    /// Removes guide points that lie within a distance of the line between their neighbours, and guides that later
+    /// ones cover.
     Simplify {
         /// The region.
         region: String,

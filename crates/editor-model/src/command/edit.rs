@@ -16,7 +16,8 @@ use crate::selection::{Item, Selection};
 pub enum Edit {
     /// Deletes things. An object is deleted with its regions and touches; its children move to its parent.
     Delete(Vec<Item>),
-    /// Makes copies of objects (with their regions and touches), regions, lights, guides and touches, and selects the copies.
+    /// Makes copies of objects (with their regions and touches), regions, lights, guides and touches, and selects the
+    /// copies.
     Duplicate(Vec<Item>),
     /// Gives a thing another name.
     Rename(Item, String),

@@ -27,7 +27,7 @@ pub enum KeyOf {
     Strokes(StrokesOf),
 }
 
-/// A value to key that is no pose.
+/// A value to key: anything but a pose.
 #[derive(Clone, Debug, PartialEq)]
 pub enum KeyedValue {
     /// Of a light, by name: what the key states; its frame and ease are not read.
@@ -39,7 +39,7 @@ pub enum KeyedValue {
 }
 
 impl KeyOf {
-    /// What people call it.
+    /// The owner's name, as users read it.
     pub fn name(&self) -> Cow<'_, str> {
         match self {
             Self::Camera => "shot".into(),
@@ -52,7 +52,7 @@ impl KeyOf {
 }
 
 impl KeyedValue {
-    /// The value of something that is no pose, as it is at a frame.
+    /// The owner's value at a frame; `None` for the camera and objects, whose keys are poses.
     pub(super) fn at(scene: &Scene, of: &KeyOf, frame: f64) -> Result<Option<Self>, Refusal> {
         Ok(match of {
             KeyOf::Camera | KeyOf::Object(_) => None,
@@ -75,8 +75,8 @@ impl KeyedValue {
         }
     }
 
-    /// Keys the value at a frame. A new key of a light also states what other keys of it state, so that the light is elsewhere as it
-    /// was.
+    /// Keys the value at a frame. A light's new key also states everything that the light's other keys state, so that
+    /// those values stay as they were.
     pub(super) fn put(&self, scene: &mut Scene, frame: f64) -> Result<(), Refusal> {
         match self {
             Self::Light(name, key) => {
@@ -110,7 +110,7 @@ impl KeyedValue {
             Self::Strokes(of, key) => {
                 let inherited = strokes_keys(scene, of);
                 let keys = &mut settings(scene, of)?.keys;
-                // A region's keys replace the scene's, so the first one takes those over.
+                // A region's keys replace the scene's, so the scene's are copied before the first one is added.
                 if keys.is_empty() {
                     *keys = inherited;
                 }
@@ -133,7 +133,7 @@ fn whole_key(light: &Light, frame: f64) -> LightKey {
     }
 }
 
-/// The keys in force for strokes, which a region may have from the scene.
+/// The keys in force for strokes; a region may inherit them from the scene.
 fn strokes_keys(scene: &Scene, of: &StrokesOf) -> Vec<StrokesKey> {
     let region = match of {
         StrokesOf::Scene => None,
@@ -147,7 +147,7 @@ pub fn strokes_at(scene: &Scene, of: &StrokesOf, frame: f64) -> StrokesKey {
     motion::stroke_key_at(&strokes_keys(scene, of), frame)
 }
 
-/// Puts a key among others; one at its frame is replaced, and leaves its ease.
+/// Inserts a key. A key at the same frame is replaced, but its ease stays.
 fn put<K: Key>(keys: &mut Vec<K>, mut key: K) {
     let at = keys.partition_point(|other| other.frame() < key.frame());
     match keys.get_mut(at).filter(|old| old.frame() == key.frame()) {
@@ -211,7 +211,7 @@ pub(super) fn list<'a>(scene: &'a mut Scene, of: &KeyOf) -> Result<&'a mut dyn K
     })
 }
 
-/// The frames of the keys of each owner, in the order in which owners come first.
+/// The frames of the keys of each owner, the owners in order of first appearance.
 pub(super) fn by_owner(keys: &[(KeyOf, f64)]) -> Vec<(&KeyOf, Vec<f64>)> {
     let mut owners: Vec<(&KeyOf, Vec<f64>)> = Vec::new();
     for (of, frame) in keys {

@@ -1,4 +1,4 @@
-//! The command that replaces what a mesh file says of the material of an object.
+//! The command that sets an object's material override: values that replace those of the mesh file.
 
 use impasto_scene::document::{MaterialOverride, Scene};
 
@@ -25,7 +25,7 @@ pub(super) fn set_material(
     Ok(Done::new(format!("{words} of {name}")))
 }
 
-/// What differs between two materials, in words; *Material* where it is more than one thing.
+/// What differs between two materials, in words; *Material* for several things, or one without a word of its own.
 fn changed(before: &MaterialOverride, now: &MaterialOverride) -> &'static str {
     let with = |change: fn(&mut MaterialOverride, &MaterialOverride)| {
         let mut changed = before.clone();

@@ -1,4 +1,4 @@
-//! Commands on keys of objects and camera, and on the timeline.
+//! Commands on keys and on the timeline.
 
 use impasto_scene::document::{CameraKey, Ease, Key, Lens, ObjectKey, Scene};
 use impasto_scene::motion::{self, CameraPose};
@@ -22,8 +22,8 @@ pub enum Pose {
 pub enum Time {
     /// Sets a key with the current pose at a frame.
     SetKey(KeyOf, f64),
-    /// Gives the camera, or an object, that the scene's shot moves keys of its own: one at each frame, but for those between which
-    /// nothing happens that a straight line does not.
+    /// Gives own keys to the camera or an object that the scene's shot moves: one per frame, without those that lie on
+    /// a straight line between their neighbours.
     OwnKeys(KeyOf),
     /// Sets a new pose at a frame. The first key at another frame than the reference also keys the old pose at the
     /// reference, so that there is a motion between the two.
@@ -97,7 +97,7 @@ impl Time {
     }
 }
 
-/// What people call an ease.
+/// The name of an ease, as users read it.
 pub fn ease_name(ease: Ease) -> &'static str {
     match ease {
         Ease::Smooth => "smooth",
@@ -110,7 +110,7 @@ fn counted(keys: &[(KeyOf, f64)]) -> String {
     if keys.len() == 1 { "1 key".to_owned() } else { format!("{} keys", keys.len()) }
 }
 
-/// Two numbers of a key count as the same up to this.
+/// Numbers of keys count as equal up to this difference, relative for numbers above 1.
 const SAME: f64 = 1e-9;
 
 fn own_keys(scene: &mut Scene, of: &KeyOf) -> Result<Done, Refusal> {
@@ -124,7 +124,7 @@ fn own_keys(scene: &mut Scene, of: &KeyOf) -> Result<Done, Refusal> {
                     Lens::Perspective { fov_y_deg, .. } => Some(fov_y_deg),
                     Lens::Orthographic { .. } => None,
                 };
-                // A roll goes on turning from key to key.
+                // The roll is unwrapped: it is within half a turn of the roll of the key before.
                 let before = keys.last().map_or(0.0, |key| key.roll_deg);
                 let roll_deg = pose.roll_rad.to_degrees();
                 let roll_deg = roll_deg + ((before - roll_deg) / 360.0).round() * 360.0;
@@ -160,7 +160,7 @@ fn own_keys(scene: &mut Scene, of: &KeyOf) -> Result<Done, Refusal> {
     Ok(Done::new(format!("Own keys for {}", of.name())))
 }
 
-/// The keys without those that lie on a straight line between their neighbours, one key a frame.
+/// The keys (one per frame) without those that lie on a straight line between their neighbours.
 fn thinned<K: Key>(keys: Vec<K>, numbers: impl Fn(&K) -> Vec<f64>) -> Vec<K> {
     let all: Vec<Vec<f64>> = keys.iter().map(numbers).collect();
     let is_straight = |at: usize| {

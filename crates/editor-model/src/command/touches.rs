@@ -14,13 +14,13 @@ use crate::selection::{Item, Selection};
 pub enum Touches {
     /// Lays touches over all others, and selects the last of them. Names that are taken get a number.
     Lay(Vec<Touch>),
-    /// Gives a touch other looks; its name and its object stay.
+    /// Changes a touch; its name and its object stay.
     Set {
         /// Its name.
         name: String,
-        /// What it becomes.
+        /// Its new values.
         touch: Box<Touch>,
-        /// The words for what changes: *width*.
+        /// What changed, in words: *width*.
         what: String,
     },
     /// Takes touches away, by name, as an eraser does.

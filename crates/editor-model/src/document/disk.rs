@@ -95,7 +95,7 @@ impl Document {
     /// [`Document::save_copy`] does.
     ///
     /// # Errors
-    /// As [`Document::save_copy`], and if `target` is the document's own file and not all of that could be read.
+    /// As [`Document::save_copy`], and if `target` is the document's own file, parts of which could not be read.
     pub fn save_as(&mut self, target: &Path) -> Result<Vec<String>, SaveError> {
         self.may_save_over(target)?;
         let missing = self.save_copy(target)?;
@@ -208,11 +208,11 @@ impl Document {
         Step { text, note: None }
     }
 
-    /// Reads the shot, the meshes and the pictures that the scene names again. Only what a shot brings can change the scene: that is
-    /// an entry of the history, with a note of what came and went.
+    /// Reads again the shot, the meshes and the pictures that the scene names. If the shot changes the scene, this
+    /// makes an entry of the history, with a note of the objects that came and went.
     ///
     /// # Errors
-    /// What is wrong with them, in the words to show; then the old ones stay.
+    /// What is wrong with the files, in the words to show; then the old ones stay.
     pub fn read_files_again(&mut self) -> Result<Step, Refusal> {
         let scene = self.scene().without_shot();
         let (meshes, caches, textures, brushes) = Default::default();
@@ -232,15 +232,16 @@ impl Document {
         let text = "Read the shot again".to_owned();
         let was_edited = self.is_edited();
         self.history.push(text.clone(), change, [before, self.selection.clone()]);
-        // What a shot brings is not saved.
+        // What a shot brings is not saved, so it is no unsaved edit.
         if !was_edited {
             self.history.mark_saved();
         }
         Ok(Step { text, note })
     }
 
-    /// The paths of all files of the scene, its own first: those that it names, and those that were read because they name
-    /// them (materials, textures, buffers). An MTL file that is missing is assumed to be named like its OBJ file.
+    /// The paths of all files of the scene: the scene file, the files that it names, and the files that those name
+    /// (materials, textures, buffers). The scene file is first. A missing MTL file is assumed to be named like its OBJ
+    /// file.
     pub fn files_on_disk(&self) -> Vec<PathBuf> {
         let mut files: Vec<PathBuf> = self.file.iter().cloned().collect();
         let is_scene =

@@ -30,12 +30,12 @@ pub struct ProblemRow {
 /// A repair of a problem.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Repair {
-    /// A file that is missing, such as a texture: one that is chosen is copied to where it is looked for.
+    /// Copies a file that the user chooses to where a missing one, such as a texture, is looked for.
     Bring {
-        /// Where it is looked for.
+        /// Where the missing file is looked for.
         to: PathBuf,
     },
-    /// Reading files again, for when the missing one has come.
+    /// Reads the files again, in case the missing one is there now.
     Retry,
     /// Another mesh for an object.
     Locate {
@@ -104,8 +104,7 @@ impl Document {
         Some(first.problem.place.map_or(1, |place| place.line))
     }
 
-    /// The losses that are left, with their indices. That of an unusable mesh counts only while the scene names the
-    /// mesh.
+    /// The losses that are left, with their indices. An unusable mesh counts only while the scene names it.
     fn open_losses(&self) -> impl Iterator<Item = (usize, &Loss)> {
         let losses = self.source.iter().flat_map(|source| source.losses.iter().enumerate());
         losses.filter(|(_, loss)| {
@@ -231,7 +230,7 @@ impl Document {
     }
 }
 
-/// What helps where a file is missing. A mesh that a scene names is located otherwise: the scene then names another one.
+/// The repairs for a missing file. A mesh is not brought: the user chooses another one ([`Repair::Locate`]).
 fn missing_file(problem: &Problem, is_mesh: bool) -> Vec<Repair> {
     let Some(to) = problem.missing_file() else { return Vec::new() };
     let bring = (!is_mesh).then_some(Repair::Bring { to });
@@ -307,7 +306,7 @@ fn merged_list<T: Clone + PartialEq>(
     }
     for (index, item) in left.iter().enumerate() {
         if find(from, item).is_none() && find(right, item).is_none() {
-            // It is placed behind the item that it follows in `left`.
+            // It is placed behind the nearest item before it in `left` that is in `merged`, else first.
             let before = left[..index].iter().rev().find_map(|before| find(&merged, before));
             merged.insert(before.map_or(0, |at| at + 1), item.clone());
         }

@@ -211,7 +211,7 @@ impl Editor {
         true
     }
 
-    /// Takes a tool up, and goes to its mode if it is one of another mode; cancels the interaction under way.
+    /// Takes a tool up, in a mode that has it; cancels the interaction under way.
     pub fn take_up(&mut self, tool: Tool, view: &View) {
         self.cancel(view);
         match (tool.is_for_paint(), self.session.mode) {
@@ -332,7 +332,7 @@ impl Editor {
         self.session.frame = next.unwrap_or(now);
     }
 
-    /// Takes the frame that is shown as the new reference.
+    /// Takes a frame as the new reference.
     pub fn recapture(&mut self, frame: i64) {
         self.run(&Command::Directions(Directions::Recapture(frame)));
     }

@@ -20,7 +20,7 @@ pub enum Mend {
     ReadText(String),
     /// Reads the file again, as far as it can be read.
     ReadAgain,
-    /// Reads the files that the scene names again; the scene stays as it is edited.
+    /// Reads again the files that the scene names; edits of the scene stay.
     ReadFiles,
 }
 
@@ -30,7 +30,7 @@ pub struct Mended {
     result: Result<Step, Refusal>,
     /// Revision of the document, and whether it was edited, when the repair began.
     version_of: (u64, bool),
-    /// The message after a success that the user did not ask for; `None` if the user asked.
+    /// The message on success, for a repair that the user did not ask for; `None` if the user asked.
     unasked: Option<String>,
 }
 

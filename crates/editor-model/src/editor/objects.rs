@@ -76,7 +76,7 @@ impl Editor {
         self.document.selection().active() == Some(&Item::Camera)
     }
 
-    /// Lets the shot camera follow the pointer until a click: sideways, round what it looks at, or nearer to it.
+    /// Lets the shot camera follow the pointer until a click: *move* pans, *turn* orbits, *scale* zooms.
     pub(super) fn begin_shot_view(&mut self, operation: Operation, view: &View) {
         let way = match operation {
             Operation::Move => Navigation::Pan,
@@ -117,7 +117,7 @@ impl Editor {
     }
 
     /// The handles round the selected object, in Arrange and Animate, or round the selected light, in Arrange. `None`
-    /// while the view moves, the shot plays or two pictures are compared.
+    /// if nothing with handles is selected, and while the view moves, the shot plays or two pictures are compared.
     pub fn gizmo(&self, view: &View) -> Option<Gizmo> {
         let operation = match self.session.tool() {
             Tool::Move | Tool::Select => Operation::Move,
@@ -233,7 +233,7 @@ fn pose_of(key: &ObjectKey) -> DAffine3 {
 }
 
 fn key_of(pose: DAffine3, near: &ObjectKey) -> ObjectKey {
-    // What was turned and scaled evenly keeps the ratios of its own scale.
+    // The object's own scale is taken out before the factor is found, so that an uneven scale keeps its ratios.
     let unscaled = pose.matrix3 * near.scale.matrix().inverse();
     let factor = unscaled.determinant().cbrt();
     ObjectKey {

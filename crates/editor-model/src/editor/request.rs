@@ -30,7 +30,7 @@ pub enum Request {
     Rename,
     /// Shows the menu of things to add.
     Add,
-    /// Shows the menu of a thing where the pointer is; of the view where the pointer is on nothing.
+    /// Shows the menu of the thing under the pointer, or of the view if nothing is there.
     Menu(Option<Item>),
     /// Shows or folds the right column.
     ToggleColumn,
@@ -46,7 +46,8 @@ pub enum Request {
     ReadSource,
     /// Asks before this frame becomes the reference.
     Recapture(i64),
-    /// Asks before this command, which takes these triangles from other regions.
+    /// Asks before this command, which takes triangles from other regions. The text lists them: *340 triangles of
+    /// skin*.
     TakeFaces(Box<Command>, String),
 }
 

@@ -23,7 +23,7 @@ impl Editor {
     /// Saves a copy; see [`crate::Document::save_copy`].
     ///
     /// # Errors
-    /// The errors of that.
+    /// As [`crate::Document::save_copy`].
     pub fn save_copy(&mut self, target: &Path) -> Result<(), SaveError> {
         let missing = self.document.save_copy(target)?;
         self.say(format!("Saved a copy as {}{}", target.display(), without_files(&missing)));

@@ -171,8 +171,8 @@ impl Editor {
         }
     }
 
-    /// With Auto key off, shows the poses that a command sets as loose ones, and returns whether that worked. `None` if
-    /// the command goes to the history instead.
+    /// With Auto key off in Animate, shows the poses that a command sets but does not key them: they become loose
+    /// poses. Returns whether that worked, or `None` if the command has to go to the history.
     pub(super) fn pose_loosely(&mut self, command: &Command) -> Option<bool> {
         let frame = self.session.frame;
         if self.session.auto_key || self.session.mode != Mode::Animate {
@@ -226,7 +226,7 @@ impl Editor {
         }
     }
 
-    /// Drops the loose poses.
+    /// Drops the loose poses; [`Editor::pose_again`] restores them.
     pub(super) fn put_back(&mut self) {
         let Some(loose) = self.time.loose.take() else { return };
         self.document.end_preview();
@@ -236,8 +236,8 @@ impl Editor {
         self.time.put_back = Some(loose);
     }
 
-    /// Undo, as far as it concerns poses without a key: drops the ones that are shown, or brings those back that were dropped
-    /// when their frame was left. Returns whether there were any.
+    /// Undo for loose poses: drops those that are shown; if none are, restores those that were dropped last. Returns
+    /// whether there were any.
     pub(super) fn undo_loose_pose(&mut self) -> bool {
         if let Some(loose) = self.time.loose.take() {
             self.document.end_preview();
@@ -260,7 +260,7 @@ impl Editor {
         self.version += 1;
     }
 
-    /// The status line for playback and keys; `None` where nothing happens.
+    /// The status line for playback, dragged keys or loose poses; `None` if there are none of these.
     pub(super) fn time_status(&self) -> Option<String> {
         let playback = &self.time.playback;
         if playback.is_playing() {

@@ -1,4 +1,4 @@
-//! Leaves out points of a path, so that a guide has few, as long as the path stays within a distance of what it was
+//! Removes points from a path, so that a guide has few, while the path stays within a given distance of what it was
 //! (Ramer 1972; Douglas and Peucker 1973).
 
 use glam::DVec3;
@@ -9,7 +9,7 @@ use super::PathPoint;
 /// A path keeps the points this many steps from its ends, so that it begins and ends in the same direction as before.
 const END_STEPS: usize = 3;
 
-/// Those points of a path that keep it within `tolerance` (model units); both ends stay.
+/// The points that keep a path within `tolerance` (model units) of what it was; both ends stay.
 pub(crate) fn within(path: &[PathPoint], tolerance: f64) -> Vec<PathPoint> {
     let Some(last) = path.len().checked_sub(1) else { return Vec::new() };
     let ends = if last > 4 * END_STEPS { vec![0, END_STEPS, last - END_STEPS, last] } else { vec![0, last] };
@@ -18,7 +18,7 @@ pub(crate) fn within(path: &[PathPoint], tolerance: f64) -> Vec<PathPoint> {
     path.iter().zip(keep).filter_map(|(point, keep)| keep.then_some(*point)).collect()
 }
 
-/// Those points of a guide that keep it within `tolerance` (model units); both ends stay.
+/// The points that keep a guide within `tolerance` (model units) of what it was; both ends stay.
 pub(crate) fn guide_within(points: &[GuidePoint], tolerance: f64) -> Vec<GuidePoint> {
     let Some(last) = points.len().checked_sub(1) else { return Vec::new() };
     let places: Vec<DVec3> = points.iter().map(|point| DVec3::from(point.at)).collect();

@@ -50,8 +50,8 @@ impl ObjectView {
         Self { frame, ..self }
     }
 
-    /// The view that a guide states if it was drawn here; `None` if this is the reference. `middle` is a point of the
-    /// guide.
+    /// The view that a guide states if it was drawn in this one; `None` if this is the reference. `middle` is a point
+    /// of the guide.
     pub fn guide_view(&self, reference: &Self, middle: DVec3) -> Option<GuideView> {
         if self.is_same_as(reference) {
             return None;

@@ -15,23 +15,24 @@ use obvhs::bvh2::builder::build_bvh2;
 use obvhs::ray::RayHit;
 use obvhs::{Boundable, BvhBuildParams};
 
-/// A point of a surface, in the object's own space, **where the surface has it at rest**: what is stated in the document is stated there.
+/// A point of a surface, in the object's own space. All but `position_now` is of the surface at rest, because the
+/// document states everything there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
     /// Index of its triangle.
     pub triangle: u32,
     /// Weights of the triangle's three corners, sum 1.
     pub barycentric: [f64; 3],
-    /// Where.
+    /// Its position at rest.
     pub position: DVec3,
-    /// Where it is now.
+    /// Its position now, on the bent surface.
     pub position_now: DVec3,
-    /// Smooth normal, unit, of the painted side. A sheet is painted on both sides: there, of the side that was asked
-    /// for.
+    /// Smooth normal, unit, of the painted side. A sheet is painted on both sides: there, the normal of the side that
+    /// was asked for.
     pub normal: DVec3,
     /// Normal of the flat triangle, unit, of the same side.
     pub face_normal: DVec3,
-    /// Whether that side is the triangle's back: it winds the other way.
+    /// Whether that side is the triangle's back, from where its corners wind clockwise.
     pub flipped: bool,
 }
 
@@ -41,7 +42,7 @@ pub(super) struct SurfaceTree {
     /// What bends it, and its noise.
     shape: BodyShape,
     now: Placed,
-    /// At rest, for a surface that is not; built when it is first needed.
+    /// The surface at rest, if `now` is not at rest; built when it is first needed.
     rest: OnceLock<Placed>,
 }
 
@@ -110,7 +111,8 @@ impl SurfaceTree {
         self.rest.get_or_init(|| Placed::new(self.mesh(), self.mesh().positions.clone()))
     }
 
-    /// Takes what is round a point near the surface at rest to where it is now: as the nearest triangle moves.
+    /// The map that carries the surroundings of a point near the surface at rest to where they are now: that of the
+    /// nearest triangle.
     pub(super) fn now_from_rest(&self, at_rest: DVec3) -> DAffine3 {
         if self.surface.is_at_rest(&self.shape) {
             return DAffine3::IDENTITY;
@@ -134,7 +136,7 @@ impl SurfaceTree {
         Arc::ptr_eq(&self.surface, surface) && (self.shape == *shape || (rests(&self.shape) && rests(shape)))
     }
 
-    /// Of the surface as it is now.
+    /// Least and greatest corner of the surface as it is now; `None` without triangles.
     pub(super) fn bounds(&self) -> Option<[DVec3; 2]> {
         self.now.bounds
     }
@@ -198,8 +200,8 @@ impl SurfaceTree {
         Some((point, (distance + skipped) / length, front))
     }
 
-    /// The point of the surface at rest that is nearest to `to`, at most `farthest` away. Only points whose painted side faces
-    /// the way of `facing` count; a sheet is painted on both sides.
+    /// The point of the surface at rest that is nearest to `to`, at most `farthest` away. A point counts only if its
+    /// painted side is less than 90 degrees from `facing`; one side of a sheet always is.
     pub(super) fn closest(&self, to: DVec3, farthest: f64, facing: DVec3) -> Option<SurfacePoint> {
         let point = |triangle, weights| self.point_at_rest(triangle, weights, |face| face.dot(facing) > 0.0);
         let counts = |triangle, weights| {
@@ -277,8 +279,8 @@ impl SurfaceTree {
         (self.on_side(triangle, barycentric, sign), looked_at(winding * sign))
     }
 
-    /// 1 for the front of a triangle, −1 for its back. A front that is looked at counts as painted. That is wrong only inside a closed
-    /// shell that winds inwards, where the eye hardly ever is.
+    /// 1 if the front of a triangle is painted, −1 if its back is. A front that is looked at counts as painted. That is
+    /// wrong only inside a closed shell that winds inwards, where the eye hardly ever is.
     fn painted_side(&self, triangle: u32, front_is_looked_at: bool) -> f64 {
         let is_front = front_is_looked_at || self.surface.sides[triangle as usize] == Side::Front;
         if is_front { 1.0 } else { -1.0 }

@@ -51,7 +51,7 @@ impl FileKind {
         }
     }
 
-    /// The pattern of the files with the ending of this kind.
+    /// The pattern `output` with the ending of this kind.
     pub(super) fn renamed(self, output: &str) -> String {
         let output = output.trim_end();
         let ending = FileEnding::of(output);
@@ -64,14 +64,14 @@ impl FileKind {
             Self::Movie => stem.trim_end_matches('#').trim_end_matches(['_', '-', '.']),
             _ => stem,
         };
-        // A name that is not there yet gets no ending.
+        // An empty name gets no ending.
         if stem.is_empty() || stem.ends_with(['/', '\\']) {
             return output.to_owned();
         }
         format!("{stem}.{}", self.endings()[0])
     }
 
-    /// This kind, or the usual one that fits the ending that was typed.
+    /// This kind if it fits the ending of `output`, else the usual kind with that ending.
     pub(super) fn fitting(self, output: &str) -> Self {
         match (FileEnding::of(output), self) {
             (Some(FileEnding::Exr), _) => Self::Exr,
@@ -102,7 +102,7 @@ pub(super) enum FileEnding {
 const MOVIES: &[&str] = &["mp4", "mov", "webm", "mkv"];
 
 impl FileEnding {
-    /// How a name ends, whatever the case of its letters.
+    /// How a name ends, whatever the case of its letters; `None` if nothing can be rendered into such a file.
     pub(super) fn of(name: &str) -> Option<Self> {
         let name = name.trim_end().to_ascii_lowercase();
         let (_, ending) = name.rsplit_once('.')?;
@@ -160,7 +160,7 @@ impl AovChoice {
         }
     }
 
-    /// The words of `--aov` for the same files; `None` to leave it out.
+    /// The value of `--aov` for the same files; `None` to leave the option out.
     pub(super) fn command_words(self, scene: &Scene) -> Option<String> {
         let set = self.set(scene);
         match self {
@@ -172,7 +172,7 @@ impl AovChoice {
     }
 }
 
-/// What the scene's own `aovs` name; words that name nothing are problems of the scene, and name nothing here.
+/// What the scene's own `aovs` name. Unknown words are left out: they are reported as problems of the scene.
 fn aovs_of(scene: &Scene) -> AovSet {
     let known = scene.aovs.iter().filter_map(|word| AovSet::named(word).ok());
     known.fold(AovSet::NONE, AovSet::with)

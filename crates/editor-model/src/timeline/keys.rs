@@ -186,7 +186,7 @@ impl KeysHand {
         None
     }
 
-    /// Shifts the selection by this many frames, after its keys were moved. Returns the old selection.
+    /// Shifts the selection by this many frames, along with its keys. Returns the old selection.
     pub(crate) fn go(&mut self, by: f64) -> Vec<KeyAt> {
         let before = self.selected.clone();
         self.selected.iter_mut().for_each(|(_, frame)| *frame += by);

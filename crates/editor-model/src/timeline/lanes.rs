@@ -21,7 +21,7 @@ pub struct LaneKey {
 pub struct Lane {
     /// The owner of the keys.
     pub of: KeyOf,
-    /// Whether they cannot be changed.
+    /// Whether the keys cannot be changed.
     pub locked: bool,
     /// Whether the scene's shot moves this, so that there are no keys.
     pub of_shot: bool,
@@ -47,8 +47,8 @@ impl Lane {
     }
 }
 
-/// A lane for the camera and one for each object, in the order of the file; then one for each light, the background and strokes that
-/// have keys.
+/// A lane for the camera and one for each object, in the order of the file. Then one each for lights, the background
+/// and strokes, but only for those with keys.
 pub fn lanes(scene: &Scene) -> Vec<Lane> {
     let camera = Lane { of_shot: scene.has_camera_of_shot(), ..Lane::new(KeyOf::Camera, &scene.camera.keys) };
     let objects = scene.objects.iter().map(|object| Lane {

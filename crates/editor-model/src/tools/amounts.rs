@@ -1,18 +1,18 @@
-//! The brush that paints amounts: what a drag over a surface leaves there, and what an eraser leaves of that.
+//! The brush that paints amounts: the dabs that a drag leaves on a surface, and those that an eraser spares.
 
 use impasto_scene::document::{Amount, AmountDab, PaintedAmount, Region};
 
 use crate::path::PathPoint;
 use crate::session::ToolOptions;
 
-/// Dabs of a drag lie this share of the radius apart: together they are as even as one can see.
+/// Dabs of a drag lie this share of the radius apart, which looks even.
 pub(super) const DAB_SHARE: f64 = 0.5;
 
-/// So many dabs of a drag reach one place in its middle, by the strength that they have there: `1 + 2 (1 − ¼)²`.
+/// The strengths that all dabs of a drag have at one place in its middle, added up: `1 + 2 (1 − ¼)²`.
 const OVERLAP: f64 = 2.125;
 
-/// The factor of one dab, so that a drag across the surface comes to 1 + strength where it raises; where it lowers, to the
-/// reciprocal, or, for what may go down to nothing, to 1 − strength.
+/// The factor of one dab. The dabs of a drag together give 1 + strength if it raises. If it lowers, they give the
+/// reciprocal, or 1 − strength for amounts that may be 0.
 pub(super) fn factor(of: Amount, raises: bool, strength: f64) -> f64 {
     let strength = strength.clamp(0.0, 1.0);
     let drag = match (raises, *of.range().start() > 0.0) {
@@ -35,7 +35,7 @@ pub(super) fn dabs(touched: &[PathPoint], radius: f64, by: f64) -> Vec<AmountDab
     touched.iter().map(dab).collect()
 }
 
-/// A value with no more digits than tell a thousandth of a length: a file of dabs stays readable.
+/// A value rounded to a thousandth of `length` or finer, so that a file of dabs stays readable.
 pub(super) fn short(value: f64, length: f64) -> f64 {
     let digits = (3.0 - length.log10().floor()).clamp(0.0, 12.0) as i32;
     let scale = 10f64.powi(digits);
@@ -43,8 +43,8 @@ pub(super) fn short(value: f64, length: f64) -> f64 {
     if rounded == 0.0 { 0.0 } else { rounded }
 }
 
-/// What an eraser of this radius that touched these points leaves of the amounts of a region: dabs of this amount whose middles it
-/// went over are gone.
+/// The amounts of a region that are left after an eraser of this radius touched these points: dabs of this amount on
+/// this object are gone if it went over their middles.
 pub(super) fn erased(
     region: &Region,
     (of, object): (Amount, &str),

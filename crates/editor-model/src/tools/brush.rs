@@ -1,4 +1,4 @@
-//! The brush tools (Comb, Smooth, Smear, Erase, region brush): a ring that is dragged over a surface.
+//! The brush tools (Comb, Smooth, Smear, Erase, Amount, region brush): a ring that is dragged over a surface.
 
 use glam::DVec2;
 use impasto_scene::document::{Amount, Dab, Falloff, Guide, GuideMode, Region, Selector};
@@ -228,7 +228,7 @@ impl Act {
         }
     }
 
-    /// What it does with an amount, or with directions or regions.
+    /// What it does, for the status line; `of` is the amount, for those that paint one.
     fn words(self, of: Amount) -> String {
         let of = of.word();
         match self {
@@ -250,7 +250,7 @@ impl Act {
         matches!(self, Self::Add | Self::TakeAway | Self::AddNew)
     }
 
-    /// Whether it changes what is painted onto strokes: then no direction matters.
+    /// Whether it paints or erases an amount. If so, no direction matters.
     fn is_for_amounts(self) -> bool {
         matches!(self, Self::Raise | Self::Lower | Self::EraseAmount)
     }
@@ -372,7 +372,8 @@ impl Stroke {
         guides
     }
 
-    /// The points at which the brush touches the surface along a path, this share of its radius apart, then their mirror images.
+    /// The points at which the brush touches the surface along a path, `share` of its radius apart, then their mirror
+    /// images.
     fn touched(&self, path: &SurfacePath, share: f64, around: &Surroundings) -> Vec<PathPoint> {
         let mut touched = path.stamps_apart(share);
         let own = touched.len();

@@ -6,7 +6,7 @@ use impasto_scene::document::{Guide, GuidePoint};
 use crate::path::PathPoint;
 
 /// What is left of a guide after an eraser of this radius (model units) touched these points: the whole guide, pieces
-/// of it, or nothing. Only parts that face the same way are erased.
+/// of it, or nothing. Only parts that face the same way as the touched points are erased.
 pub(super) fn cut(guide: &Guide, touched: &[PathPoint], radius: f64) -> Vec<Guide> {
     let mut pieces: Vec<Vec<GuidePoint>> = vec![Vec::new()];
     let mut was_cut = false;

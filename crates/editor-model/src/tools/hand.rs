@@ -16,7 +16,7 @@ use crate::session::{RegionBy, Tool, ToolOptions};
 /// The largest radius of a touch, points on the screen.
 const MOST_TOUCH_PX: f64 = 100.0;
 
-/// The active tool of Paint and its state. One lives as long as the window.
+/// The active tool of Paint and its state.
 #[derive(Clone, Debug, Default)]
 pub struct Hand {
     tool: Option<Tool>,

@@ -33,8 +33,8 @@ pub(super) fn take(event: &ToolEvent, around: &Surroundings) -> ToolOutput {
     }
 }
 
-/// What the click would take from other regions that were chosen face by face, in words; none if it takes nothing. A region
-/// of a whole object is there to be parted.
+/// What the click would take from other regions, in words; `None` if it takes nothing. Regions of whole objects do not
+/// count, because they are there to be divided.
 fn taken(hit: &Hit, around: &Surroundings) -> Result<Option<String>, Refusal> {
     let own = around.selected_region().filter(|_| around.options.region_does == RegionDoes::Add);
     let mut counts = vec![0_usize; around.scene().regions.len()];

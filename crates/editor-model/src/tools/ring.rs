@@ -17,7 +17,7 @@ pub struct Ring {
     pub half_px: Vec<DVec2>,
     /// Its centre.
     pub at_px: DVec2,
-    /// Whether it is drawn grey, since there is no surface under the pointer or at the mirrored place.
+    /// Whether it is drawn grey, because there is no surface under the pointer or at the mirrored place.
     pub hollow: bool,
     /// Whether it is a mirror image, drawn fainter.
     pub mirrored: bool,
@@ -30,7 +30,7 @@ pub struct Needle {
     pub at_px: DVec2,
     /// Unit, Y down.
     pub along: DVec2,
-    /// Whether it has an arrow head, since the pointer moves or strokes have a beginning.
+    /// Whether it has an arrow head, because the pointer moves or the needle shows which way strokes run.
     pub headed: bool,
 }
 

@@ -17,11 +17,12 @@ use crate::session::ToolOptions;
 /// A drag that stays this near its press places a single stroke, points on the screen.
 const CLICK_PX: f64 = 5.0;
 
-/// The line that is laid stays this near what was drawn, in widths, and is at least so smooth: points on the screen.
+/// The line of a touch may deviate from what was drawn by this share of the ring's radius, or by this many points on
+/// the screen, whichever is more.
 const TOLERANCE: f64 = 0.04;
 const LEAST_TOLERANCE_PX: f64 = 0.75;
 
-/// What a touch is called first.
+/// The name of a new touch, before it is made unique.
 const NAME: &str = "touch";
 
 /// The state of the tool.
@@ -135,7 +136,7 @@ pub(super) fn waiting_words(options: &ToolOptions) -> String {
     format!("{click}  [Shift] {shift}  [Ctrl] select  [F] width  [Middle] orbit")
 }
 
-/// What lies under a hit: touches belong to their object, whatever its regions are.
+/// What a press at a hit would paint on, or why nothing may be painted there.
 fn paintable(hit: &Hit, around: &Surroundings) -> Result<Paintable, Refusal> {
     let object = around.object(hit.object).ok_or_else(|| Refusal::new(NOTHING_HERE))?;
     if object.locked {
@@ -173,7 +174,7 @@ fn near(around: &Surroundings, object: &str, touched: &[PathPoint], radius: f64)
 }
 
 impl Drag {
-    /// The command that a release would give now.
+    /// The command that a release would give now; `None` if it would change nothing.
     fn command(&self, around: &Surroundings) -> Option<Command> {
         let object = self.on.object;
         let path = self.path.finished(&mut |at_px| around.hit(at_px).filter(|hit| hit.object == object));

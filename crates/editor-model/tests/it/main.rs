@@ -1,4 +1,5 @@
-//! Tests of documents under any commands, any files and any moment of death. One program, since each more is linked anew.
+//! Tests that documents survive any commands, any files, and being killed at any moment. They share one program,
+//! because linking several takes longer.
 
 mod any_command;
 mod history;

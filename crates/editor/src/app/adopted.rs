@@ -10,7 +10,7 @@ use crate::files::incoming::{adopt_picture, bring, name_of};
 use crate::panels::problems::TroubleOf;
 
 impl EditorApp {
-    /// Takes a picture for this; where it lies elsewhere, a copy of it beside the scene.
+    /// Uses the picture at `path` for `of`. A picture outside the scene's folder is copied there first.
     pub(super) fn picture(&mut self, of: &PictureFor, path: &Path) {
         self.forget_pictures(of);
         let name = match adopt_picture(path, self.editor.document().folder(), of.folder()) {
@@ -23,7 +23,7 @@ impl EditorApp {
         }
     }
 
-    /// Takes the picture of this name, a path from the scene's folder; without a name, none.
+    /// Uses the picture `name`, a path relative to the scene's folder, for `of`. Without a name, removes the picture.
     pub(super) fn name_picture(&mut self, of: &PictureFor, name: Option<String>) {
         self.forget_pictures(of);
         let path = self.editor.document().folder().join(name.as_deref().unwrap_or_default());
@@ -33,7 +33,8 @@ impl EditorApp {
         self.use_picture(of, &path, name);
     }
 
-    /// Names a picture in the document. A scene that would be refused stays as it is, and the list of problems says why.
+    /// Names a picture in the document. If the document refuses it, the scene stays as it is and the list of problems
+    /// says why. Returns whether it was done.
     fn use_picture(&mut self, of: &PictureFor, path: &Path, name: Option<String>) -> bool {
         let document = self.editor.document();
         let Some(command) = of.command(document.scene(), name) else {
@@ -41,7 +42,7 @@ impl EditorApp {
             return false;
         };
         if let Some(refusal) = document.would_refuse(&command) {
-            // The list is read by people who chose a picture: where the scene names it is no news to them.
+            // The user has just chosen this picture, so the path of its field in the scene is left out.
             let words = refusal.to_string();
             let words = words.split_once(".texture: ").map_or(words.as_str(), |(_, words)| words).to_owned();
             self.picture_trouble(of, path, words);
@@ -54,12 +55,12 @@ impl EditorApp {
         self.trouble(TroubleOf::Picture(of.clone(), path.to_owned()), words);
     }
 
-    /// Takes off the list what went wrong with earlier pictures for the same.
+    /// Removes the troubles with earlier pictures for `of` from the list.
     fn forget_pictures(&mut self, of: &PictureFor) {
         self.troubles.retain(|trouble| !matches!(&trouble.of, TroubleOf::Picture(other, _) if other == of));
     }
 
-    /// Copies a file that was missing to where it is looked for, and reads it.
+    /// Copies the chosen file to where the scene looks for a missing one, and reads it.
     pub(super) fn bring_file(&mut self, path: &Path) {
         let Some(to) = self.files.bring_to.take() else { return };
         match bring(path, &to) {

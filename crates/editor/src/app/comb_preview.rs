@@ -65,7 +65,8 @@ impl CombPreviewStrokes {
     }
 }
 
-/// The strokes in the ring that belong to the region under the pointer: a comb turns no others.
+/// The strokes in the ring that belong to the region under the pointer: a comb turns no others. `None` if the object is
+/// not prepared.
 fn strokes(
     comb_preview: &CombPreview,
     editor: &Editor,

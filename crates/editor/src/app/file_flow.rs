@@ -42,7 +42,7 @@ pub(super) struct FileFlow {
     pub(super) mesh_of: Option<String>,
     /// What a picture is being chosen for.
     pub(super) picture_for: Option<PictureFor>,
-    /// Where the missing file that is being located is looked for.
+    /// Where the scene looks for the missing file that the user is locating.
     pub(super) bring_to: Option<PathBuf>,
     /// When the first unsaved edit was noticed.
     edited_since: Option<Instant>,
@@ -331,7 +331,7 @@ impl EditorApp {
         }
     }
 
-    /// Asks for a file to save to, after a question about text that was edited and not read.
+    /// Asks for a file to save to. If the scene's text was edited and not read, asks about that first.
     pub(super) fn save_asking(&mut self, ask: FileAsk) {
         match self.unsaved() {
             Some(Unsaved::Text) => self.wait_for(Next::Save(ask), Unsaved::Text),

@@ -1,5 +1,6 @@
-//! Following another program (`impasto edit --follow`): lines of JSON on standard input say which frame it shows, and through what it
-//! looks. `{"frame": 12}` goes to a frame, `"view": {"eye": …, "target": …}` to a free view, `"view": null` to the shot camera.
+//! Follows another program (`impasto edit --follow`), which writes its frame and view to standard input as lines of
+//! JSON: `{"frame": 12}` goes to a frame, `"view": {"eye": …, "target": …}` to a free view, `"view": null` to the shot
+//! camera.
 
 use std::io::{BufRead as _, Read as _};
 use std::sync::mpsc::{Receiver, channel};
@@ -16,7 +17,7 @@ use crate::window::Waker;
 /// The longest line that is read, in bytes.
 const LONGEST_LINE: u64 = 1 << 16;
 
-/// What a line says; what it leaves out stays as it is.
+/// What a line says. A field that the line leaves out is `None`, and changes nothing.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 pub(super) struct Told {
     #[serde(default)]
@@ -26,7 +27,7 @@ pub(super) struct Told {
     view: Option<Option<LastView>>,
 }
 
-/// A value that is there, be it null.
+/// Reads the value of a field that is present, as `Some`: `null` gives `Some(None)`.
 fn stated<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Option<LastView>>, D::Error> {
     Option::deserialize(deserializer).map(Some)
 }
@@ -39,7 +40,7 @@ impl Told {
     }
 }
 
-/// What the other program says; nobody, where none is followed.
+/// The lines of the program that is followed; `told` is `None` if none is.
 #[derive(Default)]
 pub(super) struct Following {
     told: Option<Receiver<Told>>,
@@ -57,7 +58,7 @@ impl Following {
                 if !matches!(read, Ok(count) if count > 0) {
                     return;
                 }
-                // A line that is not understood is from a later version: the next one may be.
+                // A later version of the program may write lines that are unknown here: skip them.
                 let Ok(told) = serde_json::from_slice(&line) else { continue };
                 if send.send(told).is_err() {
                     return;
@@ -70,7 +71,8 @@ impl Following {
 }
 
 impl EditorApp {
-    /// Goes where the other program is. What a person does here goes on: while keys play or a tool is in use, nothing is followed.
+    /// Goes to the frame and the view that the other program shows. Lines that come during playback, or while the user
+    /// moves the view, are dropped, so that the user is not disturbed.
     pub(super) fn follow(&mut self) {
         let Some(told) = &self.following.told else { return };
         let Some(mut last) = told.try_recv().ok() else { return };

@@ -18,7 +18,8 @@ const LEAST_WHITE: f32 = 0.25;
 /// Opacity of the ring at the distance where a lamp is as bright as a sun of intensity 1.
 const RANGE_ALPHA: f32 = 0.8;
 
-/// An icon in its colour for each light, and for a selected lamp the ring that shows how far it reaches.
+/// The icons of all lights, each in its light's colour. The icon of a selected light has a ring around it. A selected
+/// lamp also has a ring in the world, whose radius is its `range`.
 pub(super) fn billboards(editor: &Editor, framing: &Framing) -> Vec<LightBillboard> {
     let px_per_point = framing.size_px()[1] as f32 / framing.viewport().height();
     let mut all = Vec::new();
@@ -55,7 +56,8 @@ fn ink(Color(color): Color) -> [f32; 4] {
     [r, g, b, 1.0]
 }
 
-/// The distance at which a lamp lights a surface that faces it as brightly as a sun of intensity 1, world units.
+/// The distance at which a lamp lights a surface that faces it as brightly as a sun of intensity 1, world units. `None`
+/// for other kinds of light, and without intensity.
 fn range(light: &Light) -> Option<f32> {
     (light.kind == LightKind::Point && light.intensity > 0.0).then(|| light.intensity.sqrt() as f32)
 }

@@ -38,7 +38,7 @@ enum Outcome {
     Opened(PathBuf, Result<Box<Document>, Report>),
     /// A mesh that was read from this path.
     Mesh(PathBuf, MeshFor, Result<(Adopted, Arc<MeshFile>), String>),
-    /// The document's own files, read again; with what another program changed, if that was the reason.
+    /// The document's own files, read again, and what another program changed, if that was why they were read.
     Mended(Option<News>, Box<Mended>),
 }
 
@@ -268,7 +268,7 @@ impl EditorApp {
                 };
             }
             Outcome::Mesh(path, _, Err(words)) => {
-                // What came with the mesh was meant for it.
+                // Pictures that were dropped together with the mesh were meant for it.
                 self.long.drop_brushes();
                 self.trouble(TroubleOf::Import(path), words);
             }

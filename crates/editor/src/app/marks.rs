@@ -261,7 +261,7 @@ fn region_of(painting: &Painting, face: Face) -> Option<usize> {
     (region < painting.scene().regions.len()).then_some(region)
 }
 
-/// What is painted onto an amount at a place that is seen.
+/// The factor that is painted onto an amount at a visible place.
 fn factor_at(painting: &Painting, face: Face, seen: FacePlace, of: Amount) -> f32 {
     let mesh = &painting.surface(face.object as usize).mesh;
     let place = Particle {
@@ -274,7 +274,7 @@ fn factor_at(painting: &Painting, face: Face, seen: FacePlace, of: Amount) -> f3
     painting.painted_at(face.object as usize, &place.on(mesh, &mesh.positions, &mesh.normals), of)
 }
 
-/// The colours of a scene's regions: their own, or the next of the default ones.
+/// The colours of a scene's regions: a region without its own has a default one, by its index.
 fn region_colours(scene: &Scene) -> Vec<Color32> {
     let colour = |index: usize, own: Option<impasto_scene::document::Color>| {
         let [r, g, b] =
@@ -348,7 +348,7 @@ fn singular(editor: &Editor, poses: &[DAffine3], view: &View) -> Vec<SingularPoi
         .map(|(object, point)| {
             let now = poses[object] * editor.picker().now_from_rest(object, point.position);
             let position_in_world = now.transform_point3(point.position);
-            // Its normal points to the eye, so that only surfaces in front of it can hide it.
+            // The normal points to the eye, so that only a surface in front of the point can hide the mark.
             let normal_in_world = (view.camera.eye - position_in_world).normalize_or(DVec3::Z);
             SingularPoint { position_in_world, normal_in_world, index: point.index as f32 }
         })

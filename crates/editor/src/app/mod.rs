@@ -57,8 +57,9 @@ use safe_keeping::SafeKeeping;
 use shader_flow::ShaderFlow;
 use telling::Telling;
 
-/// How long a message at the bottom stays, and one that reports an error.
+/// How long a message at the bottom stays.
 const TOAST: Duration = Duration::from_secs(4);
+/// How long a message that reports an error stays.
 const ERROR_TOAST: Duration = Duration::from_secs(10);
 
 /// The application in its window.
@@ -97,7 +98,7 @@ struct Sheets {
     palette: bool,
     shortcuts: bool,
     recapture: Option<i64>,
-    /// A command that takes triangles from other regions, and which.
+    /// A command that takes triangles from other regions, and these triangles in words: *340 triangles of skin*.
     take_faces: Option<(Command, String)>,
     problems: bool,
 }

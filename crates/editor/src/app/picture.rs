@@ -19,7 +19,7 @@ use crate::worker::{Job, Later, Report, ViewJob, Worker};
 /// Pictures per second are counted over this time, seconds.
 const SPAN_S: f64 = 1.0;
 
-/// So many frames of the film are asked for at a time; the thread keeps as many as there is room for.
+/// At most this many frames of the film are asked for at a time. The thread keeps those that it has memory for.
 const MOST_FRAMES: i64 = 1000;
 
 /// What came from the thread in this pass.
@@ -37,7 +37,7 @@ struct Asked {
     /// The version of the scene.
     version: u64,
     views: Vec<ViewJob>,
-    /// Whether the film is to be finished.
+    /// Whether the film is to be finished: its frames drawn exactly and kept.
     finishes: bool,
 }
 
@@ -117,7 +117,7 @@ impl PictureFlow {
         self.prepared
     }
 
-    /// The frames that play exactly, in order: their pictures are kept.
+    /// The frames whose exact pictures are kept, in order; none if these are of another version of the scene.
     pub(super) fn finished(&self) -> &[i64] {
         let (frames, version) = &self.finished;
         let is_shown = self.asked.as_ref().is_some_and(|asked| asked.version == *version);
@@ -289,7 +289,7 @@ impl PictureFlow {
             size_px: framing.size_px(),
             shot_height_px: framing.shot_height_px(),
             shading,
-            // What plays is the film, without icons.
+            // Playback shows the film, which has no icons of lights.
             lights: if plays { Vec::new() } else { lights::billboards(editor, framing) },
             moving,
         };
@@ -297,7 +297,8 @@ impl PictureFlow {
     }
 }
 
-/// Whether to finish the film while nothing else is drawn: it was played before.
+/// Whether to finish the film while nothing else is drawn: the session says so, the film was played before, and one
+/// picture is shown at rest.
 fn finishes(editor: &Editor, views: &[ViewJob]) -> bool {
     let [view] = views else { return false };
     !view.moving && editor.session.finishes && editor.time().has_played()

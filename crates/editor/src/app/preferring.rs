@@ -1,4 +1,4 @@
-//! Carries out what the command search sets of the preferences.
+//! Applies and saves the preferences that are set in the command search.
 
 use egui::Context;
 use impasto_editor_model::keymap::{Digits, Preset};
@@ -9,7 +9,7 @@ use crate::panels::Preference;
 use crate::theme;
 
 impl EditorApp {
-    /// Takes a preference over, and keeps it.
+    /// Applies a preference, and saves it.
     pub(super) fn prefer(&mut self, preference: Preference, ctx: &Context) {
         let preferences = &mut self.preferences;
         match preference {

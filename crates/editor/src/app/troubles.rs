@@ -1,4 +1,4 @@
-//! Lists what failed in the window until it is settled, and settles it.
+//! Lists failures in the window until they are settled, and does what settles them.
 
 use egui::Context;
 

@@ -20,10 +20,10 @@ pub struct Copies {
 /// Why files were not copied. Existing files are untouched, and copies that were made are removed again.
 #[derive(Debug, thiserror::Error)]
 pub enum CopyError {
-    /// A different file has the name of one of them.
+    /// The target folder has a different file of the same name.
     #[error("{} has another {}: choose another folder", folder.display(), name.display())]
     InTheWay {
-        /// Its path relative to the scene's folder.
+        /// The file's path relative to either folder.
         name: PathBuf,
         /// The folder that was chosen.
         folder: PathBuf,
@@ -39,8 +39,8 @@ pub enum CopyError {
 }
 
 impl Copies {
-    /// The files to copy from `from` to `to`: those that the scene names and that its meshes name in turn, if they
-    /// are inside `from` and the same files are not in `to` already.
+    /// The files to copy from `from` to `to`: the files `names` of a scene, and the files that its meshes name in turn.
+    /// Files outside `from`, missing files, and files that `to` has already are left out.
     ///
     /// # Errors
     /// If `to` has a different file of the same name.
@@ -82,7 +82,7 @@ impl Copies {
         self.files.len()
     }
 
-    /// Copies them into the folder. No file is overwritten.
+    /// Copies the files into the folder `to`. No file is overwritten.
     ///
     /// # Errors
     /// The first file that could not be copied; the copies before it are removed again.
@@ -103,7 +103,7 @@ impl Copies {
     }
 }
 
-/// A regular file, to be read piece by piece: a point cache may be larger than the memory.
+/// Opens a regular file, to be read piece by piece: a point cache may be larger than the memory.
 fn opened(file: &Path) -> io::Result<BufReader<File>> {
     let metadata = std::fs::metadata(file)?;
     if !metadata.is_file() || metadata.len() > mesh_format::max_bytes(file) {

@@ -43,7 +43,7 @@ impl FileAsk {
         }
     }
 
-    /// The kinds of files that fit; empty where any file does.
+    /// The kinds of files that fit; empty if any file does.
     pub fn kinds(self) -> &'static [Kind] {
         match self {
             Self::Open => &[Kind::Scene, Kind::Mesh],

@@ -135,7 +135,7 @@ pub struct LastView {
 }
 
 impl LastView {
-    /// Whether one can look through it.
+    /// Whether the view can be used: its numbers are finite and below 1e9, and the eye is not at the target.
     pub fn is_sound(&self) -> bool {
         let numbers = self.eye.iter().chain(&self.target).chain([&self.roll_deg]);
         self.eye != self.target && numbers.into_iter().all(|number| number.is_finite() && number.abs() < 1e9)

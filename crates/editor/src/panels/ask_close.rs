@@ -20,7 +20,7 @@ pub enum Question {
     },
     /// A click with the region tool would take triangles from other regions.
     TakeFaces {
-        /// Which: *340 triangles of skin*.
+        /// Which triangles: *340 triangles of skin*.
         taken: String,
     },
     /// Another frame is to become the reference.

@@ -39,7 +39,7 @@ pub fn thumbnail(ctx: &Context, name: &str, loaded: &LoadedScene) -> Option<Text
     Some(handle)
 }
 
-/// Lets another context, in which nothing is painted, know the thumbnails of this one.
+/// Gives the thumbnails of one context to another that only lays controls out, and draws nothing itself.
 pub(super) fn share(from: &Context, with: &Context) {
     if let Some(known) = from.data(|data| data.get_temp::<Arc<Known>>(key())) {
         with.data_mut(|data| data.insert_temp(key(), known));

@@ -36,8 +36,8 @@ impl ColumnState {
         ctx.data_mut(|data| act(data.get_temp_mut_or_default(Id::unique("right column"))))
     }
 
-    /// The key of a section in `sections`, by its name: *Pose at frame 37* is one section for all frames, so that it stays open or
-    /// folded when the frame changes.
+    /// The key of a section in `sections`, by its name: *Pose at frame 37* is one section for all frames, so that it
+    /// stays open or folded when the frame changes.
     pub(super) fn key_of(section: &str) -> &str {
         section.split(" at ").next().unwrap_or(section)
     }

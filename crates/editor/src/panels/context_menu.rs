@@ -1,5 +1,5 @@
-//! The menu that a right click opens at the pointer: on rows of the tree, lanes, guides and in the picture. Its commands
-//! act on what is selected; their words and keys are those of the menus at the top.
+//! The menu that a right click opens at the pointer: on rows of the tree, lanes and guides, and in the picture. Its
+//! commands act on what is selected; their words and keys are those of the menus at the top.
 
 use egui::containers::menu::menu_style;
 use egui::text::{LayoutJob, TextWrapping};
@@ -101,7 +101,7 @@ const OF_VIEW: &[Line] = &[
     Do(Action::Compare),
 ];
 
-/// What the menu is about, and where it opened.
+/// The item that the menu is about (`None` for the view), and where the menu opened.
 #[derive(Clone)]
 struct Opened {
     about: Option<Item>,
@@ -112,7 +112,7 @@ fn id() -> Id {
     Id::unique("menu at the pointer")
 }
 
-/// Opens the menu of a thing, or of the view, at the pointer.
+/// Opens the menu of an item, or with `None` that of the view, at the pointer.
 pub fn open_context_menu(ctx: &Context, about: Option<Item>) {
     let Some(at) = ctx.input(|input| input.pointer.latest_pos()) else { return };
     ctx.data_mut(|data| data.insert_temp(id(), Opened { about, at }));

@@ -8,7 +8,7 @@ use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::Button;
 
-/// Shows a hint in the middle of `ui` where the scene has no objects; otherwise nothing.
+/// Shows a hint in the middle of `ui` if the scene has no objects, otherwise nothing.
 pub fn empty(ui: &mut egui::Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     if !shown.document.scene().objects.is_empty() {
         return;

@@ -1,8 +1,8 @@
 //! The panels round the viewport. Each is a function that shows a [`PanelInput`] and gives what the user asks for as a
 //! list of [`Ask`]; no panel changes the document or the session itself.
 //!
-//! Each bar cuts its own space off the `Ui` that it is given, so the order of the calls decides the layout: top bar, status
-//! line, `strip`, right column, options bar, rail. What is left is the viewport.
+//! Each bar cuts its own space off the `Ui` that it is given, so the order of the calls decides the layout: top bar,
+//! status line, `strip`, right column, options bar, rail. What is left is the viewport.
 
 mod areas;
 pub mod ask_close;
@@ -75,7 +75,7 @@ pub struct PanelInput<'a> {
 }
 
 impl PanelInput<'_> {
-    /// The keys of an action, empty where it has none.
+    /// The keys of an action, empty if it has none.
     pub fn keys_of(&self, action: Action) -> String {
         self.keymap.shortcut_text(action).unwrap_or_default()
     }
@@ -137,8 +137,8 @@ pub struct Numbers<'a> {
 pub enum Ask {
     /// Carry out this command, as one entry of the history.
     Do(Command),
-    /// As `Do`, but commands that follow each other within a second and have the same text (the second value) become one
-    /// entry of the history, as while the wheel turns over a number.
+    /// As `Do`, but commands that follow each other within a second and have the same text (the second value) become
+    /// one entry of the history, as while the wheel turns over a number.
     DoMerged(Command, String),
     /// Show the document as this command would leave it (while a slider is dragged). `Do` or `EndPreview` follows.
     Preview(Command),
@@ -150,7 +150,7 @@ pub enum Ask {
     ChooseMesh(String),
     /// Repair a problem of the document, or read the document again.
     Mend(Mend),
-    /// Let the user choose a file that is missing, and copy it to this place, where it is looked for.
+    /// Let the user locate a missing file, and copy it to this path, where the scene looks for it.
     BringFile(PathBuf),
     /// Show the list of problems.
     ShowProblems,
@@ -158,9 +158,9 @@ pub enum Ask {
     Settle(usize, Settle),
     /// Let the user choose a picture for this.
     ChoosePicture(PictureFor),
-    /// Use the picture of this name, a path from the scene's folder, for this; without a name, none.
+    /// Use the picture of this name, a path relative to the scene's folder, for this; `None` for no picture.
     NamePicture(PictureFor, Option<String>),
-    /// Show the menu of this thing, or of the view, at the pointer.
+    /// Show the menu of this item, or with `None` that of the view, at the pointer.
     Menu(Option<Item>),
     /// Give this control of the inspector the focus.
     Reach(Control),

@@ -23,7 +23,7 @@ struct Memory {
     controls: Option<Arc<Vec<Control>>>,
 }
 
-/// Shows the search over everything. True once it closes: a command was run, or `Esc` was pressed.
+/// Shows the search over everything. Returns true once it closes: a command was run, or `Esc` was pressed.
 pub fn palette(ctx: &egui::Context, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) -> bool {
     let id = Id::unique("command search");
     let mut memory = ctx.data(|data| data.get_temp::<Memory>(id)).unwrap_or_default();

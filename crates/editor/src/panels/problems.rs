@@ -1,5 +1,6 @@
-//! The panel of problems, at the bottom of the window: whatever is wrong with the scene, its meshes and its textures, and
-//! what failed in the window, with what mends each. While parts of a scene could not be read, its text is beside the list.
+//! The panel of problems, at the bottom of the window. It lists what is wrong with the scene, its meshes and its
+//! textures, and what failed in the window, each with what mends it. While parts of a scene could not be read, its text
+//! is beside the list.
 
 mod list;
 mod source;
@@ -18,11 +19,11 @@ pub use trouble::{Settle, Trouble, TroubleOf};
 
 const HEIGHT: f32 = 232.0;
 const LEAST_HEIGHT: f32 = 200.0;
-/// The most of the window's height that the panel takes.
+/// The largest share of the window's height that the panel takes.
 const MOST_OF_WINDOW: f32 = 0.45;
 const HEAD: f32 = 41.0;
 const FOOT: f32 = 44.0;
-/// The list's share of the width, where the text is beside it.
+/// The list's share of the width, if the text is beside it.
 const LIST: f32 = 0.6;
 
 /// How many problems there are: those of the document and those of the window.

@@ -17,7 +17,7 @@ struct Group {
     rows: Vec<(&'static str, String)>,
 }
 
-/// Shows the sheet over everything. True once it closes.
+/// Shows the sheet over everything. Returns true once it closes.
 pub fn shortcuts(ctx: &egui::Context, shown: &PanelInput<'_>) -> bool {
     let room = ctx.content_rect().size() - vec2(48.0, 48.0);
     let inner = room.x.min(1136.0) - 2.0 * measure::SHEET_PADDING;

@@ -11,7 +11,7 @@ use crate::theme::{Tokens, measure, type_face};
 pub struct Work {
     /// What it is: *Preparing bunny…*, *Rendering 47 of 120*.
     pub words: String,
-    /// How much of it is done, 0 to 1; none where that is unknown.
+    /// How much of it is done, 0 to 1; none if that is unknown.
     pub share: Option<f32>,
     /// The kind of work.
     pub kind: WorkKind,

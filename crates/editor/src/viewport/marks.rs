@@ -16,7 +16,7 @@ pub struct Marks<'a> {
     pub grid: bool,
     /// Regions in their colours.
     pub regions: &'a [RegionTint],
-    /// What is painted of the amount that the tool paints.
+    /// A tint that shows where the tool's amount is painted.
     pub amounts: Option<&'a AmountTint>,
     /// The outline of the selected object.
     pub selected: Option<&'a Outline>,

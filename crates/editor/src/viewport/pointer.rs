@@ -63,7 +63,7 @@ impl Pointer {
                     } else if !pressed && self.buttons.contains(&button) {
                         self.buttons.retain(|other| *other != button);
                         push(PointerKind::Release(button), self.last_px, held);
-                        // The drag ended elsewhere: without it the pointer would still count as over the picture.
+                        // During a drag the pointer counts as inside wherever it is. Now it may be outside.
                         self.inside = over(pos);
                         if !self.inside && self.buttons.is_empty() {
                             push(PointerKind::Leave, self.last_px, held);

@@ -84,7 +84,7 @@ impl PartialEq for StandingBody {
     }
 }
 
-/// A corner of a triangle before the perspective division: all four numbers are linear in its position.
+/// A corner of a triangle before the perspective division: `place` and `depth` are linear in its position.
 #[derive(Clone, Copy)]
 struct Corner {
     /// Numerators x and y of the place in pixels from the picture's centre, Y up, and their denominator w.
@@ -200,13 +200,13 @@ impl SurfaceMap {
                 if depth < self.depth[index] {
                     self.depth[index] = depth;
                     self.faces[index] = face;
-                    // Linear on the surface, and so over w on the screen.
+                    // The share is linear on the surface, so share / w is linear on the screen.
                     let share = |of: usize| {
                         let over_w = |corner: usize| corners[corner].share[of] / corners[corner].place[2];
                         (0..3).map(|corner| weights[corner] * over_w(corner)).sum::<f64>() / mixed.y
                     };
                     let barycentric = [share(0) as f32, share(1) as f32];
-                    // Rows run downwards, so what runs round counter-clockwise has a negative area.
+                    // Rows run downwards, so a triangle that is counter-clockwise on the screen has a negative area.
                     self.places[index] = FacePlace { barycentric, flipped: area > 0.0 };
                 }
             }

@@ -34,7 +34,7 @@ impl<'a> Button<'a> {
         Self { words, name: words, icon: None, weight: Weight::Usual, on: None, height: measure::BUTTON }
     }
 
-    /// The name, where it differs from the words.
+    /// The name, if it differs from the words.
     pub fn name(self, name: &'a str) -> Self {
         Self { name, ..self }
     }

@@ -6,7 +6,7 @@ use egui::{Color32, Popup, PopupCloseBehavior, Response, Role, Sense, StrokeKind
 use super::draw;
 use crate::theme::{Tokens, measure};
 
-/// A square of a region's colour; a click opens egui's colour picker. The response counts as changed while the user
+/// A square that shows a colour; a click opens egui's colour picker. The response counts as changed while the user
 /// picks.
 pub fn color_square(ui: &mut Ui, name: &str, colour: &mut Color32) -> Response {
     let (rect, mut response) = ui.allocate_exact_size(vec2(measure::HIT, measure::HIT), Sense::click());

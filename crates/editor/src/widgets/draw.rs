@@ -47,7 +47,7 @@ pub(super) fn words(
     rect
 }
 
-/// Draws text in one line that ends with an ellipsis where it would pass `width`. Returns its box.
+/// Draws text in one line, which ends with an ellipsis if it would pass `width`. Returns its box.
 pub(super) fn words_within(ui: &Ui, at: Pos2, text: &str, font: FontId, colour: Color32, width: f32) -> Rect {
     let mut job = egui::text::LayoutJob::simple_singleline(text.to_owned(), font, colour);
     job.wrap = egui::text::TextWrapping::truncate_at_width(width.max(0.0));
@@ -57,8 +57,8 @@ pub(super) fn words_within(ui: &Ui, at: Pos2, text: &str, font: FontId, colour: 
     rect
 }
 
-/// A text that fits into `room` points: where it is too long, its middle is left out, since names that begin alike end
-/// differently.
+/// The text, shortened to fit into `room` points: an ellipsis replaces its middle, since names that begin alike often
+/// differ at their ends.
 pub(super) fn without_middle(ui: &Ui, text: &str, font: FontId, room: f32) -> String {
     let characters: Vec<char> = text.chars().collect();
     let shortened = |kept: usize| -> String {
@@ -69,7 +69,7 @@ pub(super) fn without_middle(ui: &Ui, text: &str, font: FontId, room: f32) -> St
     if width(ui, text, font.clone()) <= room {
         return text.to_owned();
     }
-    // The most that fits, by halving.
+    // Bisection finds the most characters that fit.
     let (mut fits, mut too_long) = (1, characters.len());
     while too_long - fits > 1 {
         let kept = (fits + too_long) / 2;
@@ -86,7 +86,7 @@ pub(super) fn width(ui: &Ui, text: &str, font: FontId) -> f32 {
     ui.painter().layout_no_wrap(text.to_owned(), font, Color32::WHITE).size().x
 }
 
-/// Tells screen readers the role and the name of a control, by which it can be reached.
+/// Tells screen readers the role and the name of a control. The control can be reached by that name.
 pub(super) fn named(response: &Response, role: Role, name: &str) {
     reached(response, name);
     response.widget_info(|| WidgetInfo::labeled(role, response.enabled(), name));

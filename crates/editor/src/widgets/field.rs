@@ -103,7 +103,7 @@ impl<'a> NumberField<'a> {
         Self { label: false, width: Some(width), ..self }
     }
 
-    /// How far typing, the wheel and the arrows may go, where that is further than a drag.
+    /// The numbers that typing, the wheel and the arrows can reach, if these are more than a drag can reach.
     pub fn limits(self, limits: RangeInclusive<f64>) -> Self {
         Self { limits, ..self }
     }
@@ -138,7 +138,7 @@ impl<'a> NumberField<'a> {
         Self { refused: Some(why), ..self }
     }
 
-    /// Reads what is typed with `reads`, where a field accepts more than one unit.
+    /// Reads what is typed with `reads`, if a field accepts more than one unit.
     pub fn reading(self, reads: &'a dyn Fn(&str) -> Option<f64>) -> Self {
         Self { reads: Some(reads), ..self }
     }
@@ -148,7 +148,7 @@ impl<'a> NumberField<'a> {
         Self { centred: true, ..self }
     }
 
-    /// Shows the number in ochre where it will be lost, as in a pose that is not keyed.
+    /// If `warns`, shows the number in ochre, because it will be lost: it belongs to a pose that is not keyed.
     pub fn warn(self, warns: bool) -> Self {
         Self { warns, ..self }
     }
@@ -438,7 +438,7 @@ impl<'a> NumberField<'a> {
     }
 }
 
-/// How far the wheel turned for the field, in points; none where the turn scrolls what the field stands in.
+/// How far the wheel turned for the field, in points; `None` if the turn scrolls what the field stands in.
 fn scrolled(input: &mut InputState, has_focus: bool) -> Option<f32> {
     if input.modifiers.command {
         // With Ctrl, egui reads the wheel as a zoom by this much for each point.

@@ -11,7 +11,7 @@ use crate::theme::{Tokens, measure, type_face};
 pub struct MenuRow<'a> {
     /// What it says, which is also its name.
     pub words: &'a str,
-    /// Its keys, empty where it has none.
+    /// Its keys, empty if it has none.
     pub keys: &'a str,
     /// Whether a tick stands before it.
     pub on: bool,

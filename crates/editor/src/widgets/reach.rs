@@ -1,4 +1,4 @@
-//! Brings the keyboard's focus to a control that is known by its name: the command search does so.
+//! Gives the keyboard focus to a control that is known by its name, for the command search.
 
 use std::sync::Arc;
 
@@ -11,10 +11,11 @@ const PATIENCE: u8 = 4;
 #[derive(Clone)]
 struct Wanted {
     name: Arc<str>,
-    /// The part that it is in, by its name; empty above all parts.
+    /// The name of the part that it is in; empty above all parts.
     part: Arc<str>,
+    /// How many passes are left to find it in.
     passes: u8,
-    /// Whether that part is being drawn.
+    /// Whether its part is being drawn.
     is_here: bool,
 }
 
@@ -22,8 +23,8 @@ fn id() -> Id {
     Id::unique("control that is to have the focus")
 }
 
-/// Lets a control have the focus, and scrolls to it, the next time it is drawn within [`reachable`]. It is known by its name
-/// and that of the part that it is in.
+/// Gives the focus to the control `name` in the part `part`, and scrolls to it, the next time it is drawn within
+/// [`reachable`].
 pub(crate) fn reach(ctx: &Context, part: &str, name: &str) {
     let wanted = Wanted { name: name.into(), part: part.into(), passes: PATIENCE, is_here: false };
     ctx.data_mut(|data| data.insert_temp(id(), wanted));
@@ -46,7 +47,7 @@ pub(crate) fn reachable<R>(ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) -> 
     shown
 }
 
-/// To be called within [`reachable`] where a part begins that has a name; it ends where the next one begins.
+/// Begins a part with a name; the part ends where the next one begins. To be called within [`reachable`].
 pub(crate) fn enter_part(ctx: &Context, part: &str) {
     ctx.data_mut(|data| {
         if let Some(wanted) = data.get_temp::<Wanted>(id()) {

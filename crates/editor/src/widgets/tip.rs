@@ -9,11 +9,11 @@ use crate::theme::{Tokens, type_face};
 pub struct Tip<'a> {
     /// The control's name.
     pub name: &'a str,
-    /// Its key, empty where it has none.
+    /// Its key, empty if it has none.
     pub key: &'a str,
     /// One sentence on what it does.
     pub effect: &'a str,
-    /// Range and default, such as *0 to 1, default 1.* Empty where there is no range.
+    /// Range and default, such as *0 to 1, default 1.* Empty if there is no range.
     pub range: &'a str,
 }
 

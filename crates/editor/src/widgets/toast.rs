@@ -5,7 +5,7 @@ use egui::{Align2, Area, Context, Frame, Id, Margin, Order, RichText, vec2};
 use super::{Button, draw};
 use crate::theme::{Tokens, measure, type_face};
 
-/// The most that a message is wide; longer ones take more lines. Points.
+/// The greatest width of a message, points; a longer one takes several lines.
 const MOST_WIDE: f32 = 720.0;
 
 /// A short message that comes up at the bottom of the window and vanishes by itself.

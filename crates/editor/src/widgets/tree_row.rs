@@ -55,8 +55,8 @@ pub struct RowResponse {
 }
 
 impl TreeRow<'_> {
-    /// Draws it. The eye and the lock both show if the pointer is on the row or the row is selected. Otherwise each shows only
-    /// while it is shut.
+    /// Draws it. The eye and the lock both show if the pointer is on the row or the row is selected. Otherwise each
+    /// shows only while it is shut.
     pub fn show(&self, ui: &mut Ui) -> RowResponse {
         self.draw(ui, true)
     }

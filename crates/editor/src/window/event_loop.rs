@@ -50,7 +50,7 @@ struct Page {
 pub(super) enum Happening {
     /// A [`Waker`] asks for a pass.
     Wake,
-    /// egui wants a pass at `at`; `pass` is the one in which it was asked for.
+    /// egui wants a pass at `at`. It asked for that in the pass with the number `pass`.
     Repaint { at: Instant, pass: u64 },
     /// A screen reader asks for something.
     Access(accesskit_winit::Event),
@@ -207,7 +207,7 @@ impl<A: App, M: FnOnce(&Opened) -> A> Shell<A, M> {
     }
 }
 
-/// Width and height of the screen that the window opens on, points; none where the system does not say.
+/// Width and height of the screen that the window opens on, points; `None` if the system does not say.
 fn screen_points(event_loop: &ActiveEventLoop) -> Option<egui::Vec2> {
     let screen = event_loop.primary_monitor().or_else(|| event_loop.available_monitors().next())?;
     let size = screen.size().to_logical::<f32>(screen.scale_factor());
@@ -226,7 +226,8 @@ fn attributes(options: &Options, screen: Option<egui::Vec2>) -> winit::window::W
     named(attributes, &options.app_id)
 }
 
-/// A size of a window that fits on the screen. One that does not fit leaves room for the system's title bar and panels.
+/// Reduces the size of a window to fit on the screen. A size that does not fit is reduced a little further, to leave
+/// room for the system's title bar and panels.
 fn on_screen(size: egui::Vec2, screen: Option<egui::Vec2>) -> egui::Vec2 {
     const FRAME: egui::Vec2 = egui::vec2(0.0, 40.0);
     match screen {

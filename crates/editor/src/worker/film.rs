@@ -9,7 +9,7 @@ use super::ViewJob;
 /// Kept pictures take no more than this, bytes: 260 frames of a window of 1280x800.
 const MOST_BYTES: usize = 1 << 30;
 
-/// Nor more than this share of the memory that the system has to give.
+/// Kept pictures also take no more than the available memory divided by this.
 const SHARE: u64 = 4;
 
 /// The exact picture of one frame.
@@ -56,8 +56,8 @@ impl Film {
         frames
     }
 
-    /// Keeps a picture. Where there is no room, pictures make way that are not `wanted`; returns false, and keeps nothing
-    /// more, where none is left.
+    /// Keeps a picture. If there is no room, pictures that are not `wanted` make way. If there is still no room, it
+    /// is not kept, and false is returned.
     pub(super) fn keep(&mut self, finished: Finished, wanted: &[ViewJob]) -> bool {
         self.keep_within(finished, wanted, most_bytes())
     }
@@ -81,7 +81,7 @@ impl Film {
         fits
     }
 
-    /// Drops all: they look otherwise now.
+    /// Drops all pictures, because the renderer would draw them differently now.
     pub(super) fn clear(&mut self) {
         self.kept.clear();
     }

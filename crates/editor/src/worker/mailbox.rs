@@ -71,7 +71,7 @@ impl Mailbox {
         orders.shaders = (Arc::new(texts), orders.shaders.1 + 1);
     }
 
-    /// The shaders to draw with, and their number; `None` if that is still `number`.
+    /// The shaders to draw with, and their number; `None` if they are still those of `number`.
     pub(super) fn shaders_after(&self, number: u64) -> Option<(Arc<ShaderTexts>, u64)> {
         let (texts, latest) = lock(&self.orders).shaders.clone();
         (latest != number).then_some((texts, latest))

@@ -22,7 +22,7 @@ use super::{Picture, Report, ViewJob};
 /// The exact pictures of a job are drawn when it is this old and no later job has come.
 const REST: Duration = Duration::from_millis(100);
 
-/// The film of a job is finished when the job is this old: who pauses that long is looking.
+/// Finishing the film of a job begins when the job is this old: by then the user is likely to have paused.
 const IDLE: Duration = Duration::from_millis(800);
 
 /// Works until the mailbox is closed. If a job panics, that is reported, and the next job gets a new worker.
@@ -177,7 +177,7 @@ impl PaintWorker {
         self.finish_film(&painting, order, mailbox, tell);
     }
 
-    /// Shows the exact picture of a view that is kept, unless it is shown.
+    /// Shows the kept exact picture of a view, if there is one and the view is not shown exactly already.
     fn show_finished(&mut self, order: &Order, index: usize, tell: Tell<'_>) {
         let (view, serial) = (&order.job.views[index], order.job.serial);
         let Some(Finished { image, strokes, .. }) = self.film.of(view, serial).cloned() else { return };
@@ -249,7 +249,7 @@ impl PaintWorker {
         }
     }
 
-    /// Whether none of the scene's meshes was prepared before.
+    /// Whether the scene shares no mesh with the scene that was prepared last.
     fn is_new(&self, order: &Order) -> bool {
         let known = |mesh: &Arc<MeshFile>| {
             let before = self.prepared.iter().flat_map(|(painting, _)| painting.loaded().meshes.values());

@@ -234,7 +234,7 @@ fn a_film_is_finished_at_rest_and_then_plays_exactly() {
         assert!(played.exact && played.strokes > 50, "{} strokes", played.strokes);
         assert!(bytes(played) == rendered(&loaded, of_film, None));
     }
-    // Neither another view nor another version of the scene is taken from it.
+    // Another view, or another version of the scene, is drawn and not taken from the film.
     let mut aside = ViewJob { moving: true, ..film[1].clone() };
     aside.camera.eye[0] += 0.2;
     let again = ViewJob { moving: true, ..film[2].clone() };

@@ -1,4 +1,5 @@
-//! Tests of the panels: what they ask for, and how they look. Controls are found by name. One program, since each more is linked anew.
+//! Tests of the panels: what they ask for, and how they look. Controls are found by name. All are one program, since
+//! each further program would have to be linked.
 
 mod column;
 mod headless;

@@ -235,7 +235,7 @@ fn edited_text_outlives_what_changes_the_source() {
     let source = harness.state().editor.document().source().expect("a source").text.clone();
     let edited = source.replace("long", "longer");
     type_instead(&mut harness, &edited);
-    // Nothing that would change the text beside it is offered meanwhile.
+    // While the text has unread edits, no repair that would change the text is offered.
     assert!(harness.query_by_label("Fix all that are certain").is_none());
     assert!(harness.query_by_label("Use leaf.obj").is_none());
     // Another program writes the file, and it is read.

@@ -137,7 +137,7 @@ fn a_drag_comes_back_whole_and_in_order() {
     let mut expected = vec![(PointerKind::Move, 200.0), (PointerKind::Press(Button::Left), 200.0)];
     expected.extend(places[1..].iter().map(|at| (PointerKind::Move, f64::from(at.x))));
     expected.extend([(PointerKind::Move, -30.0), (PointerKind::Release(Button::Left), -30.0)]);
-    // The pointer is elsewhere now: what belongs to it is taken away.
+    // The pointer is outside the picture now.
     expected.push((PointerKind::Leave, -30.0));
     assert_eq!(told, expected);
 }
@@ -322,7 +322,7 @@ fn marks() -> Drawn {
     }
 }
 
-/// Room for drivers that round colours differently; a misplaced mark is far over it.
+/// A tolerance for drivers that round colours differently. A misplaced mark exceeds it by far.
 fn options() -> SnapshotOptions {
     SnapshotOptions::new().threshold(0.6)
 }

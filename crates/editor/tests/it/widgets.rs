@@ -23,7 +23,7 @@ fn harness(theme: Theme) -> Harness<'static, Page> {
         .build_ui_state(|ui, page: &mut Page| page.ui(ui), Page::new(theme))
 }
 
-/// Room for drivers that round colours differently; a misplaced or recoloured control is far over it.
+/// A tolerance for drivers that round colours differently. A misplaced or recoloured control exceeds it by far.
 fn options() -> SnapshotOptions {
     SnapshotOptions::new().threshold(0.6)
 }

@@ -1,4 +1,4 @@
-//! Every kind of PNG gives the pixels that were put into it, and no file is believed.
+//! Tests that every kind of PNG gives the pixels that were put into it, and that what a file claims is checked.
 
 use super::*;
 

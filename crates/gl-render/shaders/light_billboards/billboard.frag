@@ -7,11 +7,11 @@ flat in vec4 last_two;
 
 uniform sampler2DArray icons;    // ink, disc under it
 uniform sampler2D depth_and_id;
-uniform float icon;              // layer of the texture; below 0 a ring, of a line's width
+uniform float icon;              // layer of the texture; below 0 a ring as thin as a line
 uniform float px;                // a pixel as a share of half the side
 uniform vec4 ink;                // encoded sRGB, straight alpha
 uniform float depth;             // of the icon along the gaze
-uniform float softness;          // depth over which it fades behind something
+uniform float softness;          // depth over which the icon fades behind something
 
 out vec4 over;                   // premultiplied, encoded
 

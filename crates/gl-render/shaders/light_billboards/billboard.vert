@@ -1,4 +1,5 @@
-// A quad that faces the camera: four corners from uniforms, told apart by their number. No vertex is read from a buffer.
+// A quad that faces the camera. The number of the vertex picks one of four corners in uniforms; there is no vertex
+// buffer.
 uniform vec3 corner_00;          // world space, at u = 0, v = 0
 uniform vec3 corner_01;          // at u = 0, v = 1
 uniform vec3 corner_10;
@@ -11,7 +12,7 @@ uniform float px;                // a pixel as a share of half the side
 uniform float pieces;            // of the ring
 
 out vec2 on_plane;               // place on the picture's plane
-flat out vec4 first_two;         // the corners there
+flat out vec4 first_two;         // the corners on that plane
 flat out vec4 last_two;
 
 vec2 plane(vec3 position_in_world) {

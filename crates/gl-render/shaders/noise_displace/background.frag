@@ -1,4 +1,4 @@
-// The background, where nothing else is behind a body that noise colours.
+// The background under bodies that noise colours, where nothing else is behind them.
 uniform vec4 background;
 uniform sampler2D depth_and_id;
 

@@ -4,7 +4,7 @@ uniform sampler2D gathered;
 out vec4 color;
 
 void main() {
-    // Four pixels of the picture to one of the glow, counted from the first.
+    // A pixel of the glow covers 4 × 4 pixels of the picture, counted from the lower left.
     vec2 at = gl_FragCoord.xy / (4.0 * vec2(textureSize(gathered, 0)));
     color = vec4(texture(gathered, at).rgb, 0.0);
 }

@@ -6,7 +6,7 @@ uniform sampler2D normal;        // and gloss
 uniform sampler2D depth_and_id;
 uniform sampler2D openness;      // half the size
 
-layout(location = 0) out vec4 light_and_shadow;  // what arrives; how much of the sun that casts shadows
+layout(location = 0) out vec4 light_and_shadow;  // light that arrives; how much arrives of the light that casts shadows
 layout(location = 1) out vec4 open;
 
 void main() {

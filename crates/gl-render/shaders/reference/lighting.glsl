@@ -1,11 +1,15 @@
-// Lighting: suns (the first casts shadows), point lights (where there is no sun, the brightest casts shadows), ambient light from above and below; then a soft shoulder.
-uniform sampler2D lights;        // row 0: direction to a sun (w 0) or a point light's place (w 1); row 1: radiance, slope of a cone's edge; row 2: its axis, height of its edge
+// Lighting: suns (the first casts shadows), point lights (without a sun, the brightest casts shadows), ambient light
+// from above and below; then a soft shoulder.
+
+// A column for each light (`column` in lighting.rs): direction to a sun (w 0) or place of a point light (w 1); radiance
+// and the cone's slope; the cone's axis and offset.
+uniform sampler2D lights;
 uniform int light_count;
 uniform int shadowed_light;      // index of the light that casts shadows, or -1
 uniform sampler2DShadow shadow_depth;
 uniform mat4 shadow_from_world;
 uniform float shadow_texel;      // world units; of a lamp, at a distance of 1
-uniform vec2 shadow_bias;        // how far depths may differ: as they are, and over the square of a lamp's distance
+uniform vec2 shadow_bias;        // constant depth, plus one that is divided by the square of a lamp's distance
 uniform vec3 ambient_above;
 uniform vec3 ambient_below;
 
@@ -32,7 +36,7 @@ float sunlit(vec3 position, vec3 normal) {
 #endif
 }
 
-// Lets bright light roll off to white and keeps its hue.
+// The soft shoulder: compresses bright light and keeps its hue.
 vec3 exposed(vec3 light) {
     vec3 c = light * 0.62;
     float luminance = dot(c, vec3(0.2126, 0.7152, 0.0722));
@@ -41,7 +45,7 @@ vec3 exposed(vec3 light) {
 
 // A point of a surface, ready to be lit.
 struct LitPoint {
-    vec3 position;               // world space, as the normal
+    vec3 position;               // world space, like the normal
     vec3 normal;
     vec3 towards_eye;            // unit
     float openness;              // 0 enclosed .. 1 open

@@ -1,4 +1,4 @@
-// From each pixel to where its surface point is in another picture: offset in px (Y up), depth along the gaze there, body.
+// Where the surface point of each pixel is in another picture: offset in px (Y up), depth along the gaze there, body.
 // Both positions are interpolated in the same way, so that a body at rest moves by exactly 0.
 #include "shared/cutout.glsl"
 

@@ -1,4 +1,4 @@
-// A body's vertices as the sun sees them.
+// A body's vertices as the light that casts shadows sees them.
 #include "shared/body.glsl"
 
 uniform mat4 shadow_from_world;

@@ -1,4 +1,4 @@
-// How much of each pixel shows the body that its middle shows.
+// For each pixel, the body in its middle, and how much of the pixel shows something else.
 uniform sampler2D depth_and_id;
 #include "rotating_strokes/surface.glsl"
 

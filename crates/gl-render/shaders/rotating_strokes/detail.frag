@@ -24,7 +24,7 @@ const vec2 LEAP = vec2(0.01, 0.03);
 void main() {
     ivec2 last = textureSize(depth_and_id, 0) - 1;
     ivec2 block = ivec2(gl_FragCoord.xy) * block_px;
-    // A block belongs to the body that stands foremost in it, by its share of sixteen taps: a thin thing fades in and out.
+    // A block belongs to its foremost body, weighted by the body's share of sixteen taps: thin bodies fade in and out.
     ivec2 taps[5];
     vec2 front = vec2(0.0);
     for (int index = 0; index < 5; index++) {
@@ -57,7 +57,7 @@ void main() {
         float turn = 0.0;
         for (int axis = 0; axis < 2; axis++) {
             ivec2 next = min(at + ivec2(1 - axis, axis) * reach_px, last);
-            // Over a distance that flat facets of the mesh do not show in; nothing on what is thinner than it.
+            // Over a distance so large that the mesh's facets do not count; 0 on a body that is thinner.
             ivec2 far = ivec2(1 - axis, axis) * (3 * reach_px);
             ivec2 ends[2] = ivec2[2](max(at - far, ivec2(0)), min(at + far, last));
             if (texelFetch(depth_and_id, ends[0], 0).y == front.y && texelFetch(depth_and_id, ends[1], 0).y == front.y) {
@@ -69,7 +69,7 @@ void main() {
         }
         float change = sqrt(dot(slopes[0], slopes[0]) + dot(slopes[1], slopes[1]));
         float of_color = clamp((change - CHANGE.x) / (CHANGE.y - CHANGE.x), 0.0, 1.0);
-        // Near the outline every surface turns fast in the picture: what counts is how fast it turns along itself.
+        // Near the outline every surface turns fast per pixel: what counts is how fast it turns per length of surface.
         turn *= clamp((mat3(view_from_world) * facing).z, 0.0, 1.0);
         float of_form = clamp((turn - TURN.x) / (TURN.y - TURN.x), 0.0, 1.0);
         detail.r += max(EDGE * of_color, of_form);
@@ -82,7 +82,7 @@ void main() {
             if (there.y == 0.0 || there.x > front.x) outline += 0.5;
             continue;
         }
-        // A part of the body stands before another: the depth leaps away from where it was going.
+        // One part of the body stands in front of another: the depth leaps off its slope.
         float depth = texelFetch(depth_and_id, at, 0).x;
         vec2 before = texelFetch(depth_and_id, clamp(at - outward, ivec2(0), last), 0).xy;
         float leap = there.x - depth - (before.y == front.y ? max(depth - before.x, 0.0) : 0.0);

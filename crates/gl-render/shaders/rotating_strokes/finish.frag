@@ -29,8 +29,8 @@ layout(location = 4) out vec4 ground;            // premultiplied
 const float THICKNESS_PX = 1.6;      // of paint of height 1
 const float WEAVE_PX = 0.09;
 #ifndef DRAFT
-// How far wet paint of one colour runs together, over these distances, pixels of the scene's own size; colours that differ by this
-// much (square roots of linear values) keep apart; and how much of its relief is left.
+// Wet paint of one colour runs together: how far; over which distances, pixels of the scene's own size; from which
+// difference of colour on (of square roots of linear values) it keeps apart; and how much relief is left.
 const float MELT = 0.85;
 const vec2 MELT_PX = vec2(2.2, 4.5);
 const float SAME = 0.05;
@@ -41,7 +41,7 @@ const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 vec4 toned_ground(ivec2 at) {
     vec4 body = texelFetch(reference_color, at, 0);
 #ifdef DRAFT
-    // It also replaces the underpainting and the faintest strokes, so it hides what is under it.
+    // A draft's ground also replaces the underpainting and the faintest strokes, so it hides all that is below.
     vec3 under = mix(body.rgb, vec3(0.10, 0.08, 0.06), 0.25);
     float hides = wash > 0.0 ? 1.0 : 0.0;
 #else
@@ -53,8 +53,8 @@ vec4 toned_ground(ivec2 at) {
 }
 
 #ifndef DRAFT
-// The paint of a pixel. Where a body ends, of its neighbours too: the layers of paint, each of which ends a little elsewhere, leave
-// steps there.
+// The paint of a pixel. At the border of a body it is a mean over 3 × 3 pixels: the layers of paint end at slightly
+// different places and would leave steps there.
 vec4 paint_at(ivec2 at, out bool is_border) {
     ivec2 last = textureSize(surface, 0) - 1;
     float id = texelFetch(surface, at, 0).y;
@@ -74,8 +74,8 @@ vec4 paint_at(ivec2 at, out bool is_border) {
     return sum / 16.0;
 }
 
-// Wet paint of nearly one colour runs together, where it differs more its edges stay. A speck runs into what is round it.
-// rgb, and how much of the surroundings has the same colour, 0..1.
+// Wet paint runs together with neighbours of nearly the same colour; edges between other colours stay. A speck runs
+// into its surroundings. Returns rgb, and how much of the surroundings has the same colour, 0..1.
 vec4 melted(vec3 color, float wet) {
     // Square roots stand in for encoded values.
     vec3 own = sqrt(max(color, 0.0));

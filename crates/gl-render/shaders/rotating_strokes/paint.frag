@@ -1,4 +1,4 @@
-// Paint in the shape of the brush mark, on its own body and a little past it: lays colour and height at once.
+// Paint in the shape of the brush mark, on the stroke's own body and a little past it: lays colour and height at once.
 #ifdef SHAPED
 #include "shared/stroke_shape.glsl"
 #endif
@@ -22,7 +22,7 @@ flat in float leaning;
 
 uniform sampler2DArray brush_marks; // paint, height, tint
 uniform sampler2D surface;       // depth, body id and half the share that shows something else
-uniform float units_per_px_at_1; // world units per pixel at depth 1; at any depth where parallel
+uniform float units_per_px_at_1; // world units per pixel at depth 1; at any depth if rays are parallel
 uniform float orthographic;
 
 layout(location = 0) out vec4 over;
@@ -58,7 +58,7 @@ const float HEIGHT_SCALE = 1.5;
 const float FREE = 1e6;
 const float STEEPNESS = 4.0;
 
-// The depth of the stroke where a pixel lies on it.
+// The depth of the stroke at this pixel.
 float own_depth() {
 #ifdef LINE
     return line.x;
@@ -73,7 +73,8 @@ float body_at(vec2 at_px) {
     return floor(texelFetch(surface, texel, 0).y);
 }
 
-// How much paint lies past the stroke's own body, over which it reaches this far: ragged, because hairs with more paint run further.
+// How much paint lies in a pixel past the stroke's own body, if paint reaches this far past it. `reach_px` differs from
+// hair to hair, since hairs with more paint run further: the edge is ragged.
 float past_body(vec2 here, float reach_px) {
     float depth = own_depth();
     float bias = 2.0 * units_per_px_at_1 * mix(depth, 1.0, orthographic);

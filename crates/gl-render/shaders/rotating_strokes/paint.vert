@@ -17,8 +17,10 @@ layout(location = 8) in vec2 shape;          // taper, bend in radians
 #endif
 #ifdef LINE
 layout(location = 9) in vec4 corner_of_line; // px; along and across the mark
-layout(location = 10) in vec4 middle_of_line; // from the line's middle to the corner in px; of the middle depth and presence
-layout(location = 11) in vec3 lean;          // depth of the plane less that of the middle, how far paint may lie off it; px; how dry it runs
+layout(location = 10) in vec4 middle_of_line; // px from the line's middle to the corner; depth, presence of the middle
+// Depth of the plane less that of the middle, and how far paint may lie off the plane, both in px; how dry the brush
+// runs.
+layout(location = 11) in vec3 lean;
 #endif
 
 uniform vec2 size_px;
@@ -26,7 +28,7 @@ uniform vec2 size_px;
 uniform mat4 view_from_world;
 uniform int kind;                // layer of paint
 #endif
-uniform float units_per_px_at_1; // world units per pixel at depth 1; at any depth where parallel
+uniform float units_per_px_at_1; // world units per pixel at depth 1; at any depth if rays are parallel
 uniform float orthographic;
 uniform float mark_rows;         // texels across a mark
 uniform sampler2D mark_bounds;   // a row for each mark: the box around all texels with more paint than a given amount
@@ -40,7 +42,7 @@ uniform int first_stroke;        // number of the first of these strokes in the 
 flat out uint number;
 #endif
 
-out vec2 mark_at;                // of the mark; of a shaped stroke px along and across it
+out vec2 mark_at;                // place on the mark, 0..1; on a shaped stroke, px along and across it
 out vec2 from_center_px;
 flat out vec4 paint;             // colour and the height at which the mark is cut off
 flat out vec3 half_mixed;        // what the other paint in the brush adds
@@ -109,13 +111,13 @@ vec4 painted_part(float least, float level, float bow, float flip) {
 }
 
 #ifndef LINE
-// The plane that the stroke lies on. Paint that leaves it, past a crease, ends there; but the underpainting covers all, and lines
-// follow the border that they lie along.
+// The plane that the stroke lies on. Paint ends where the surface leaves this plane, as past a crease; except the
+// underpainting, which covers all, and contour lines, which follow the border.
 vec4 plane_of_stroke(vec2 center_px) {
     vec3 n = mat3(view_from_world) * normal_and_bow.xyz;
     float slant = max(abs(n.z), 0.05);
     vec2 slope = n.xy / (n.z < 0.0 ? -slant : slant);
-    // A surface that is seen at a slant leaves the plane sooner, by less of itself.
+    // At a slant, a small bend of the surface is a large difference of depth, so more is allowed.
     bool goes_on = kind == UNDERPAINTING || kind == CONTOUR;
     float may_leave_px = goes_on ? 1e9 : (0.07 * size.x + 2.5) * max(0.7 / slant, 1.0);
     return vec4(slope, dot(slope, center_px - place.xy), may_leave_px);
@@ -137,7 +139,7 @@ void main() {
     float dryness = float(bytes.x >> 24) * BYTE;
     // A drier brush leaves less of its mark, and so does one that fades.
     float share = 0.98 * (1.0 - dryness) * mix(0.5, 1.0, there);
-    // A stroke that fades goes out from its ends, and below a quarter of its length as a whole.
+    // A fading stroke shrinks from its ends to a quarter of its length, then fades as a whole.
     float extent = max(there, 0.25);
     // An edge about a pixel wide, as a share of the mark.
     float soft = clamp(1.2 * (size.x + size.y) / (size.x * size.y), 0.02, 0.14);

@@ -28,23 +28,24 @@ const float LEAST = 0.25;
 const float LEAST = 0.004;
 #endif
 
-// How thin the body is: below the first a stroke has the colour that is seen, above the second that of its own place. Single
-// pixels of a thin body are light and dark by chance.
+// Thinness of a body: up to the first value a stroke takes its colour from the picture, from the second on it lights
+// its own albedo, since single pixels of a thin body are light or dark by chance.
 const vec2 THIN = vec2(0.01, 0.14);
 
-// Standard deviation of the Gaussian over which colours are averaged, in widths of the stroke. It is never less than this, since
-// single pixels change by chance.
+// Standard deviation of the Gaussian over which colours are averaged: for each layer in widths of the stroke, but at
+// least this many pixels, since single pixels change by chance.
 const float LEAST_BLUR_PX = 1.1;
 const float BLUR[8] = float[8](0.33, 0.20, 0.20, 0.22, 0.30, 0.60, 0.25, 0.25);
 
 // How far highlights are spread over their body, as in `RotatingStrokes`, pixels of the scene's own size.
 const float SPREAD_PX = 16.0;
-// The strokes of a highlight lie round its peak, this share as far from it as their particles, which may be at most this far
-// away, pixels of the scene's own size. As particles pass, strokes take turns: they fade over the second half of the way.
+// Strokes of a highlight gather round its peak: each lies at this share of its particle's distance from the peak.
+// Particles count up to this distance, pixels of the scene's own size; strokes fade over its second half, so that they
+// take turns as particles pass.
 const float GATHERED = 0.3;
 const float GATHER_PX = 34.0;
 
-// A line is drawn for where its body ends within this many pixels of the scene's own size.
+// How far from itself a contour stroke looks for the end of its body, pixels of the scene's own size.
 const float OUTLINE_PX = 20.0;
 
 // The depth of the stroke's own plane this far from its centre.
@@ -60,7 +61,7 @@ const float WHOLE = 0.75;
 // As in `detail.frag`.
 const vec2 LEAP = vec2(0.01, 0.03);
 
-// How much of a tap is hidden by the stroke's own body, or by others, where that stands before the stroke's own plane.
+// How far a tap is hidden, 0..1: by the stroke's own body (`by_own`) or by others that stand before the stroke's plane.
 float hidden_at(vec2 offset_px, float bias, bool by_own) {
     vec2 tap_px = clamp(place.xy + offset_px, vec2(0.5), size_px - 0.5);
     vec2 there = surface_at(tap_px);
@@ -68,9 +69,10 @@ float hidden_at(vec2 offset_px, float bias, bool by_own) {
     return smoothstep(bias, 3.0 * bias, plane_depth(tap_px - place.xy) - there.x);
 }
 
-// How much of the stroke is there, by what hides it. Another body hides it only as a whole: where it covers a part, the paint pass
-// ends the paint. Its own body may bend round behind itself, so there what hides its middle counts; and so it does for all that
-// hides a stroke whose paint ends nowhere.
+// How much of the stroke is there, since bodies may hide it, 0..1. Other bodies are tested over the whole stroke, and
+// make it fade only when little of it is to be seen: the paint pass cuts off the parts that they cover. The stroke's
+// own body, which may bend in front of it, is tested round the stroke's middle; so are other bodies, for paint that is
+// never cut off.
 float seen(mat2 turn) {
     float unit = units_per_px(place.z);
     float slant = max(abs((mat3(view_from_world) * normal_and_bow.xyz).z), 0.2);
@@ -135,7 +137,7 @@ float presence(float supply_ln) {
     return without_last(smoothstep(0.0, 1.0, 0.5333823 + supply_ln / 1.4)) * size.z;
 }
 
-// How full the body layer is, 1 as its coverage says: thin in the darks, full in the lights.
+// A factor on the coverage of the body layer: thin in the darks, full in the lights.
 float fullness(float lightness, float grading) {
     return mix(1.0, mix(0.62, MOST_FULL, smoothstep(0.15, 0.85, lightness)), grading);
 }
@@ -149,8 +151,8 @@ float wanted(vec3 detail) {
     return clamp(max(inside, 0.0) + rim, 0.0, 1.0);
 }
 
-// The peak of the highlight that this place belongs to: up the slope of the smooth highlights of its body, in steps that take one
-// Gaussian spot to its middle.
+// The peak of the highlight that this place belongs to. Climbs the blurred highlights of the body; on a single Gaussian
+// spot one step leads to the peak.
 vec2 peak_px(float id) {
     vec2 at_px = place.xy;
     float reach_px = SPREAD_PX * px_scale;
@@ -166,8 +168,8 @@ vec2 peak_px(float id) {
     return at_px;
 }
 
-// Where the body ends nearby: the direction of its end, the share of the surroundings that lies past it, and the share that
-// something stands in front of, which is no end of the body; 0..1.
+// Where the body ends nearby. xy: towards the end. z: the share of the surroundings that lies past the end, 0..1. w:
+// the share that something in front hides, which is no end of the body, 0..1.
 vec4 outline_near(vec2 own) {
     float bias = 0.02 * own.x;
     vec4 sum = vec4(0.0);
@@ -183,7 +185,7 @@ vec4 outline_near(vec2 own) {
             vec2 near = mix(1.0 - part, part, vec2(step));
             vec2 there = surface_at(floor(at) + vec2(step) + 0.5);
             float farther = there.y == 0.0 ? 1.0 : smoothstep(-bias, bias, there.x - own.x);
-            // A part of the body may stand before another.
+            // One part of the body may stand in front of another.
             vec2 offset_px = floor(at) + vec2(step) + 0.5 - place.xy;
             float leap = (there.x - max(plane_depth(offset_px), own.x)) / own.x;
             past += near.x * near.y * (there.y == own.y ? smoothstep(LEAP.x, LEAP.y, leap) : farther);
@@ -194,7 +196,8 @@ vec4 outline_near(vec2 own) {
     return sum / 24.0;
 }
 
-// How much a line is wanted, lost and found: by its place, by slow noise, and less in the light.
+// How much a contour line is wanted, 0..1: near the end of the body, here and there by slow noise, and less in the
+// light.
 float line_wanted(vec4 outline, float lightness) {
     float at_end = smoothstep(0.02, 0.46, outline.z) * (1.0 - smoothstep(0.55, 0.95, outline.z));
     float found = smoothstep(-0.9, 0.5, reach.z);
@@ -202,7 +205,8 @@ float line_wanted(vec4 outline, float lightness) {
     return 0.85 * in_view * at_end * found * mix(1.0, 0.30, smoothstep(0.30, 0.95, lightness));
 }
 
-// From the stroke's centre to the end of its body: along a straight end the share that lies past it tells how far away it is.
+// From the stroke's centre to the end of its body. The distance follows from the share of the surroundings past the
+// end, as if the end were straight.
 vec2 to_end_px(vec4 outline) {
     if (dot(outline.xy, outline.xy) < 1e-8) return vec2(0.0);
     return normalize(outline.xy) * (OUTLINE_PX * px_scale * (1.0 - 2.0 * outline.z) - 0.4 * size.y);
@@ -254,7 +258,7 @@ void main() {
         moved = to_end_px(outline);
         turn = mat2(cos(turned), sin(turned), -sin(turned), cos(turned)) * turn;
     }
-    // What hides a touch is found pixel by pixel.
+    // What hides a touch is found pixel by pixel, in the paint pass.
     if (there > LEAST && kind != CONTOUR && kind != TOUCHES) there *= seen(turn);
     if (there <= LEAST) return;
 
@@ -262,7 +266,7 @@ void main() {
     mat2 blur_px = mat2(clamp(0.16 * size.x, across_px, 2.5 * across_px), 0.0, 0.0, across_px);
     if (kind == TOUCHES) blur_px = mat2(across_px, 0.0, 0.0, across_px);
     vec4 found = own_color(kind == LIGHTS ? place.xy + moved : place.xy, own.y, turn * blur_px);
-    // A highlight is in the picture only.
+    // Only the picture has highlights, not the stroke's own lit albedo.
     float known = kind == LIGHTS ? 1.0 : found.w * (1.0 - smoothstep(THIN.x, THIN.y, thinness(place.xy, own)));
     vec3 color = known == 1.0 ? found.rgb : mix(color_of_own(), found.rgb, known);
     vec3 lab = oklab_from_linear(color);

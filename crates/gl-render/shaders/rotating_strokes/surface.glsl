@@ -1,6 +1,6 @@
-// What is where in the picture: several samples in each pixel, so that borders lie between pixels.
+// Depth and body at several samples in each pixel, so that borders of bodies are found within pixels.
 uniform sampler2D fine;          // depth and body id of every sample
-uniform int samples;             // of a pixel, a side
+uniform int samples;             // per pixel along each axis
 
 // Depth and body id of the sample at a place.
 vec2 surface_at(vec2 at_px) {

@@ -42,7 +42,7 @@ vec2 direction(int index, int count) {
     return vec2(cos(angle), sin(angle));
 }
 
-// Whether the stroke's own body does not show at a place, because it has ended there.
+// 1 at a place where the stroke's own body has ended; 0 where it shows or something in front hides it.
 float is_past(vec2 at_px, vec2 own) {
     vec2 there = surface_at(at_px);
     return there.y != own.y && (there.y == 0.0 || there.x > own.x) ? 1.0 : 0.0;
@@ -68,7 +68,7 @@ vec4 own_color(vec2 center_px, float id, mat2 sigma_px) {
 #else
     const int TAPS = 12;
 #endif
-    // What a body that is everywhere gives, and what is enough.
+    // The weight of a body that all taps find, and the weight that is enough.
     const float FULL = 0.7 + 6.0 * 0.60 + float(TAPS - 6) * 0.17;
     const float ENOUGH = 0.25 * FULL;
     vec4 sum = vec4(0.0);

@@ -3,7 +3,7 @@
 layout(location = 0) in vec3 position_in_model;
 layout(location = 1) in vec3 normal_in_model;
 layout(location = 2) in vec2 uv;
-layout(location = 3) in vec3 shade;              // what the vertex takes away of each channel, linear
+layout(location = 3) in vec3 shade;              // 1 minus the vertex's colour, linear
 
 uniform mat4 world_from_model;
 #ifdef CUTOUT

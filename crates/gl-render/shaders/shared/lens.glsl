@@ -2,7 +2,7 @@
 uniform mat4 world_from_view;
 uniform vec2 size_px;
 uniform vec2 gaze_px;            // where the gaze meets the picture: its middle, unless the lens is shifted
-uniform float px_per_unit_at_1;  // focal length in pixels, or pixels per world unit where parallel
+uniform float px_per_unit_at_1;  // focal length in pixels; pixels per world unit if rays are parallel
 uniform float orthographic;      // 1 where rays are parallel
 
 // World units per pixel at a depth.

@@ -1,4 +1,4 @@
-// Depth and body of a surface. Only the nearest surface is kept, so that one sees through a glowing body only once.
+// Depth and body of a surface. Only the nearest surface is kept, so that a translucent body is blended once per pixel.
 #include "shared/cutout.glsl"
 
 in float depth_along_gaze;

@@ -1,4 +1,5 @@
-// Strokes that taper and bend. Their form: half their quad's length (0 where it has no shape) and width in px, taper, bend per px.
+// Strokes that taper and bend. Their form is half the quad's length (0 for a stroke that does neither) and half its
+// width in px, the taper, and the bend in radians per px.
 #include "shared/inverse_bilinear.glsl"
 
 // A corner of the box around a tapered and bent stroke, px along and across from its centre.

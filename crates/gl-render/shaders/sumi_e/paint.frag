@@ -1,4 +1,5 @@
-// Ink in the shape of the brush mark, on its own body and a little past it. The darkest ink stays; alpha counts overlaps.
+// Ink in the shape of the brush mark, on the stroke's own body and a little past it. The darkest ink stays; alpha
+// counts overlaps.
 #include "shared/stroke_shape.glsl"
 in vec2 mark_at;
 in vec2 from_center_px;
@@ -11,7 +12,7 @@ flat in float leaning;
 
 uniform sampler2DArray brush_marks; // paint, height, tint
 uniform sampler2D depth_and_id;
-uniform float units_per_px_at_1; // world units per pixel at depth 1; at any depth where parallel
+uniform float units_per_px_at_1; // world units per pixel at depth 1; at any depth if rays are parallel
 uniform float orthographic;
 
 out vec4 laid;

@@ -14,7 +14,7 @@ uniform vec2 size_px;
 uniform float mark_rows;         // texels across a mark
 uniform float dryness;           // of the scene
 
-out vec2 mark_at;                // of the mark; of a shaped stroke px along and across it
+out vec2 mark_at;                // place on the mark, 0..1; on a shaped stroke, px along and across it
 out vec2 from_center_px;
 flat out vec4 ink;               // what it subtracts, and the height at which the mark is cut off
 flat out vec4 mark;              // its number, level of detail, half its soft edge, bend

@@ -120,7 +120,7 @@ void main() {
     fitted = vec4(place.xy, 0.0, 0.0);
     gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
     float there = presence(size.w);
-    // Unlit surfaces are printed, not brushed.
+    // Unlit surfaces have no strokes: only the wash shows them.
     if (there <= LEAST || (marks.z >> 24) == 0u) return;
     if (texelFetch(shares, ivec2(int(marks.y) - 1, 0), 0).r == 0.0) return;
 

@@ -48,7 +48,7 @@ struct Functions {
     make_current: MakeCurrent,
     destroy_context: DestroyContext,
     get_current_context: GetCurrentContext,
-    /// Keeps the functions above loaded; EGL's displays live until the process ends.
+    /// Keeps the functions above callable: dropping it unloads them. The EGL display is never terminated.
     _library: Library,
 }
 

@@ -21,7 +21,7 @@ pub(super) fn first_library(names: &[&str]) -> Result<Library, String> {
 ///
 /// # Safety
 ///
-/// `T` is the type of that function.
+/// `T` must be the type of that function.
 pub(super) unsafe fn symbol<T: Copy>(library: &Library, name: &CStr) -> Result<T, String> {
     // SAFETY: the caller vouches for the type.
     unsafe { library.get::<T>(name.to_bytes_with_nul()) }

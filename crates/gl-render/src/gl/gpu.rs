@@ -85,7 +85,7 @@ impl Limits {
                 max_array_layers: u32::try_from(gl.get_parameter_i32(glow::MAX_ARRAY_TEXTURE_LAYERS))
                     .unwrap_or(0),
                 has_storage,
-                // A driver may state 2^31 bytes, which has no i32.
+                // A driver may state 2^31 bytes, which overflows an i32.
                 max_storage_bytes: if max_storage < 0 { i32::MAX as usize } else { max_storage as usize },
             }
         }
@@ -101,12 +101,12 @@ impl Gpu {
     ) -> Self {
         let (clock, shaders) = (RefCell::new(None), RefCell::default());
         let id = OPENED.fetch_add(1, Ordering::Relaxed) + 1;
-        // Who opened it made it current.
+        // The caller has made the context current.
         CURRENT.set(id);
         Self { shared: Rc::new(Shared { id, gl, clock, messages, limits, shaders, platform }) }
     }
 
-    /// Sets the texts that replace shader files in programs created from now on; returns those before.
+    /// Sets the texts that replace shader files in programs created from now on; returns the texts set before.
     pub(crate) fn set_shaders(&self, texts: ShaderTexts) -> ShaderTexts {
         self.shared.shaders.replace(texts)
     }

@@ -23,13 +23,13 @@ pub(crate) enum Blend {
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct DrawState {
     pub depth_test: bool,
-    /// Keeps the depth of earlier passes. Then what is as near as what they drew is drawn too.
+    /// Keeps the depth of earlier passes; surfaces at equal depth are then drawn too.
     pub depth_kept: bool,
     pub blend: Blend,
     /// Clears every colour target to this colour; `None` keeps what they hold.
     pub clear: Option<[f32; 4]>,
-    /// For shadow maps: pushes surfaces away from the eye a little, so that they cast no shadow on themselves, and keeps what is nearer
-    /// than the nearest depth.
+    /// For shadow maps: pushes surfaces away from the eye a little, so that they cast no shadow on themselves, and
+    /// clamps depth, so that surfaces before the near plane cast shadows too.
     pub casts_shadow: bool,
 }
 

@@ -6,8 +6,9 @@ use std::ffi::{CStr, c_void};
 pub(crate) trait Platform {
     /// Makes the context current on this thread.
     fn make_current(&self) -> Result<(), String>;
-    /// Makes no context current on this thread, where the library would else skip [`Platform::make_current`]: EGL does so when it made this
-    /// context current before, also if OSMesa has made another one current since.
+    /// Makes no context current on this thread, if the library would otherwise skip [`Platform::make_current`]. EGL
+    /// skips it where this is the context that EGL last made current, even if OSMesa has made another one current
+    /// since.
     fn make_none_current(&self) -> Result<(), String> {
         Ok(())
     }

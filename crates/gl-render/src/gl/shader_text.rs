@@ -43,7 +43,7 @@ pub(super) struct Sources<'a> {
     pub replaced: &'a ShaderTexts,
 }
 
-/// The name that is defined for shaders that write into a storage buffer. Those need a newer language than all others.
+/// The name that is defined for shaders that write into a storage buffer. They need GLSL 4.30, all others 3.30.
 pub(super) const STORES: &str = "STORES";
 
 /// `#define`s these names, then replaces every `#include "path"` by the text of that file; a file that is included

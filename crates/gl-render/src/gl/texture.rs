@@ -111,7 +111,7 @@ impl Texture {
         Ok(texture)
     }
 
-    /// Reads the texture as a material states it.
+    /// Sets how the texture is read: its edges and its magnification, as a material states them.
     pub(crate) fn set_sampler(&self, sampler: Sampler) {
         let wrap = |wrap| match wrap {
             Wrap::Repeat => glow::REPEAT,

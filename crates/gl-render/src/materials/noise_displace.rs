@@ -3,11 +3,11 @@
 //!
 //! Passes:
 //! - for each body, `place` (writes depth and id), then `look` (blends the colour, and writes the target `glow`);
-//! - `background`, where nothing else is behind these bodies;
+//! - `background`, under these bodies where nothing else is behind them;
 //! - if something glows, `gather`, `spread` (twice) and `bloom`. They use two targets of a quarter of the width and
 //!   height.
 //!
-//! Noise that displaces vertices has moved them already.
+//! Where noise displaces vertices, the vertex buffers already hold the displaced ones.
 
 mod bloom;
 

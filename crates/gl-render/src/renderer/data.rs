@@ -10,8 +10,8 @@ use crate::lighting::LightSetup;
 use crate::motion::{MotionPass, MotionPixels};
 
 impl Renderer {
-    /// From now on, while `gathers` is true, exact pictures are drawn so that [`Renderer::take_layers`] and
-    /// [`Renderer::read_paint_surface`] have something to tell. It changes no picture, and takes time and memory.
+    /// Says whether the exact pictures drawn from now on also gather what [`Renderer::take_layers`] and
+    /// [`Renderer::read_paint_surface`] return. This changes no picture, and takes time and memory.
     pub fn gather_paint(&mut self, gathers: bool) {
         self.gathers = gathers;
     }
@@ -40,7 +40,7 @@ impl Renderer {
         Ok(motion)
     }
 
-    /// The surfaces of the last picture, which was of this frame.
+    /// The surfaces of the last picture, which must be of this frame.
     ///
     /// # Errors
     /// As [`Renderer::render`], and where they were not kept ([`Renderer::keep`]).
@@ -61,13 +61,15 @@ impl Renderer {
         })
     }
 
-    /// The layers of paint of the last picture, from the lowest; once, and only while paint is gathered.
+    /// The layers of paint of the last picture, from the lowest; its paint must have been gathered. They can be taken
+    /// once.
     pub fn take_layers(&mut self) -> Vec<PaintedLayer> {
         let style = self.last_style.and_then(|name| self.styles.get_mut(name));
         style.map_or_else(Vec::new, |style| style.take_layers())
     }
 
-    /// The paint's own surface in the last picture; only while paint is gathered.
+    /// The paint's own surface in the last picture, whose paint must have been gathered; `None` for styles without
+    /// strokes.
     pub fn read_paint_surface(&self) -> Option<PaintSurface> {
         let width = self.painted.as_ref()?.pass.size_px()[0] as usize;
         let found = self.last_renderer()?.read_paint_surface()?;
@@ -80,7 +82,7 @@ impl Renderer {
         })
     }
 
-    /// The strokes of the last frame as they were painted, in its order; read back from the GPU.
+    /// The strokes of the last frame as they were painted, in the frame's order; read back from the GPU.
     pub fn resolved_strokes(&self) -> Vec<ResolvedStroke> {
         let resolved = self.last_renderer().map_or_else(Vec::new, |style| style.read_resolved());
         resolved

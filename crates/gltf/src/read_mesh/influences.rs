@@ -69,7 +69,7 @@ pub(crate) fn read(
         }
         let own = |vertex: usize| vertex * per_vertex + 4 * set..vertex * per_vertex + 4 * set + 4;
         for (vertex, (joints, weights)) in joints.iter().zip(&**weights).enumerate() {
-            // They were 8 or 16 bits wide.
+            // Joints have 8 or 16 bits in the file.
             influences.joints[own(vertex)].copy_from_slice(&joints.map(|joint| joint as u16));
             influences.weights[own(vertex)].copy_from_slice(weights);
         }
@@ -91,7 +91,7 @@ fn finish(reader: &mut MeshReader<'_, '_, '_, '_>, attributes: &Cursor<'_, '_>, 
     for (weights, joints) in vertices {
         let sum: f64 = weights.iter().map(|&weight| f64::from(weight)).sum();
         if sum > 0.0 {
-            // Sums of a few 8-bit weights are off by a step or two; that needs no words.
+            // Sums of a few 8-bit weights are off by a step or two; that needs no warning.
             off += usize::from((sum - 1.0).abs() > 0.02);
             weights.iter_mut().for_each(|weight| *weight = (f64::from(*weight) / sum) as f32);
         } else {

@@ -15,7 +15,7 @@ pub(crate) type Triangles = Arc<Vec<[u32; 3]>>;
 pub(crate) enum Mode {
     /// Three each.
     Triangles,
-    /// Each with the two before it, every other one turned round.
+    /// Each with the two before it; every other triangle is turned round.
     Strip,
     /// Each with the one before it and the first.
     Fan,

@@ -67,7 +67,7 @@ fn files_of_the_validator() {
     eprintln!("{valid} valid files, {} refused by name:\n{}", refused.len(), refused.join("\n"));
     eprintln!("{faulty} files with errors, {} taken silently:\n{}", silent.len(), silent.join("\n"));
     assert!(wrong.is_empty(), "valid files are refused:\n{}", wrong.join("\n"));
-    // What is wrong with them is in parts of the file that are not read, or means the same to us.
+    // Their errors are in parts of the file that are not read, or make no difference to the reader.
     assert!(silent.len() <= MOST_SILENT, "{} files with errors are taken silently", silent.len());
 }
 

@@ -1,4 +1,4 @@
-//! Lies of our own making: a good file in which one value at a time is spoiled.
+//! Tests with false statements that we make ourselves: a good file in which one value at a time is spoiled.
 
 use std::time::{Duration, Instant};
 
@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use crate::build::{good, lines, read_alone, rich};
 use impasto_gltf::{Animator, Finding, Gltf, Playing};
 
-/// What every answer has to be like, whatever was read. Gives what was told.
+/// Reads a file and asserts what must hold whether it is read or refused. Returns the findings.
 fn check(bytes: Vec<u8>, what: &str) -> Result<Vec<Finding>, Vec<Finding>> {
     let start = Instant::now();
     let len = bytes.len();
@@ -304,7 +304,7 @@ fn overlapping_accessors_are_counted() {
     assert_eq!(findings[0].severity, impasto_gltf::Severity::Limit);
 }
 
-/// Scales of which each is a number, and their product is none.
+/// Each scale is finite, but their product is not.
 #[test]
 fn scales_that_outgrow_all_numbers() {
     let node = |index: usize| json!({ "children": [index + 1], "scale": [1e38, 1e38, 0.0], "translation": [1e38, 0, 0] });
@@ -313,7 +313,7 @@ fn scales_that_outgrow_all_numbers() {
     assert!(check(document.to_string().into_bytes(), "scales").is_ok());
 }
 
-/// Many who share one long list are not as many scans of it.
+/// A long list that many share is scanned once, not once for each.
 #[test]
 fn sharing_takes_no_time() {
     let count = 250_000;

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use crate::build::{Buffer, good, lines};
 use impasto_gltf::{Animator, Gltf, Lens, Playing, Posed};
 
-/// One track on one node or pointer, over `nodes`.
+/// A shot in the making: the tracks of one animation, and the rest of the document.
 struct Shot {
     buffer: Buffer,
     samplers: Vec<Value>,
@@ -88,7 +88,7 @@ fn steps_hold_and_lines_go_straight() {
     }
 }
 
-/// A cubic through keys that lie on a cubic, with its own slopes, is that cubic.
+/// A spline whose keys and tangents are those of a cubic is that cubic.
 #[test]
 fn splines_give_a_cubic_again() {
     let place = |t: f64| 0.5 * t * t * t - t * t + 2.0 * t - 1.0;
@@ -144,7 +144,7 @@ fn splines_of_turns_are_of_unit_length() {
     assert!(world.abs_diff_eq(expected, 1e-7), "{world}");
 }
 
-/// The parent's scale of three axes shears what turns below it.
+/// A parent's scale that differs between axes shears a child that is turned.
 #[test]
 fn parents_with_scale_of_three_axes_and_mirrors() {
     let rest = json!({ "nodes": [

@@ -1,6 +1,6 @@
-//! Measures M5, the warp error: on neighbouring frames of the shot with our angles, and to compare, with the paper's rule and with
-//! random angles; and over as many frames as strokes need to turn by several degrees, with our angles and with fixed ones. Over one
-//! frame fixed angles are hardly wrong.
+//! Measures M5, the warp error. On neighbouring frames of the shot it compares our angles with the paper's rule and
+//! with random angles. With fixed angles, which are hardly wrong over one frame, it compares them over as many frames
+//! as it takes strokes to turn by several degrees.
 
 use impasto_gl_render::MotionPixels;
 use impasto_painting::Rotation;
@@ -20,7 +20,8 @@ use crate::warp::{Warp, correspondences, warp_error};
 /// A body whose pixels all move by less than this stands still.
 const STILL_PX: f64 = 0.01;
 
-/// Fixed angles are compared over as many frames as half of the strokes need to turn by this, but no more than these.
+/// Fixed angles are compared over as many frames as it takes half of the strokes to turn by `TURN_DEG`, but at most
+/// `MOST_FRAMES`.
 const TURN_DEG: f64 = 12.0;
 const MOST_FRAMES: u32 = 48;
 
@@ -102,7 +103,8 @@ struct Turned {
     fixed: f64,
 }
 
-/// The warp error over as many frames as half of the strokes need to turn by [`TURN_DEG`]; `None` where they do not.
+/// The warp error over as many frames as it takes half of the strokes to turn by [`TURN_DEG`]; `None` if the shot or
+/// [`MOST_FRAMES`] end before that.
 fn turned(context: &mut MeasureContext<'_>) -> Result<Option<Turned>, MeasureError> {
     let timeline = &context.loaded.scene.timeline;
     let (first, last) = (timeline.first as f64, timeline.last as f64);

@@ -18,8 +18,8 @@ use crate::versions::SceneVersion;
 use crate::warp::correspondences;
 use impasto_painting::frame::LayerKind;
 
-/// Pictures are blurred this much before they are compared: a shift by a part of a pixel changes what is finer, and that is no
-/// flicker. Standard deviation of a Gaussian.
+/// Standard deviation of the Gaussian that blurs pictures before they are compared: finer detail changes when it shifts
+/// by a part of a pixel, which is no flicker.
 const BLUR_PX: f64 = 1.0;
 
 /// How many of the worst coats are named.
@@ -91,7 +91,7 @@ fn place_words(context: &MeasureContext<'_>, place: Place) -> String {
     format!("worst at frame {}, x {x:.0}, y {y:.0}{stroke}", place.frame)
 }
 
-/// `None` where the shot is too short.
+/// What is found on the whole shot; `None` if it has fewer than three frames.
 fn whole(context: &mut MeasureContext<'_>) -> Result<Option<Rc<WholeShot>>, MeasureError> {
     let shot = match &context.whole_shot {
         Some(shot) => Rc::clone(shot),

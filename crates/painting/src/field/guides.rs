@@ -69,7 +69,7 @@ impl FieldInputs {
                 ScreenMap::new(view, DAffine3::IDENTITY, lens)
             }
         };
-        // Where the body stands otherwise in the guide's view, or in the reference, than at rest.
+        // The body as it is bent in the guide's view, or in the reference; `None` where it is at rest there.
         let bent = match &guide.view {
             Some(view) => view.stands.bent.as_ref(),
             None => self.references.of_rule(rule).stands.bent.as_ref(),

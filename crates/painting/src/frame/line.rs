@@ -30,16 +30,16 @@ pub struct LineVertex {
     pub at_px: [f32; 2],
     /// Where it is on the brush mark, 0..=1: along and across.
     pub on_mark: [f32; 2],
-    /// From the line's middle to it, pixels.
+    /// From the line's middle to the vertex, pixels.
     pub from_middle_px: [f32; 2],
     /// Depth of the line's middle, world units.
     pub depth: f32,
     /// How far the paint is there, 0 where the surface is seen edge-on, to 1.
     pub presence: f32,
-    /// How much deeper than the line's middle the surface's plane is under it, pixels.
+    /// Depth of the surface's plane under the vertex, less the depth of the line's middle, pixels.
     pub lean_px: f32,
     /// How far the surface may leave that plane before paint ends, pixels of depth.
     pub leave_px: f32,
-    /// How much more paint than elsewhere the mark needs to show here, because the brush runs dry; of a whole mark.
+    /// How much more paint the mark needs to show here, because the brush runs dry: a share of a mark's full paint.
     pub run_dry: f32,
 }

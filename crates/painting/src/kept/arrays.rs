@@ -24,7 +24,7 @@ use super::{FORMAT, KeptBytes, KeptKey};
 const MAGIC: [u8; 16] = *b"impasto prepared";
 const ORDER: u32 = 0x0403_0201;
 
-/// So many bytes are read at once: they are still near when their checksum is taken.
+/// How many bytes are read at once: few enough to be in the processor's cache still when their checksum is taken.
 const CHUNK: usize = 1 << 18;
 
 #[repr(C)]
@@ -79,7 +79,7 @@ impl<'a> ArraysToWrite<'a> {
         self.0.push((Cow::Borrowed(bytemuck::cast_slice(array)), size_of::<T>() as u32));
     }
 
-    /// Adds an array that was made to be written.
+    /// Adds a copy of an array that was made only to be written.
     pub(super) fn push_made<T: NoUninit>(&mut self, array: &[T]) {
         self.0.push((Cow::Owned(bytemuck::cast_slice(array).to_vec()), size_of::<T>() as u32));
     }
@@ -115,7 +115,7 @@ impl<'a> ArraysToWrite<'a> {
     }
 }
 
-/// Of the header, its own CRC left out, and of the table.
+/// The CRC of the header, with 0 as its own CRC, and of the table.
 fn crc_of(header: &Header, table: &[u8]) -> u32 {
     let mut hasher = crc32fast::Hasher::new();
     hasher.update(bytemuck::bytes_of(&Header { crc: 0, ..*header }));
@@ -132,8 +132,8 @@ pub(super) struct Arrays<'a> {
 }
 
 impl<'a> Arrays<'a> {
-    /// Checks the header against the key and its checksum. No number of it is believed before it is held against how many bytes
-    /// there are.
+    /// Checks the header against the key and its checksum. Every number in it is checked against the number of bytes
+    /// before it is used.
     pub(super) fn open(bytes: &'a dyn KeptBytes, key: &KeptKey) -> Result<Self, Unfit> {
         let mut header = Header::zeroed();
         if bytes.count() < size_of::<Header>() as u64 {
@@ -194,7 +194,7 @@ impl<T: Pod> Array<'_, T> {
         self.row.bytes as usize / size_of::<T>()
     }
 
-    /// Reads it, and checks its checksum. That there are so many bytes is known.
+    /// Reads it, and checks its checksum. [`Arrays::open`] has checked that there are so many bytes.
     pub(super) fn read(self) -> Result<Vec<T>, Unfit> {
         let mut numbers = vec![T::zeroed(); self.len()];
         let (mut hasher, mut at) = (crc32fast::Hasher::new(), self.at);

@@ -1,4 +1,5 @@
-//! What kept bytes hold, in the order in which it is written, and reading it: every index is held against what it counts in.
+//! Reads kept bytes, in the order in which they are written. Every index is checked against the length of what it
+//! points into.
 
 use std::sync::Arc;
 
@@ -65,25 +66,25 @@ pub(crate) struct KeptObject {
 
 /// What was kept of a coat.
 pub(crate) struct KeptCoat {
-    /// All that were sampled.
+    /// All particles that were sampled.
     pub(crate) places: Vec<PackedParticle>,
-    /// The first so many are the coat.
+    /// How many of them, from the first on, the coat has.
     pub(crate) count: usize,
-    /// So many were wanted; a surface without area has none.
+    /// How many particles were wanted; a surface without area has none, whatever is wanted.
     pub(crate) wanted: usize,
     pub(crate) state: ProgressiveState,
     pub(crate) area: f64,
-    /// Of all that were sampled; empty where the materials tell.
+    /// Of all particles that were sampled; empty where it follows from the materials.
     pub(crate) albedo: Vec<u32>,
     pub(crate) polygons: Option<PolygonCounts>,
-    /// The region of each particle; empty where the triangles tell.
+    /// The region of each particle; empty where it follows from the triangles.
     pub(crate) dabbed: Vec<u16>,
     pub(crate) drift: Vec<[f32; 2]>,
     pub(crate) baked: BakedBody,
     pub(crate) neighbours: Option<Neighbours>,
 }
 
-/// What the bytes are held against.
+/// What the bytes must fit.
 pub(crate) struct Wanted<'a> {
     pub(crate) surfaces: &'a [Arc<BodySurface>],
     /// How many rules there are.
@@ -111,7 +112,7 @@ impl KeptPainting {
         }
         let [order, firsts] = [arrays.next::<u32>()?, arrays.next::<u32>()?];
         arrays.end()?;
-        // From here on, memory is taken: as much as there are bytes.
+        // Only from here on is memory taken: no more than there are bytes.
         let mark = |texels: Array<'_, [u8; 3]>| Ok(Mark { texels: texels.of_len(TEXELS)? });
         let read_marks = || marks.into_par_iter().map(mark).collect::<Result<Vec<Mark>, Unfit>>();
         let read_objects = || {
@@ -135,7 +136,7 @@ impl KeptPainting {
 }
 
 impl<T: Pod> Array<'_, T> {
-    /// A few numbers, if there are just so many.
+    /// Reads the array if it has exactly `COUNT` numbers.
     fn numbers<const COUNT: usize>(self) -> Result<[T; COUNT], Unfit> {
         <[T; COUNT]>::try_from(self.of_len(COUNT)?).map_err(|_| Unfit::Damaged)
     }
@@ -176,10 +177,10 @@ impl<'a> ObjectArrays<'a> {
     }
 }
 
-/// Those of [`PolygonCounts`]: of particles, sides, faces.
+/// The arrays of [`PolygonCounts`]: of particles, sides, faces.
 type PolygonArrays<'a> = (Array<'a, [u32; 2]>, Array<'a, PolygonSide>, Array<'a, [u32; 3]>);
 
-/// Those of [`Neighbours`]: slots, lengths, indices.
+/// The arrays of [`Neighbours`]: slots, lengths, indices.
 type NeighbourArrays<'a> = (Array<'a, u32>, Array<'a, u8>, Array<'a, u32>);
 
 /// The arrays of a coat that were not read yet.

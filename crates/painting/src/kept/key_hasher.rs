@@ -4,14 +4,14 @@ use std::fmt::{Debug, Write as _};
 
 use bytemuck::NoUninit;
 
-/// So many bytes are hashed on all threads.
+/// From this many bytes on, hashing runs on all threads.
 const MANY: usize = 1 << 20;
 
 /// Hashes whatever it is fed, in order.
 #[derive(Default)]
 pub(crate) struct KeyHasher {
     hasher: blake3::Hasher,
-    /// For words, used again and again.
+    /// Holds the words of a value while they are hashed; reused.
     text: String,
 }
 
@@ -32,8 +32,8 @@ impl KeyHasher {
         self.numbers(words.as_bytes());
     }
 
-    /// A value as its derived `Debug` writes it: every field by name, every float so that it is read back to the bit. For settings;
-    /// never for long arrays, nor for what has a `Debug` of its own.
+    /// A value as its derived `Debug` writes it: every field by name, every float so that it is read back to the bit.
+    /// For settings; never for long arrays, nor for types whose `Debug` is written by hand.
     pub(crate) fn value(&mut self, value: &impl Debug) {
         let mut text = std::mem::take(&mut self.text);
         text.clear();

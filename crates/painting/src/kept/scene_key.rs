@@ -1,8 +1,8 @@
 //! The key of a scene: a hash of all that the heavy steps of preparing it are given, as it is in memory. So it does not matter where
 //! files lie, nor whether one changes after it was read.
 //!
-//! What goes in is taken apart field by field, without `..`: whoever gives the steps more is told by the compiler to say here whether
-//! it counts.
+//! What goes in is destructured field by field, without `..`: when a field is added, this file does not compile until
+//! it says whether the field counts.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -84,7 +84,7 @@ impl SceneKey<'_> {
     }
 }
 
-/// The hash of each of these, of what several share once.
+/// The hash of each of these; what occurs several times is hashed once.
 fn digests<'a, T: Send + Sync + 'a>(
     all: impl Iterator<Item = &'a Arc<T>>,
     feed: impl Fn(&T, &mut KeyHasher) + Sync,
@@ -121,13 +121,13 @@ fn of_surface(surface: &BodySurface, textures: &Digests, key: &mut KeyHasher) {
         key.value(&(name, albedo, sampler, cutoff, unlit, gloss));
         key.numbers(texture.as_ref().map_or(&[][..], |texture| &textures[&address(texture)]));
     }
-    // How it is strained follows from the rest; what went wrong shows in where its vertices are.
+    // The gradients follow from the other fields; a fault shows in the positions of the vertices.
     let BodyBend { bend, cache, rest, gradients: _, fault: _ } = bending;
     if let Some(bend) = bend {
         of_bend(bend, key);
     }
     if let Some(BodyCache { cache: _, points, model_from_file }) = cache {
-        // Where the cache has the points is asked at the frames that count.
+        // Where the cache has the points is hashed in `of_shape`, at the frames that count.
         let Points { count, of_vertex } = &**points;
         key.numbers(&[*count as u64]);
         key.numbers(of_vertex);
@@ -196,7 +196,7 @@ fn of_shape(shape: &BodyShape, surface: &BodySurface, key: &mut KeyHasher) {
 }
 
 fn of_object(object: &ObjectInputs<'_>, key: &mut KeyHasher) {
-    // What the surface is made from shows in the surface; what is painted is as the scene states it.
+    // The finished surface is hashed, not its inputs; the amounts are in the scene, which is hashed.
     let ObjectInputs { index, surface: _, regions, used, guides, amounts: _, references, caps } = *object;
     key.numbers(&[index as u64]);
     regions.feed_key(key);

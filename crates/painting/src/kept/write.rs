@@ -30,8 +30,8 @@ impl ToKeep<'_> {
 }
 
 impl Painting {
-    /// What is to be kept for another process that prepares the same scene. `None` where something was odd (a point cache that could
-    /// not be read any more), so that it would be kept.
+    /// What is to be kept for another process that prepares the same scene. `None` if there was a fault (a point cache
+    /// that could not be read any more), because its results would be kept too.
     pub fn to_keep(&self) -> Option<ToKeep<'_>> {
         if !self.faults().is_empty() {
             return None;

@@ -40,8 +40,8 @@ pub enum PrepareError {
     },
 }
 
-/// Peak memory of preparing a scene with a direction field, bytes per particle. What a body that bends takes later, when it is first drawn
-/// (32 bytes, beside the 76 that are kept), is less.
+/// Peak memory of preparing a scene with a direction field, bytes per particle. Drawing takes less: 76 bytes, and 32
+/// more for a body that bends.
 const PEAK_BYTES: u64 = 240;
 /// The same if the solver also needs Horn's lists of neighbours.
 const PEAK_BYTES_WITH_LISTS: u64 = 520;
@@ -58,8 +58,8 @@ pub struct PrepareOptions<'a> {
     pub memory_bytes: Option<u64>,
     /// Gives the process's peak memory since the last call, bytes, or `None` where that is not known.
     pub peak_bytes: &'a dyn Fn() -> Option<u64>,
-    /// Gives the bytes that another process kept under a key (see [`crate::Painting::to_keep`]), if there are any. It is called once,
-    /// when the surfaces are there. `None` keeps nothing and asks for nothing.
+    /// Gives the bytes that another process kept under a key (see [`crate::Painting::to_keep`]), if there are any. It
+    /// is called once, when the surfaces are there. `None` asks for nothing.
     pub kept: Option<&'a FindKept<'a>>,
 }
 

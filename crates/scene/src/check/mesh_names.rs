@@ -27,7 +27,7 @@ pub(super) fn check(scene: &Scene, meshes: &BTreeMap<String, Arc<MeshFile>>, fin
                 PatchRef::Material(material) => (Kind::Material, material),
                 PatchRef::Whole | PatchRef::Dabs(_) | PatchRef::Flood(..) => continue,
             };
-            // What a shot does not bring any more may come back with its next export.
+            // With a shot this is only a warning: the next export may bring the name back.
             let severity = if scene.shot.is_some() { Severity::Warning } else { Severity::Error };
             known.check(kind, name, severity, &format!("regions[{index}].on"), findings);
         }

@@ -11,7 +11,7 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
     findings.unique("objects", objects.iter().map(|object| object.name.as_str()));
     for (index, object) in objects.iter().enumerate() {
         let object_path = format!("objects[{index}]");
-        // The shot has the meshes of its objects.
+        // An object of the shot may leave out its mesh: the shot has it.
         if !(object.mesh.is_empty() && scene.shot.is_some()) {
             findings.name(&format!("{object_path}.mesh"), &object.mesh);
         }

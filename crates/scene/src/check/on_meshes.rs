@@ -13,7 +13,8 @@ use crate::mesh_file::MeshFile;
 use crate::morph;
 use crate::point_cache::PointCache;
 
-/// At most this many distances from guides and dabs to triangles are measured. Those after that are not checked.
+/// At most this many distances from guides and dabs to triangles are measured. Guides and dabs after that are not
+/// checked.
 const MOST_DISTANCES: usize = 200_000_000;
 
 pub(super) fn check(
@@ -79,7 +80,7 @@ pub(super) fn check(
     }
 }
 
-/// A cache must move as many points as its mesh has; only then are its places read.
+/// Checks that each point cache moves as many points as its mesh has and, only then, that its places are valid.
 pub(super) fn check_caches(
     scene: &Scene,
     meshes: &BTreeMap<String, Arc<MeshFile>>,
@@ -138,7 +139,8 @@ fn check_covers(field_path: &str, patch: PatchRef<'_>, file: &MeshFile, findings
     }
 }
 
-/// The part of a mesh that an object shows, in the object's own space; asked for places that lie close together.
+/// Searches the triangles that an object shows, in the object's own space. Quick if places asked one after the other
+/// lie close together.
 struct Reached<'a> {
     file: &'a MeshFile,
     model_from_file: DMat3,
@@ -149,7 +151,7 @@ struct Reached<'a> {
 }
 
 impl<'a> Reached<'a> {
-    /// `None` where nothing can be reached, or the radius is none.
+    /// `None` if the object has no surface, or `radius` is not above 0.
     fn of(object: &Object, file: &'a MeshFile, radius: f64) -> Option<Self> {
         if radius <= 0.0 || file.mesh.triangles.is_empty() || object.scale.0.contains(&0.0) {
             return None;
@@ -170,8 +172,8 @@ impl<'a> Reached<'a> {
         (at - nearest_point(at, corners)).length()
     }
 
-    /// Whether anything lies within the radius of a place. One corner of each triangle is tried before any distance is measured,
-    /// because that is cheap.
+    /// Whether a triangle that is shown lies within `radius` of `at`. One corner of each triangle is compared first,
+    /// which is cheaper than the distance to the triangle.
     fn is_near(&mut self, at: DVec3, radius: f64) -> bool {
         let mesh = &self.file.mesh;
         let by_corner = |triangle: usize| {
@@ -229,7 +231,7 @@ fn check_guide(
     }
 }
 
-/// Warns of dabs that touch nothing. Each has a place and a radius.
+/// Warns of dabs that touch nothing. `dabs` gives the place and radius of each.
 fn check_dabs(
     field_path: &str,
     dabs: impl ExactSizeIterator<Item = ([f64; 3], f64)>,

@@ -46,7 +46,7 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
 }
 
 pub(super) fn unknown_object(field_path: &str, object: &str, scene: &Scene, findings: &mut Findings) {
-    // What a shot does not bring any more may come back with its next export.
+    // With a shot this is only a warning: the next export may bring the object back.
     let severity = if scene.shot.is_some() { Severity::Warning } else { Severity::Error };
     findings.add(severity, || {
         let known = scene.objects.iter().map(|object| object.name.as_str());
@@ -118,7 +118,7 @@ pub(super) fn check_radius(field_path: &str, what: &str, radius: f64, findings: 
     }
 }
 
-/// Checks the object that something of a region is stated on: a `what`, such as a guide.
+/// Checks the `object` that an item of a region states. `what` is the kind of item for messages, such as "guide".
 pub(super) fn check_object_of(
     (what, its_path): (&str, &str),
     scene: &Scene,

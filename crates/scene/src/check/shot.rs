@@ -130,7 +130,7 @@ fn check_lens(lens: &Lens, findings: &mut Findings) {
 
 fn check_camera_keys(scene: &Scene, findings: &mut Findings) {
     let keys = &scene.camera.keys;
-    // What a shot brings is known once it stands on the stage.
+    // A shot that is not on the stage yet counts as having a camera.
     let has_camera = scene.stage.shot.as_ref().map_or(scene.shot.is_some(), |shot| shot.has_camera());
     if keys.is_empty() && !has_camera {
         let mend = "add one, as in (frame: 0, eye: (0, 1, 4), target: (0, 0, 0))";

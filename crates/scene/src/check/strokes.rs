@@ -31,7 +31,7 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
     }
 }
 
-/// Reports a broken rule of the style.
+/// Checks a rule of the style, and reports it if it is broken.
 fn check_style(rule: &SettingRule, findings: &mut Findings) {
     match *rule {
         SettingRule::Range { field, value, ref limits } => {
@@ -44,7 +44,7 @@ fn check_style(rule: &SettingRule, findings: &mut Findings) {
     }
 }
 
-/// Each brush that is a picture, with the field that names it first.
+/// Each picture that serves as a brush, with the path of the first field that names it.
 pub(crate) fn brush_pictures(scene: &Scene) -> Vec<(&str, String)> {
     let of_regions = scene
         .regions
@@ -87,7 +87,7 @@ pub(super) fn check_of_region(strokes_path: &str, scene: &Scene, index: usize, f
     check_flatness(strokes_path, scene, Some(index), findings);
 }
 
-/// Strokes that follow the surface need the tangent plane, which the neighbour solvers do not have.
+/// Checks a flatness below 1: strokes that follow the surface need the tangent plane, which the neighbour solvers lack.
 fn check_flatness(strokes_path: &str, scene: &Scene, region: Option<usize>, findings: &mut Findings) {
     let stated = region.map_or(&scene.strokes, |index| &scene.regions[index].strokes).flatness;
     let Some(flatness) = stated.filter(|flatness| (0.0..1.0).contains(flatness)) else { return };
@@ -96,7 +96,7 @@ fn check_flatness(strokes_path: &str, scene: &Scene, region: Option<usize>, find
     findings.error(format!("{strokes_path}.flatness"), message, "use the solver Tangent, or a flatness of 1");
 }
 
-/// What of a scene needs strokes that lie quite flat, in words; `None` where nothing does.
+/// What in the scene allows no flatness below 1, in words: the preset or the solver. `None` if any flatness is allowed.
 pub(super) fn needs_flat_strokes(scene: &Scene) -> Option<String> {
     match scene.style.settings().preparation().solver {
         _ if presets::is_paper(scene) => Some(format!("the preset \"{PAPER_PRESET}\"")),

@@ -1,5 +1,5 @@
-//! Keys: values that a scene file states for single frames. The keys of things that stand somewhere (camera, objects) are poses and
-//! are declared with those; here are the keys of lights, of the background and of strokes.
+//! Keys: values that a scene file states for single frames. The keys of the camera and of objects are poses, declared
+//! in `document` itself; here are the keys of lights, of the background and of strokes.
 
 use serde::{Deserialize, Serialize};
 
@@ -38,8 +38,8 @@ macro_rules! keys {
 
 keys!(BackgroundKey, CameraKey, LightKey, ObjectKey, StrokesKey);
 
-/// The values of a light at a frame. A value that is left out stays as the key before it has it; until a key states it, it is that of
-/// the light itself.
+/// The values of a light at a frame. A value that is left out holds on from the key before. Until a key states it, the
+/// light's own value holds.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct LightKey {

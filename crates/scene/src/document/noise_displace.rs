@@ -131,7 +131,7 @@ pub enum NoiseAlpha {
 }
 
 impl NoiseDisplace {
-    /// The picture files that it names, each with the field that names it.
+    /// The picture files that it names, each with the path of its field inside the object's material.
     pub fn textures(&self) -> impl Iterator<Item = (&String, &'static str)> {
         let vertex = self.vertex.as_ref().and_then(|vertex| vertex.texture.as_ref());
         let surface = self.surface.as_ref().and_then(|surface| surface.texture.as_ref());

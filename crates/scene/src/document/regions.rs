@@ -93,7 +93,7 @@ pub enum Patch {
     Flood(Seed, f64),
 }
 
-/// Where a flood begins: at the face nearest to a place, of those that face as the normal does. In the object's own
+/// Where a flood begins: at the face nearest to `at`, of those that face the way `normal` points. In the object's own
 /// space.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -301,7 +301,7 @@ impl Patch {
 }
 
 impl Selector {
-    /// The object that it lies on; none where it may lie on several.
+    /// The object that it lies on; `None` if it may lie on several.
     pub fn object(&self) -> Option<&str> {
         match self {
             Self::Everything | Self::Collection(_) | Self::EachMaterial(_) => None,
@@ -325,7 +325,7 @@ impl Selector {
         }
     }
 
-    /// The patches that it covers on each object that it lies on, in order: one, or those of `Several`.
+    /// What it covers on each object that it lies on: a single patch, or those of `Several` in order.
     pub fn patches(&self) -> Vec<PatchRef<'_>> {
         match self {
             Self::Everything | Self::Object(_) | Self::Collection(_) => vec![PatchRef::Whole],

@@ -1,4 +1,5 @@
-//! The stage of a scene: what the file of its shot brings. The document knows only what a shot can be asked; [`crate::shot`] reads one.
+//! The stage of a scene: what its shot brings. The document knows a shot only as the trait [`Brought`]; [`crate::shot`]
+//! reads the file.
 
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -9,7 +10,8 @@ use impasto_gltf::Posed;
 
 use super::{Lens, Light, Object, Scene};
 
-/// The shot of a scene, if it has one. Equal only to itself: what the file holds is not compared.
+/// The shot of a scene, if it has one. Two stages are equal if they share one shot or both have none; files are not
+/// compared.
 #[derive(Clone, Debug, Default)]
 pub struct Stage {
     /// The shot.
@@ -38,7 +40,7 @@ pub struct Lost {
     pub near: Option<String>,
 }
 
-/// What a shot is looked at through.
+/// The camera of a shot at one time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seen {
     /// World from view: −Z forward, Y up.
@@ -75,11 +77,11 @@ pub trait Brought: Debug + Send + Sync {
     /// Whether things are hidden or shown over time.
     fn changes_visibility(&self) -> bool;
 
-    /// Whether an object shows; one that the shot does not bring does.
+    /// Whether an object shows. Objects that the shot does not bring always do.
     fn is_visible(&self, posed: &Posed, name: &str) -> bool;
 
-    /// The camera that is looked through at a time, seconds, in a picture of this size; `None` where the shot has none. What the
-    /// camera's own picture shows is all inside: a picture of another aspect shows more at two sides.
+    /// The camera at a time in seconds, for a picture of this size in pixels; `None` if the shot has no camera. All
+    /// that the camera's own picture shows is inside: a picture of another aspect shows more at two sides.
     fn camera(&self, time_s: f64, size: (u32, u32)) -> Option<Seen>;
 
     /// Whether a collection holds an object; `None` where the shot knows no such collection.
@@ -88,15 +90,17 @@ pub trait Brought: Debug + Send + Sync {
     /// How much brighter the finished picture is shown, stops.
     fn exposure_stops(&self) -> f32;
 
-    /// A light of the scene: what the document changed stays, the rest is as the shot has it.
+    /// A light of the scene in this pose of the shot: intensity, colour, direction and position are the shot's, unless
+    /// the document changed them.
     fn light(&self, light: &Light, posed: &Posed) -> Light;
 
-    /// Puts the shot on the scene's stage: adds its objects and lights, those that the document states by name overridden, and takes
-    /// its frames and its sky where the document states none. Returns what the shot does not have any more.
+    /// Puts the shot on the scene's stage. Adds its objects and lights, except those whose names the document states
+    /// itself: such an object without a mesh gets the shot's. Takes the shot's frames and sky where the document states
+    /// none. Returns the objects that the document states and the shot no longer has.
     fn enter(self: Arc<Self>, scene: &mut Scene) -> Vec<Lost>;
 
-    /// The document without what it only has from the shot, as it is saved. An object of the shot that was deleted is stated as
-    /// hidden, since it would come back.
+    /// The document as it is saved: without what comes from the shot alone. An object of the shot that was deleted is
+    /// stated as hidden, since it would come back otherwise.
     fn left(&self, scene: &Scene) -> Scene;
 }
 
@@ -111,7 +115,7 @@ impl Scene {
         self.camera.keys.is_empty() && self.stage.shot.as_ref().is_some_and(|shot| shot.has_camera())
     }
 
-    /// The document as it is saved: without what it only has from its shot.
+    /// The document as it is saved: without what comes from its shot alone.
     pub fn without_shot(&self) -> Self {
         self.stage.shot.as_ref().map_or_else(|| self.clone(), |shot| shot.left(self))
     }

@@ -49,7 +49,7 @@ pub enum InspectorPlace {
     Advanced(u8),
 }
 
-/// What most numbers of a kind have in common; a row says what differs.
+/// Starting points for rows, one for each kind of number; a row states what differs.
 const PIXELS: Shown = Shown {
     label: "",
     unit: "px",

@@ -36,7 +36,7 @@ impl Style {
         Self::all().into_iter().find(|style| is_called(style.info()))
     }
 
-    /// The settings, as every style has them.
+    /// The settings, through the trait that all styles share.
     pub fn settings(&self) -> &dyn StyleSettings {
         match self {
             Self::RotatingStrokes(settings) => settings,

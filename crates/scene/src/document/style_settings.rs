@@ -60,7 +60,7 @@ pub struct Preparation {
     pub weave: f64,
     /// What the canvas, or the paper, moves with.
     pub canvas_follows: CanvasFollows,
-    /// How many samples a pixel has, a side.
+    /// How many samples a pixel has along each side.
     pub samples: u32,
     /// How much the paint stands up; 0 is flat.
     pub relief: f64,

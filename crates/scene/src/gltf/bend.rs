@@ -1,4 +1,4 @@
-//! What bends the mesh of a node: its morph targets and its joints, vertex by vertex as the mesh has them.
+//! Collects what bends the mesh of a node: its morph targets and its joints, vertex by vertex.
 
 use std::sync::Arc;
 
@@ -17,15 +17,15 @@ use crate::mesh_file::Points;
 pub(super) struct Run {
     /// Index of the primitive in its mesh.
     pub primitive: usize,
-    /// Where they were placed.
+    /// The transform by which they were placed.
     pub copy: DAffine3,
-    /// The number of the first of them in the joined mesh.
+    /// Index of the first of them in the joined mesh.
     pub first: usize,
-    /// Which vertices of the primitive they are; all of them where it is empty.
+    /// Their indices in the primitive; empty if they are all of its vertices.
     pub kept: Arc<Vec<u32>>,
 }
 
-/// A vertex of a mesh: its primitive, its number there, and where it was placed.
+/// Where a vertex comes from: its primitive, its index there, and the transform by which it was placed.
 struct Origin<'a> {
     primitive: &'a Primitive,
     vertex: usize,
@@ -36,20 +36,21 @@ struct Origin<'a> {
 pub(super) fn bends(file: &GltfFile, node: usize) -> bool {
     let node = &file.gltf.nodes[node];
     let Some(mesh) = node.mesh.map(|mesh| &file.gltf.meshes[mesh]) else { return false };
-    // Copies of a mesh that joints move stay as they rest.
+    // Instanced copies of a skinned mesh are not bent: they stay at rest.
     let is_skinned = node.skin.is_some() && node.instances.is_none();
     is_skinned && mesh.primitives.iter().any(|primitive| primitive.influences.is_some())
         || node.skin.is_none() && mesh.target_count > 0
 }
 
-/// How far the targets and joints of a node have moved, in the space of its mesh file.
+/// The weights of a node's targets and the transforms of its joints, in the space of its mesh file.
 pub(super) fn pose(file: &GltfFile, node: usize, posed: &Posed) -> BendPose {
     let weights = posed.weights[node].clone();
     let skin = file.gltf.nodes[node].skin.map(|skin| &file.gltf.skins[skin]);
     BendPose { weights, joints: skin.map_or(Vec::new(), |skin| posed.world_from_bound(skin)) }
 }
 
-/// What bends a node's mesh. `source_of_vertex` says which joined vertex each vertex of the mesh is.
+/// What bends a node's mesh. `source_of_vertex` gives, for each vertex of the mesh, its index among the joined
+/// vertices.
 pub(super) fn of(
     file: &GltfFile,
     node: usize,
@@ -79,7 +80,7 @@ pub(super) fn of(
         let placed = if is_skinned { DAffine3::IDENTITY } else { origin.copy };
         let position = wide(origin.primitive.positions[origin.vertex]);
         let turn = cofactors(placed.matrix3);
-        // Where the file has no normal, the one that was made for the mesh at rest is led back.
+        // Without a normal in the file, the one made for the mesh at rest is taken back to the unbent mesh.
         let normal = match &origin.primitive.normals {
             Some(normals) => turn * wide(normals[origin.vertex]),
             None => unmoved(origin, &rest, is_skinned).transpose() * mesh_at_rest.normals[vertex].as_dvec3(),
@@ -100,7 +101,8 @@ pub(super) fn of(
     bend
 }
 
-/// The points at which the vertices of a node's mesh lie.
+/// The point, in the sense of a point cache, at which each vertex of a node's mesh lies. `None` if the file does not
+/// state all of them.
 pub(super) fn points(file: &GltfFile, node: usize, runs: &[Run], source_of_vertex: &[u32]) -> Option<Points> {
     let mesh = &*file.gltf.meshes[file.gltf.nodes[node].mesh?];
     let all = mesh.primitives.iter().filter_map(|primitive| primitive.points.as_ref());
@@ -124,7 +126,7 @@ fn origin<'a>(mesh: &'a Mesh, runs: &[Run], source: usize) -> Origin<'a> {
     Origin { primitive: &mesh.primitives[run.primitive], vertex, copy: run.copy }
 }
 
-/// What joints did to the surroundings of a vertex at rest.
+/// The linear part of the transform that took the surroundings of a vertex from the unbent mesh to the rest.
 fn unmoved(origin: &Origin<'_>, rest: &BendPose, is_skinned: bool) -> DMat3 {
     match origin.primitive.influences.as_ref().filter(|_| is_skinned) {
         Some(influences) => blended(&rest.joints, influences, origin.vertex).matrix3,
@@ -132,7 +134,7 @@ fn unmoved(origin: &Origin<'_>, rest: &BendPose, is_skinned: bool) -> DMat3 {
     }
 }
 
-/// The joints of all vertices. One of a primitive without joints hangs on the first joint.
+/// The joints and weights of all vertices. A vertex of a primitive without joints hangs on the first joint.
 fn skin_weights(origins: &[Origin<'_>]) -> SkinWeights {
     let of = |origin: &Origin<'_>| origin.primitive.influences.as_ref().map_or(1, |all| all.per_vertex);
     let per_vertex = origins.iter().map(of).max().unwrap_or(1);

@@ -1,9 +1,9 @@
-//! Where joints take vertices and normals.
+//! Blends the transforms of the joints that move a vertex.
 
 use glam::DAffine3;
 use impasto_gltf::Influences;
 
-/// The mean of the joints that move a vertex.
+/// The weighted mean of the transforms of the joints that move a vertex.
 pub(super) fn blended(joints: &[DAffine3], influences: &Influences, vertex: usize) -> DAffine3 {
     let of_vertex = vertex * influences.per_vertex..(vertex + 1) * influences.per_vertex;
     let mut sum = DAffine3::ZERO;

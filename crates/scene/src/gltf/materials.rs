@@ -13,13 +13,14 @@ use crate::texture;
 /// The colour (sRGB) of whatever has no material, as in OBJ files.
 const GREY: [f32; 3] = [0.8; 3];
 
-/// The share of its colour that smooth metal lacks as a matt surface.
+/// How much darker fully smooth metal is drawn than its colour, as a share of the colour.
 const METAL_DARK: f32 = 0.2;
 
-/// Light that a surface gives off by itself counts as the whole of its look from this share of its own colour on.
+/// A surface glows, and is drawn by its emission alone, if that is brighter than its colour times this.
 const GLOWS: f32 = 1.0;
 
-/// The file's materials, and last the one of primitives without any. Pictures that cannot be used are left out with a warning.
+/// The file's materials, and last the one for primitives that name none. Pictures that cannot be used are left out with
+/// a warning.
 pub(super) fn of(path: &Path, gltf: &Gltf, warnings: &mut Vec<Problem>) -> Vec<Material> {
     let mut pictures: Vec<Option<Option<Arc<Texture>>>> = vec![None; gltf.images.len()];
     let mut picture = |index: usize, warnings: &mut Vec<Problem>| -> Option<Arc<Texture>> {
@@ -32,7 +33,8 @@ pub(super) fn of(path: &Path, gltf: &Gltf, warnings: &mut Vec<Problem>) -> Vec<M
         let used = used.map(|used| &gltf.textures[used.texture]);
         let texture = used.and_then(|used| used.image).and_then(|image| picture(image, warnings));
         let sampler = used.map_or(Sampler::default(), |used| used.sampler);
-        // Alpha is that of the base colour: a picture of emission has none.
+        // Alpha is in the base colour's picture, which a glowing surface does not show. Only a cutoff that hides all
+        // still counts.
         let cutoff = cutoff(stated).filter(|cutoff| !glows || *cutoff > 1.0);
         if stated.alpha == AlphaMode::Blend && cutoff.is_some_and(|cutoff| cutoff > 1.0) {
             warnings.push(unseen(path, materials.len(), &stated.name));
@@ -43,7 +45,8 @@ pub(super) fn of(path: &Path, gltf: &Gltf, warnings: &mut Vec<Problem>) -> Vec<M
     materials
 }
 
-/// Below which alpha of its picture there is no surface: strokes are there or not, so half a veil is the border.
+/// The alpha of the picture below which there is no surface; `None` for an opaque material. Strokes are there or not,
+/// so a blended material is cut where it is half clear.
 fn cutoff(stated: &Stated) -> Option<f32> {
     const HALF: f32 = 0.5;
     let of_all = match stated.alpha {
@@ -54,7 +57,7 @@ fn cutoff(stated: &Stated) -> Option<f32> {
     Some(of_all / stated.values.base_color[3].max(1e-6))
 }
 
-/// A warning that a material is too clear to be painted.
+/// A warning that a material is too transparent to be painted.
 fn unseen(path: &Path, index: usize, name: &str) -> Problem {
     Problem {
         severity: Severity::Warning,
@@ -68,7 +71,7 @@ fn unseen(path: &Path, index: usize, name: &str) -> Problem {
     }
 }
 
-/// Whether what the surface gives off by itself outshines its colour.
+/// Whether the surface's emission is brighter than its colour.
 fn glows(stated: &Stated) -> bool {
     let most = |color: [f32; 3]| color.into_iter().fold(0.0f32, f32::max);
     let [r, g, b, _] = stated.values.base_color;
@@ -84,8 +87,9 @@ fn plain(stated: &Stated, glows: bool) -> Material {
     } else {
         [r, g, b]
     };
-    // A roughness of a half, which exporters write for a plain surface, is a quarter glazed, as with OBJ files. Metal is darker, since
-    // its colour is that of its highlights. Where a picture says how metallic a place is, the factor says nothing.
+    // Roughness 0.5, which exporters write for a plain surface, gives a gloss of 0.25, as with OBJ files. Metal is
+    // darker, since its colour is that of its highlights. If a picture says where the surface is metallic, the factor
+    // is ignored.
     let smooth = 1.0 - stated.values.roughness.clamp(0.0, 1.0);
     let is_metal = !glows && stated.metallic_roughness_texture.is_none();
     let metallic = if is_metal { stated.values.metallic.clamp(0.0, 1.0) } else { 0.0 };

@@ -1,8 +1,8 @@
 //! Reads glTF files (`.gltf`, `.glb`) as mesh files: the whole file as it rests, or one node of it. `crate::shot` reads them as
 //! shots.
 //!
-//! A node's mesh keeps the size that it has in the file: the stretch of its place in the world at rest is applied to it, turn and
-//! place are left to the scene. Each primitive is a group; materials keep their names.
+//! A node's mesh includes the uneven scale and shear of the node's place in the world at rest. Turn, place and even
+//! scale are left to the object's pose. Each primitive is a group; materials keep their names.
 
 mod bend;
 mod joints;
@@ -45,10 +45,11 @@ pub(crate) struct GltfFile {
     pub sidecar: Sidecar,
 }
 
-/// Reads a glTF file with the files that it names. As everywhere, those come from `root`, the scene's folder, and from `folders`.
+/// Reads a glTF file with the files that it names. These must lie in `root`, the scene's folder, or in `folders`.
 ///
 /// # Errors
-/// All that is wrong, each with its JSON pointer, as [`impasto_gltf::read`] finds it.
+/// All errors, each with its JSON pointer, as [`impasto_gltf::read`] finds them; or that the file or its sidecar cannot
+/// be read.
 pub(crate) fn open(
     path: &Path,
     root: &Path,
@@ -64,11 +65,11 @@ pub(crate) fn open(
     let (mut gltf, findings) = impasto_gltf::read(bytes, &mut open)
         .map_err(|findings| Report(findings.into_iter().map(problem).collect()))?;
     let mut warnings: Vec<Problem> = findings.into_iter().map(problem).collect();
-    // Only an animation that is asked for by name may be missing.
+    // This does not fail: only an animation that is asked for by name may be missing.
     let unnamed = |_| Report(Vec::new());
     let rest = Animator::new(&gltf, Playing::None).map_err(unnamed)?.0.pose(0.0);
     let materials = materials::of(path, &gltf, &mut warnings);
-    // The bytes of pictures are those of the whole file; decoded, they are not needed any more.
+    // The pictures' bytes keep the whole file in memory. Once decoded, they are not needed any more.
     gltf.images.iter_mut().for_each(|image| image.bytes = None);
     let mut in_scene = vec![false; gltf.nodes.len()];
     let mut open = gltf.roots.clone();
@@ -100,7 +101,7 @@ pub(crate) fn companions(path: &Path, root: &Path) -> Result<BTreeSet<PathBuf>, 
 }
 
 impl GltfFile {
-    /// The file as it rests, as one mesh; groups are its nodes.
+    /// The whole file at rest as one mesh, with a group for each node.
     ///
     /// # Errors
     /// It shows no triangle.
@@ -112,7 +113,7 @@ impl GltfFile {
         surface::mesh_of_nodes(self, nodes).ok_or_else(|| self.bare("the file shows no triangle"))
     }
 
-    /// The mesh of one node, stretched as in the file.
+    /// The mesh of one node, with its [`Self::stretch`] applied.
     ///
     /// # Errors
     /// There is no such node, or it shows no triangle.
@@ -134,7 +135,7 @@ impl GltfFile {
         bend::bends(self, node)
     }
 
-    /// How far the targets and joints of a node have moved, in the space of its mesh file.
+    /// The weights of a node's targets and the transforms of its joints, in the space of its mesh file.
     pub fn bend_pose(&self, node: usize, posed: &Posed) -> BendPose {
         bend::pose(self, node, posed)
     }
@@ -149,7 +150,8 @@ impl GltfFile {
         self.gltf.nodes.iter().position(|node| node.name == name)
     }
 
-    /// What a node's mesh depends on; `None` where that is more than the mesh of the file and its stretch.
+    /// A key that is equal for nodes with equal meshes. `None` if there is no such mesh, or if it depends on more than
+    /// the file's mesh and its stretch.
     pub fn instance_key(&self, name: &str) -> Option<InstanceKey> {
         let index = self.node(name)?;
         let node = &self.gltf.nodes[index];
@@ -158,8 +160,8 @@ impl GltfFile {
         node.mesh.filter(|_| is_plain).map(|mesh| (mesh, stretch))
     }
 
-    /// What is applied to the mesh of a node: the stretch of its place in the world at rest. Nothing for a skinned one, which stands
-    /// where its joints put it.
+    /// The matrix that is applied to the mesh of a node: the stretch of its place in the world at rest. The identity
+    /// for a skinned mesh, which its joints place.
     pub fn stretch(&self, node: usize) -> DMat3 {
         match self.gltf.nodes[node].skin {
             Some(_) => DMat3::IDENTITY,
@@ -218,5 +220,5 @@ pub fn is_gltf(path: &Path) -> bool {
 /// A mesh of the file, and the bits of the stretch that is applied to it.
 pub(crate) type InstanceKey = (usize, [u64; 9]);
 
-/// Shared by all who name the file in one scene.
+/// A file that was read, shared by all who name it in one scene.
 pub(crate) type Shared = Arc<GltfFile>;

@@ -14,13 +14,13 @@ use crate::problem::{Problem, Report, Severity};
 /// The largest sidecar that is read, in bytes.
 const MAX_BYTES: u64 = 64 << 20;
 
-/// A shift of a lens beyond this is refused: half widths and heights of the picture.
+/// The largest shift of a lens that is accepted, in half widths and half heights of the picture.
 const MOST_SHIFT: f64 = 1000.0;
 
-/// Light from all around beyond this is refused, W/m²/sr.
+/// The brightest light from all around that is accepted, W/m²/sr.
 const MOST_LIGHT: f64 = 1e6;
 
-/// What a sidecar says; each field may be left out.
+/// What a sidecar says; each field but `version` may be left out.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 pub(crate) struct Sidecar {
     #[serde(default)]
@@ -58,7 +58,7 @@ pub(crate) struct Sidecar {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub(crate) struct Cut {
     pub frame: f64,
-    /// The name of its node.
+    /// The name of the camera's node.
     pub camera: String,
 }
 
@@ -76,7 +76,7 @@ pub(crate) fn path_beside(path: &Path) -> PathBuf {
     path.with_extension("impasto.json")
 }
 
-/// Reads the sidecar of a glTF file; without one, nothing is said.
+/// Reads the sidecar of a glTF file. A file without one gets a sidecar that states nothing.
 ///
 /// # Errors
 /// It cannot be read, or says what makes no sense.
@@ -92,7 +92,7 @@ pub(super) fn read(path: &Path, root: &Path, folders: &AssetFolders) -> Result<S
         Err(AssetError::Missing { .. }) => return Ok(Sidecar::default()),
         Err(error) => return Err(Report(vec![error.to_problem(Severity::Error, &beside, None)])),
     };
-    // Whoever names the file has its place: that in the sidecar stands in the words.
+    // The problem's place will be where the scene names the shot, so the place in the sidecar goes into the message.
     let found = serde_json::from_slice::<Sidecar>(&asset.bytes).map_err(|error| {
         let words = error.to_string();
         let message = words.split(" at line ").next().unwrap_or(&words).to_owned();
@@ -124,7 +124,7 @@ pub(super) fn companions(path: &Path, root: &Path) -> Result<Vec<PathBuf>, Repor
 }
 
 impl Sidecar {
-    /// What makes no sense in it.
+    /// The first thing in it that makes no sense, in words.
     fn fault(&self) -> Option<String> {
         if self.version != 1 {
             return Some(format!("its version is {}, and only version 1 is known", self.version));
@@ -168,9 +168,10 @@ impl Sidecar {
             .then(|| format!("`exposure_stops` is {exposure}: from -16 to 16"))
     }
 
-    /// The camera that is looked through at a frame; `None` where no cut says so. Before the first cut, its camera.
+    /// The node name of the camera at a frame: that of the last cut up to then, or of the first cut before it. `None`
+    /// without cuts.
     pub fn camera_at(&self, frame: f64) -> Option<&str> {
-        /// What rounding of times leaves over.
+        /// Tolerance for rounded times, in frames.
         const OFF: f64 = 1e-4;
         let after = self.cuts.partition_point(|cut| cut.frame <= frame + OFF);
         self.cuts.get(after.saturating_sub(1)).map(|cut| cut.camera.as_str())

@@ -1,16 +1,17 @@
-//! Parts a matrix into a turn and a stretch, so that a body that is only moved can be told from one that changes its shape.
+//! Splits a matrix into a turn and a stretch, so that a body that is only moved can be told from one that changes its
+//! shape.
 
 use glam::DMat3;
 
-/// Two stretches count as the same scale along all axes up to this difference.
+/// A stretch counts as an even scale if it differs from one by at most this share.
 const EVEN: f64 = 1e-5;
 
-/// Steps of the iteration; each doubles the digits that are right.
+/// The most steps of the iteration; each doubles the digits that are right.
 const STEPS: usize = 60;
 
-/// The symmetric stretch S of `matrix` = Q S with a turn Q (polar decomposition, Higham 1986). A mirrored one is −S, so that Q stays a
-/// turn. The identity where the matrix only turns and scales evenly: that is left to the pose. The identity, too, for a flat matrix,
-/// which has no Q.
+/// The symmetric stretch S of `matrix` = Q S with a turn Q (polar decomposition, Higham 1986). For a mirroring matrix
+/// it is −S, so that Q stays a turn. It is the identity for a matrix that only turns and scales evenly, which is left
+/// to the pose, and for a singular matrix, which has no Q.
 pub(crate) fn stretch_of(matrix: DMat3) -> DMat3 {
     let determinant = matrix.determinant();
     let size = matrix.to_cols_array().iter().fold(0.0f64, |most, value| most.max(value.abs()));
@@ -26,7 +27,7 @@ pub(crate) fn stretch_of(matrix: DMat3) -> DMat3 {
             break;
         }
     }
-    // Of a mirrored matrix, the turn found here is one with a reflection.
+    // For a mirroring matrix, the iteration ends in a turn with a reflection.
     let turn = if determinant < 0.0 { -turn } else { turn };
     let stretch = turn.transpose() * matrix;
     let even = determinant.abs().cbrt();

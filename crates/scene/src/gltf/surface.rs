@@ -27,7 +27,7 @@ pub(super) fn mesh_of_nodes<'a>(
 pub(super) fn mesh_of_node(file: &GltfFile, node: (usize, DAffine3)) -> Option<MeshFile> {
     let mut joined = Joined::default();
     let bends = bend::bends(file, node.0);
-    // Points are those of one mesh: of copies, only the first would move.
+    // Points are numbered for one copy of the mesh: with instances, a cache would move only the first.
     let of_file = &file.gltf.nodes[node.0];
     let has_points = of_file.instances.is_none()
         && of_file.mesh.is_some_and(|mesh| {
@@ -63,7 +63,7 @@ impl Joined {
             let groups = self.groups_of_faces(mesh, primitive, group);
             for copy in &copies {
                 let first = self.geometry.positions.len();
-                // Only what bends asks where its vertices come from.
+                // Only bending and point caches need to know where vertices come from.
                 if self.geometry.keeps_vertices {
                     let kept = Arc::clone(&vertices.kept);
                     self.runs.push(Run { primitive: number, copy: *copy, first, kept });
@@ -94,12 +94,12 @@ struct Vertices {
     colors: Option<Vec<[u8; 3]>>,
     /// The corners of each triangle.
     triangles: Arc<Vec<[u32; 3]>>,
-    /// Which vertices of the primitive these are; all of them where it is empty.
+    /// Their indices in the primitive; empty if they are all of its vertices.
     kept: Arc<Vec<u32>>,
 }
 
 impl Vertices {
-    /// Morphed by the weights at rest, and moved by the joints.
+    /// The vertices of a primitive, morphed by the weights at rest and moved by the joints.
     fn of(file: &GltfFile, node: &Node, mesh: &Mesh, primitive: &Primitive) -> Self {
         let wide = |of: &[f32; 3]| DVec3::from(of.map(f64::from));
         let mut positions: Vec<DVec3> = primitive.positions.iter().map(wide).collect();
@@ -168,7 +168,7 @@ impl Vertices {
     }
 }
 
-/// Texture coordinates of the picture that shows, V up, moved as the material says.
+/// Texture coordinates of the base colour's picture, or else of the emission's: V up, moved as the material says.
 fn uvs_of(file: &GltfFile, primitive: &Primitive) -> Option<Vec<Vec2>> {
     let material = &file.gltf.materials.get(primitive.material?)?;
     let used = material.base_color_texture.or(material.emissive_texture)?;
@@ -184,7 +184,7 @@ fn uvs_of(file: &GltfFile, primitive: &Primitive) -> Option<Vec<Vec2>> {
 #[derive(Default)]
 struct Joined {
     geometry: Geometry,
-    /// Where its vertices come from.
+    /// Where its vertices come from; empty unless the geometry keeps vertices apart.
     runs: Vec<Run>,
     groups: Vec<String>,
     group_of_face: Vec<u32>,
@@ -224,7 +224,7 @@ impl Joined {
             Some(normals) => self.geometry.normals.extend(normals.iter().map(unit)),
             None => self.geometry.normals.extend(std::iter::repeat_n(None, count)),
         }
-        // Joined with others that have colours, a primitive without is white.
+        // If other primitives have colours, one without is white.
         if vertices.colors.is_some() || !self.geometry.colors.is_empty() {
             self.geometry.colors.resize(first as usize, [255; 3]);
             match &vertices.colors {
@@ -236,7 +236,7 @@ impl Joined {
             Some(uvs) => self.geometry.uvs.extend(uvs.iter().copied().map(Some)),
             None => self.geometry.uvs.extend(std::iter::repeat_n(None, count)),
         }
-        // A mirrored surface shows its other side.
+        // Mirroring reverses the winding; it is turned back here.
         let is_mirrored = placed.matrix3.determinant() < 0.0;
         for &[a, b, c] in vertices.triangles.iter() {
             let corners = if is_mirrored { [a, c, b] } else { [a, b, c] };
@@ -247,7 +247,8 @@ impl Joined {
         self.material_of_face.extend(std::iter::repeat_n(material, faces));
     }
 
-    /// The mesh, and of which joined vertex each of its vertices comes, where vertices are kept apart.
+    /// The mesh and, if vertices are kept apart, the joined vertex from which each of its vertices comes. `None`
+    /// without triangles.
     fn finish(self, file: &GltfFile) -> Option<(MeshFile, Vec<u32>)> {
         let Built { mut mesh, face_of_triangle: faces, source_of_vertex } =
             Builder::new(&self.geometry).finish();

@@ -28,7 +28,7 @@ impl LoadedScene {
         let reader = MeshReader::default();
         let is_same = scene.shot == self.scene.shot && Choice::of(&scene) == Choice::of(&self.scene);
         let (lost, of_shot) = match self.scene.stage.shot.as_ref().filter(|_| is_same) {
-            // Already on the stage of a document that was edited, but not on that of one that was read.
+            // A document that was edited has the shot on its stage already; one that was read does not.
             Some(shot) if scene.stage.shot.is_none() => {
                 let lost = Arc::clone(shot).enter(&mut scene);
                 (lost.into_iter().map(super::lost_object).collect(), Vec::new())
@@ -78,8 +78,8 @@ impl LoadedScene {
         })
     }
 
-    /// The parts of another document that need no new check, because they equal parts of this one. This one has passed:
-    /// its morphs fit, and guides that no warning names lie on their surfaces.
+    /// The parts of `scene` that need no new check, because they equal parts of this scene. This scene has passed the
+    /// checks: its morphs fit, and guides and dabs that no warning names lie on their surfaces.
     fn known_in(&self, scene: &Scene) -> check::Known {
         let old = &self.scene;
         let same_surface = |old: &Object, new: &Object| {

@@ -1,4 +1,4 @@
-//! Reads the meshes and pictures that a document names.
+//! Reads the meshes, point caches and pictures that a document names.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -91,7 +91,7 @@ pub(super) fn has_cache(scene: &Scene, mesh: &str) -> bool {
     scene.objects.iter().any(|object| object.mesh == mesh && object.cache.is_some())
 }
 
-/// Each picture that materials name, with every field that names it, in the order of the file.
+/// Each use of a picture by a material: its name, and the path of the field that names it, in the order of the file.
 pub(super) fn textures(scene: &Scene) -> impl Iterator<Item = (&String, String)> {
     scene.objects.iter().enumerate().flat_map(|(index, object)| {
         let textures = object.material.iter().flat_map(crate::document::MaterialOverride::textures);
@@ -99,7 +99,7 @@ pub(super) fn textures(scene: &Scene) -> impl Iterator<Item = (&String, String)>
     })
 }
 
-/// Each name that objects give, with the field that gives it first, in the order of the file.
+/// Each different name that objects give in a field, with the path of the first such field, in the order of the file.
 pub(super) fn first_uses<'a>(
     scene: &'a Scene,
     name_of: impl Fn(&'a crate::document::Object) -> Option<&'a String>,

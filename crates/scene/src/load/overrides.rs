@@ -46,9 +46,9 @@ pub(super) fn apply(
     Ok((parsed, applied))
 }
 
-/// The text of a scene with values put in, as a person would: nothing else of it changes. A path that ends in `+` adds the value to a
-/// list, at its end or, as in `regions[2]+`, before one of its items; an empty value takes the field or the item out, so that it is as if
-/// it had never been stated.
+/// The text of a scene with values put in; the rest of the text stays as it is. A path that ends in `+` adds the value
+/// to a list: at its end or, as in `regions[2]+`, before one of its items. An empty value removes the field or the
+/// item. `path` is for messages only.
 ///
 /// # Errors
 /// The text is no scene, or a value does not fit.
@@ -71,7 +71,7 @@ pub fn edited_text(path: &Path, text: &str, values: &[(String, String)]) -> Resu
             put_in(&parsed, field_path, value, &option)?.0
         };
     }
-    // What is stated must make sense with the rest; what was wrong before stays for its own mend.
+    // Values that bring a new fatal finding are refused. Findings that the text had before are not their fault.
     let found = fatal_findings(&parsed).into_iter().find(|finding| !known.contains(finding));
     match found {
         None => Ok(parsed.located.text().to_owned()),
@@ -81,12 +81,12 @@ pub fn edited_text(path: &Path, text: &str, values: &[(String, String)]) -> Resu
     }
 }
 
-/// What makes the document unusable, its files left aside.
+/// The fatal findings about the document, without its files.
 fn fatal_findings(parsed: &Parsed) -> Vec<Finding> {
     check::check(&parsed.scene).into_iter().filter(|finding| finding.severity.is_fatal()).collect()
 }
 
-/// Where another item of a list goes.
+/// Where a new item goes: at the end of a list, or before the item that `field_path` names.
 fn end_of_list(located: &Located, field_path: &str) -> Result<Spot, Fault> {
     let spot = find_spot(located, field_path)?;
     if spot.start == spot.end {
@@ -100,7 +100,7 @@ fn end_of_list(located: &Located, field_path: &str) -> Result<Spot, Fault> {
     let Some(inside) = text.strip_prefix('[').and_then(|rest| rest.strip_suffix(']')) else {
         return Err((format!("`{field_path}` is no list"), "set it as a whole, without `+`".to_owned()));
     };
-    // The last item may be followed by a comma, and by a comment.
+    // The new item goes right behind the last one, which a comma and a comment may follow.
     let last = match located.node_at(&spot.field_path).map(|node| &located.through_some(node).inside) {
         Some(Inside::Items(items)) => items.last().map(|item| item.end as usize),
         _ => None,
@@ -111,7 +111,7 @@ fn end_of_list(located: &Located, field_path: &str) -> Result<Spot, Fault> {
     Ok(Spot { start: last, end: last, before: format!(",{}", gap_in(inside)), ..spot })
 }
 
-/// Where a further item goes before one that is there.
+/// Where a new item goes before the one at `spot`.
 fn before_item(located: &Located, spot: Spot) -> Spot {
     let head = &located.text()[..spot.start];
     let blank = &head[head.trim_end().len()..];
@@ -119,15 +119,15 @@ fn before_item(located: &Located, spot: Spot) -> Spot {
     Spot { end: spot.start, after: format!(",{gap}"), ..spot }
 }
 
-/// What stands between two parts of a value: a new line, indented as the first part is, where that is on a line of its own. `inside` is
-/// the text behind the bracket.
+/// What to write between two parts of a value: a line end and the indent of the first part, if that begins a line, else
+/// a space. `inside` is the text behind the opening bracket.
 fn gap_in(inside: &str) -> String {
     let lead = inside.trim_start_matches([' ', '\t', '\r', '\n']);
     let blank = &inside[..inside.len() - lead.len()];
     blank.rsplit_once('\n').map_or_else(|| " ".to_owned(), |(_, indent)| format!("\n{indent}"))
 }
 
-/// The text without a field; `None` where it is not stated.
+/// The text without a field or an item of a list; `None` if the text does not state it.
 fn without_field(located: &Located, field_path: &str) -> Result<Option<String>, Fault> {
     let spot = find_spot(located, field_path)?;
     if spot.start == spot.end {
@@ -147,7 +147,7 @@ fn without_field(located: &Located, field_path: &str) -> Result<Option<String>, 
     let behind = &text[end..];
     if let Some(rest) = behind.trim_start().strip_prefix(',') {
         end = text.len() - rest.len();
-        // A line of its own goes as a whole.
+        // If it fills a line, the whole line goes.
         let line = text[..start].trim_end_matches([' ', '\t']);
         if line.ends_with('\n') && rest.trim_start_matches([' ', '\t', '\r']).starts_with('\n') {
             start = line.len();
@@ -183,8 +183,8 @@ fn put_at(parsed: &Parsed, spot: &Spot, value: &str, option: &Path) -> Result<Pa
     Err(Report(problems.into_iter().map(|problem| Problem { place: None, ..problem }).collect()))
 }
 
-/// What is tried in turn. First the value as it is, if it is a single RON value; then the value between quotes, so that
-/// a user can write text without quoting it for RON.
+/// The texts to try for a value, in order: the value as it is, if it is a single RON value, then the value between
+/// quotes, so that a user can write text without quoting it for RON.
 fn candidates(value: &str) -> Vec<String> {
     let value = value.trim();
     let as_it_is = Located::scan(value).ok().map(|located| located.text_of(located.root()).to_owned());
@@ -306,13 +306,13 @@ fn new_field(located: &Located, node: &Node, field_path: &str, known: String) ->
     Ok(spot)
 }
 
-/// The spot behind the last field of a struct; `inside` is where its first bracket ends.
+/// The spot behind the last field of a struct; `inside` is the offset behind its opening bracket.
 fn after_last(located: &Located, node: &Node, inside: usize) -> Spot {
     let text = located.text();
     let gap = gap_in(&text[inside..node.end as usize]);
     let Inside::Fields(fields) = &node.inside else { return Spot::default() };
     let last = fields.iter().map(|field| field.value.end as usize).max().unwrap_or(inside);
-    // A note at the end of the last field's line is about that field.
+    // A comment at the end of the last field's line belongs to that field, so the new field goes behind it.
     let tail = &text[last..node.end as usize];
     let line = tail.split('\n').next().unwrap_or_default();
     if tail.trim_start().starts_with(',') && line.contains("//") && gap.starts_with('\n') {

@@ -63,7 +63,7 @@ fn is_mistyped(error: &SpannedError, problems: &[Problem]) -> bool {
     problems.iter().any(|problem| problem.mend.starts_with(&suggestion))
 }
 
-/// The version is looked at before anything else: a newer file may have any fields.
+/// Checks the version. It is checked before anything else, since a newer file may have any fields.
 pub(super) fn check_version(path: &Path, located: &Located) -> Result<(), Problem> {
     let Inside::Fields(_) = &located.root().inside else { return Ok(()) };
     let place = |node: &Node| Some(located.place(node.start as usize));
@@ -102,7 +102,7 @@ pub(super) fn is_newer(located: &Located) -> bool {
     digits.and_then(|digits| digits.parse::<u64>().ok()).is_some_and(|said| said > u64::from(Scene::VERSION))
 }
 
-/// The document in a text, of which `located` knows where everything stands; parts of it may be blanked out.
+/// Parses the document in `text`. `located` is the scan of this text before parts of it were blanked out.
 pub(super) fn from_ron(located: &Located, text: &str) -> Result<Scene, SpannedError> {
     let scene: Scene = ron::Options::default()
         .with_default_extension(Extensions::IMPLICIT_SOME)
@@ -119,7 +119,8 @@ pub(super) fn from_ron(located: &Located, text: &str) -> Result<Scene, SpannedEr
     }
 }
 
-/// What may be left out where a scene has a shot, and is left out: the field, and where it could stand.
+/// The first field that `text` leaves out although only a scene with a shot may: its name, and the offset where it
+/// could be.
 fn left_to_shot(located: &Located, text: &str) -> Option<(&'static str, usize)> {
     fn field<'a>(located: &'a Located, text: &str, node: &'a Node, name: &str) -> Option<&'a Node> {
         let Inside::Fields(fields) = &node.inside else { return None };
@@ -203,7 +204,8 @@ pub(super) fn blank_range(text: &mut String, range: Range<usize>) {
     text.replace_range(range, &blanked);
 }
 
-/// The problem to report for an error of the parser between two offsets; `unknown` is the field that it complains of.
+/// The problem to report for an error of the parser between two offsets; `unknown` is the field that the parser does
+/// not know.
 pub(super) fn explain(
     path: &Path,
     located: &Located,

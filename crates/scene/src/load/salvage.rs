@@ -108,7 +108,7 @@ pub fn salvage_text(path: &Path, text: &str, options: &LoadOptions) -> Result<Sa
     Err(reading.given_up())
 }
 
-/// Index of a loss in the list; none where the list was full, so that the loss is only counted.
+/// Index of a loss in the list; `None` if the list was full, so that the loss was only counted.
 type Listed = Option<usize>;
 
 /// A text from which errors are removed pass by pass.
@@ -119,7 +119,7 @@ struct Reading<'a> {
     losses: Vec<Loss>,
     /// The ranges that were overwritten, each with the loss that it belongs to.
     blanked: Vec<(std::ops::Range<usize>, Listed)>,
-    /// The names of the scene's own fields that were overwritten, as they were written.
+    /// The names of the scene's outermost fields that were overwritten, as the text writes them.
     of_scene: Vec<String>,
     /// Whether the end of the text was cut off.
     is_cut: bool,
@@ -333,7 +333,7 @@ impl Reading<'_> {
         Ok(!fatal.is_empty())
     }
 
-    /// Notes the name of the scene's own field that begins here, if one does: it is about to be overwritten.
+    /// If an outermost field of the scene begins at `start`, notes its name, since it is about to be overwritten.
     fn note_of_scene(&mut self, located: &Located, start: usize) {
         let Inside::Fields(fields) = &located.root().inside else { return };
         let field = fields.iter().find(|field| field.key.start as usize == start);
@@ -347,8 +347,8 @@ impl Reading<'_> {
         true
     }
 
-    /// Overwrites a field or an item of a list with spaces. If it was overwritten before, does so with the value around
-    /// it.
+    /// Overwrites a field or an item of a list with spaces; if that is overwritten already, the value around it
+    /// instead.
     fn blank_for(&mut self, located: &Located, field_path: &str, loss: Listed) -> Result<(), Report> {
         let mut path = field_path.to_owned();
         loop {

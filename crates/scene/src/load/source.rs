@@ -27,7 +27,7 @@ fn unreadable(path: &Path, error: &std::io::Error) -> Problem {
     error_in(path, None, format!("the file cannot be read: {error}"), "check the path and the permissions")
 }
 
-/// Reads a scene file whole, at most [`limits::MAX_SCENE_BYTES`] of it.
+/// Reads a scene file. One that is longer than [`limits::MAX_SCENE_BYTES`] is refused.
 pub(super) fn read(path: &Path) -> Result<Vec<u8>, Problem> {
     check_regular(path)?;
     let failed = |error| unreadable(path, &error);

@@ -1,12 +1,12 @@
-//! Tests of what a shot moves, with a shot whose answers tell the time that it was asked for.
+//! Tests of what a shot moves, with a shot whose values tell the time for which it was asked.
 
 use std::sync::Arc;
 
 use super::*;
 use crate::document::{Light, LightKey, LightKind, Lost, ObjectKey, Scene, Seen};
 
-/// Brings `thing`, which stands at the time as X, bends by it and is hidden from second 2 on, a camera that stands there too, and a
-/// light as bright as the time.
+/// A shot whose values are the time in seconds: the X of `thing` and of the camera, the weight by which `thing` bends,
+/// the intensity of lights. `thing` is hidden from second 2 on.
 #[derive(Debug)]
 struct Clock;
 
@@ -107,7 +107,7 @@ fn a_shot_is_asked_for_the_second_of_the_frame_that_is_held() {
         scene.objects.iter().map(|object| bends(&scene, object)).collect::<Vec<_>>(),
         [true, true, false]
     );
-    // Keys of an object's own take it from the shot.
+    // The shot does not move an object that has keys of its own.
     let mut keyed = scene;
     keyed.objects[0].keys = vec![ObjectKey { translation: [7.0, 0.0, 0.0], ..ObjectKey::at(0.0) }];
     assert_eq!(poses_at(&keyed, 4.0)[0].translation, DVec3::X * 7.0);

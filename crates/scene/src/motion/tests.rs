@@ -199,7 +199,7 @@ fn a_pose_is_held_for_as_many_frames_as_its_object_says() {
     }
 }
 
-/// What bends an object, and the time that its noise is asked for, are of the frame whose pose it holds.
+/// An object that holds its pose takes its morph, its point cache and its time from the frame of that pose.
 #[test]
 fn an_object_that_holds_its_pose_holds_all_that_moves_it() {
     let mut keys = vec![key(2.0), key(26.0)];
@@ -216,7 +216,8 @@ fn an_object_that_holds_its_pose_holds_all_that_moves_it() {
     close(morphs_at(&scene, 6.5), [0.12, 0.18]);
 }
 
-/// A pose of keys scales and turns, and as a key it is what it was: with an even scale, an uneven one, and one past the limits.
+/// A key that is made from the pose of a key is that key, with an even and an uneven scale. A scale past the limits is
+/// clamped.
 #[test]
 fn a_pose_comes_back_as_a_key() {
     for scale in [[1.0; 3], [2.5; 3], [0.5, 3.0, 1.25]] {

@@ -26,8 +26,8 @@ pub fn lights_at(scene: &Scene, frame: f64) -> Vec<Light> {
     scene.lights.iter().map(at_frame).collect()
 }
 
-/// A light of a scene at a frame: its values are those of that moment, and it has no keys. Without keys, a light of the shot is as the
-/// shot has it then.
+/// A light of a scene at a frame: the light with its values at that moment and without keys. A light of the shot that
+/// has no keys in the scene is as the shot has it then.
 pub fn light_at(scene: &Scene, light: &Light, frame: f64) -> Light {
     match scene.stage.shot.as_ref().filter(|_| light.keys.is_empty()) {
         Some(shot) => shot.light(light, &shot.at(frame / scene.timeline.fps)),
@@ -88,8 +88,8 @@ impl ResolvedStrokes {
         Cow::Owned(strokes)
     }
 
-    /// Frames between which nothing about the strokes changes by much: each key, and some frames between each two. Frame 0 alone
-    /// without keys.
+    /// Frames that show how the strokes change: each key, and three frames between each two keys. Frame 0 alone without
+    /// keys.
     pub fn moments(&self) -> Vec<f64> {
         const BETWEEN: usize = 4;
         let Some(last) = self.keys.last() else { return vec![0.0] };
@@ -108,13 +108,14 @@ struct Stated<'a> {
 }
 
 impl Stated<'_> {
-    /// A value at this moment; `own` is the light's, in force until a key states another.
+    /// A value at this moment; `own` is that of the light itself, which holds until a key states one.
     fn mixed<T: Copy>(&self, own: T, of: fn(&LightKey) -> Option<T>, mix: impl Fn(T, T) -> T) -> T {
         let at = |index: usize| self.keys[..=index].iter().rev().find_map(of).unwrap_or(own);
         mix(at(self.span.left), at(self.span.right))
     }
 
-    /// As [`Stated::mixed`], where the light itself may state nothing: then the first key that does holds before it too.
+    /// As [`Stated::mixed`], for a value that the light itself may leave out: then the first one that a key states
+    /// holds from the start.
     fn mixed_if_any<T: Copy>(
         &self,
         own: Option<T>,
@@ -126,7 +127,7 @@ impl Stated<'_> {
     }
 }
 
-/// A colour between two, mixed as light.
+/// A colour between two, mixed in linear light.
 fn mixed(span: &Span, Color(left): Color, Color(right): Color) -> Color {
     if span.share == 0.0 || left == right {
         return Color(left);
@@ -137,7 +138,7 @@ fn mixed(span: &Span, Color(left): Color, Color(right): Color) -> Color {
     }))
 }
 
-/// A direction between two, along the shorter arc; its length does not matter. Of opposite ones, some arc.
+/// A direction between two, along the shorter arc, or along any arc if they are opposite. Their lengths do not matter.
 fn turned(span: &Span, left: [f64; 3], right: [f64; 3]) -> [f64; 3] {
     let [from, to] = [left, right].map(|direction| DVec3::from(direction).normalize_or(DVec3::NEG_Y));
     if span.share == 0.0 || left == right {

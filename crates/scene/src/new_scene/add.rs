@@ -40,8 +40,8 @@ const MOST_REGIONS: usize = 64;
 /// Gap between a new object and the others, as a share of its width or depth, whichever is larger.
 const GAP: f64 = 0.15;
 
-/// Adds an object with this mesh, which the scene names `mesh_name`, and its regions ([`regions_of`]); returns its
-/// name, which is the file's, made unique.
+/// Adds an object with this mesh, named `mesh_name` in the scene, and its regions ([`regions_of`]). Returns the
+/// object's name, which is the file's, made unique.
 ///
 /// The first object stays where its file puts it. A later one stands to the right of all others, on the height of their
 /// lowest point in the reference pose. `meshes` are those of the scene; objects whose mesh is not among them, and
@@ -118,7 +118,7 @@ pub(super) fn object_name_of_group(group: &str, model: &str, taken: &HashSet<&st
     unique(&plain(group, model), taken)
 }
 
-/// A valid name for a region: on one line, not empty, and short enough for [`unique`] to add a number.
+/// A valid name: `name` on one line, `else_name` if that is empty, and short enough for [`unique`] to add a number.
 fn plain(name: &str, else_name: &str) -> String {
     let name = name.replace(char::is_control, " ");
     let name = match name.trim() {

@@ -15,15 +15,15 @@ const FOV_Y_DEG: f64 = 35.0;
 /// Share of the picture that stays free at each border.
 const MARGIN: f64 = 0.1;
 
-/// Size of the backdrop over the diagonal of the mesh, so that it fills the picture.
+/// Scale of the backdrop, in diagonals of the mesh: it fills the picture.
 const BACKDROP_SCALE: f64 = 3.0;
 
-/// Size of a patch of floor over the diagonal of the mesh, and how far its middle lies to the side where the shadow falls.
+/// Scale of a patch of floor, and how far its middle lies to the side where the shadow falls, in diagonals of the mesh.
 const PATCH_SCALE: f64 = 0.52;
 const PATCH_SHIFT: f64 = 0.14;
 
-/// How far the shadow on the floor reaches to that side, over the height of what casts it; this share of it is
-/// framed with the model. The end of a long shadow may leave the picture.
+/// Length of the shadow on the floor over the height of what casts it, and the share of that length that is framed with
+/// the model. The end of a long shadow may leave the picture.
 const SHADOW_SLOPE: f64 = 1.2;
 const FRAMED_SHADOW: f64 = 0.3;
 
@@ -35,15 +35,16 @@ pub(super) struct View {
     near: f64,
     far: f64,
     pub axes: Axes,
-    /// The middle of the mesh's underside, world space, and the diagonal of its bounds.
+    /// The middle of the mesh's underside, world space.
     foot: DVec3,
+    /// The diagonal of the mesh's bounds.
     size: f64,
     pub light_goes: f64,
 }
 
 impl View {
-    /// The view of a mesh that stands so. With `may_turn` an open mesh that would show its back is seen from the side that shows the
-    /// most of its front.
+    /// The view of a mesh in this stance. With `may_turn`, an open mesh that would show its back is seen from the side
+    /// that shows the most of its front.
     pub fn of(mesh: &MeshFile, stance: Stance, may_turn: bool) -> Self {
         let turn = stance.up.y_up_from_file();
         let points: Vec<DVec3> = used_points(mesh).map(|point| turn * point).collect();
@@ -105,7 +106,8 @@ impl View {
         self.under_the_mesh(Object::new(name, built_in_mesh::PATCH), PATCH_SCALE, PATCH_SHIFT)
     }
 
-    /// Both numbers in diagonals of the mesh; `shift` is to the side where the light goes.
+    /// Places `object` under the mesh. `scale` and `shift` are in diagonals of the mesh; the shift is to the side where
+    /// the light goes.
     fn under_the_mesh(&self, object: Object, scale: f64, shift: f64) -> Object {
         let yaw_deg = self.axes.back.x.atan2(self.axes.back.z).to_degrees();
         let right = self.axes.right.with_y(0.0).normalize_or_zero();
@@ -123,8 +125,8 @@ impl View {
     }
 }
 
-/// How far along the gaze the lower border of the picture meets the floor, from an eye at this height over it; infinite where it
-/// does not.
+/// The depth at which the lower border of the picture meets the floor, for an eye at this height over the floor;
+/// infinite if they do not meet.
 fn floor_depth(axes: Axes, eye_height: f64) -> f64 {
     let fall = axes.back.y + (FOV_Y_DEG.to_radians() / 2.0).tan() * axes.up.y;
     if fall > 0.0 && eye_height > 0.0 { eye_height / fall } else { f64::INFINITY }

@@ -14,7 +14,7 @@ const WALL_DEG: [f64; 6] = [-38.0, -24.0, -14.0, 16.0, 27.0, 40.0];
 /// What a model stands on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Ground {
-    /// A floor and a wall, all over the picture.
+    /// A floor and a wall that fill the picture.
     #[default]
     Backdrop,
     /// A patch of floor on a plain ground.
@@ -36,7 +36,7 @@ impl Ground {
     pub const ALL: [(&'static str, Self); 3] =
         [("backdrop", Self::Backdrop), ("vignette", Self::Vignette), ("plain", Self::Plain)];
 
-    /// Lays the ground; other objects have the names in `taken`, and `seed` chooses how its strokes lie.
+    /// Lays the ground. `taken` are the names of other objects; `seed` chooses how the wall's strokes lean.
     pub(super) fn lay(self, view: &View, scheme: &Scheme, taken: &[&str], seed: u32) -> Laid {
         let names = match self {
             Self::Backdrop => ["backdrop", "wall", "the backdrop"],
@@ -69,7 +69,7 @@ impl Ground {
     }
 }
 
-/// Large quiet strokes in one family.
+/// Settings for a ground that does not draw the eye: large strokes that lie one way.
 fn quiet(jitter_deg: f64) -> StrokeSettings {
     let layer = |(name, coverage, thickness): (&str, Option<f64>, f64)| LayerSettings {
         name: name.to_owned(),

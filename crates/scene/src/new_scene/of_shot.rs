@@ -1,4 +1,5 @@
-//! A new scene for a shot: its camera, lights and motion, and a ground that belongs to its colours.
+//! A new scene for a shot, with the shot's camera, lights and motion; and a background and lights for a shot without
+//! lights.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -15,11 +16,11 @@ use crate::shot::Shot;
 /// The longer side of the picture, pixels.
 const LONGER_PX: f64 = 1280.0;
 
-/// Aspects beyond this, wide or tall, are no picture's.
+/// The widest aspect that a picture gets; the tallest is its inverse.
 const MOST_ASPECT: f64 = 4.0;
 
-/// A scene that paints a shot as its file has it. The picture has the aspect of the shot's camera. A shot without lights is lit from
-/// one side. `meshes` are what its objects show.
+/// A scene that paints a shot as its file has it. The picture has the size that the shot states, or else the aspect of
+/// the shot's camera. A shot without lights is lit from one side. `meshes` are those of the shot's objects.
 pub fn for_shot(path: &Path, meshes: &[Arc<MeshFile>], shot: &Arc<Shot>) -> Scene {
     let name_hash = scheme::name_hash(&object_name(path));
     let scheme = Scheme::of(&meshes.iter().map(|mesh| &**mesh).collect::<Vec<_>>(), name_hash);
@@ -31,7 +32,7 @@ pub fn for_shot(path: &Path, meshes: &[Arc<MeshFile>], shot: &Arc<Shot>) -> Scen
     let stated = shot.size_px().filter(|size| size.iter().all(|&side| fits(side)));
     let mut scene = Scene {
         size: stated.map_or((width, height), |[width, height]| (width, height)),
-        // A shot with lights brings a sky.
+        // A shot with lights brings a sky, which takes the place of the default.
         background: if shot.has_lights() { Color::default() } else { scheme.plain_ground() },
         shot: Some(path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()),
         // Smaller strokes than usual: an unknown shot may have much fine detail.

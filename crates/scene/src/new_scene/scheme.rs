@@ -1,5 +1,5 @@
-//! Light and colour of a new scene: one strong side light, a cool fill and a warm bounce, as strong as the model's own values ask;
-//! a ground that belongs to the model's colour, and a colour for models that have none.
+//! Light and colour of a new scene: a strong side light, a cool fill and a warm bounce, stronger for dark models; a
+//! ground that goes with the model's colour; and a colour for models that have none.
 
 use impasto_core::color::{linear_from_srgb, oklab_from_linear, srgb_from_linear};
 use impasto_core::hash;
@@ -13,16 +13,17 @@ use glam::DVec3;
 /// The grey of faces without a material; exporters write it too where nobody has chosen a colour.
 const NO_COLOR: [f32; 3] = [0.8; 3];
 
-/// The light that a well lit middle tone reflects, before the picture's shoulder; of the floor and of a dark model's floor.
+/// The light that a well lit middle tone should reflect, before the soft shoulder, and the most for lighter ones.
 const BODY_LIGHT: f64 = 0.52;
 const MOST_BODY_LIGHT: f64 = 0.66;
+/// The light that the floor should reflect, and the floor under a dark model.
 const FLOOR_LIGHT: f64 = 0.15;
 const PALE_FLOOR_LIGHT: f64 = 0.28;
 
 /// Exposure of the reference render; `lighting.glsl` has the same number.
 const EXPOSURE: f64 = 0.62;
 
-/// The albedo of a middle tone, and bounds of the light.
+/// The albedo of a middle tone, and bounds of the strength of all light together.
 const MIDDLE: f64 = 0.25;
 const LEAST_LIGHT: f64 = 1.0;
 const MOST_LIGHT: f64 = 9.0;
@@ -46,7 +47,7 @@ const HARMONIES: [[[f32; 3]; 2]; 8] = [
     [[0.59, 0.042, 305.0], [0.60, 0.034, 88.0]],
 ];
 
-/// How far the hues of neighbouring groups lie apart, degrees, and their lightness.
+/// Differences between neighbouring groups: in hue, degrees, and in Oklab lightness.
 const GROUP_HUE_DEG: f32 = 16.0;
 const GROUP_LIGHTNESS: f32 = 0.05;
 
@@ -56,11 +57,12 @@ const GROUND_CHROMA: f32 = 0.035;
 /// Light and colour of a new scene.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Scheme {
-    /// The colour of the model, or of its groups one after the other; `None` where it has colours of its own.
+    /// The colour of the model, from which [`Self::of_group`] makes those of its groups: lightness, chroma and hue
+    /// (degrees) in Oklab. `None` if the model has colours of its own.
     pub body: Option<[f32; 3]>,
     /// The colour of floor and wall.
     pub ground: Color,
-    /// The light that arrives from the key, in units of a sun of intensity 1.
+    /// The strength of all light together, in units of a sun of intensity 1.
     light: f64,
 }
 
@@ -84,7 +86,7 @@ impl Scheme {
         let [_, a, b] = oklab_from_linear(mean);
         let chroma = a.hypot(b);
         let hue = if chroma > 0.012 { b.atan2(a).to_degrees() + 180.0 } else { ground[2] };
-        // The value that all but the lightest twentieth of the surface stays under: that one must not burn out.
+        // `high`: all but the lightest twentieth of the surface is darker than this luminance, which must not burn out.
         let mut values: Vec<(f64, f64)> =
             colors.iter().map(|&(color, area)| (luminance(color), area)).collect();
         values.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -97,10 +99,10 @@ impl Scheme {
         Self::lit(None, [0.58, GROUND_CHROMA, hue], [luminance(mean), high])
     }
 
-    /// `ground` as lightness, chroma and hue; `albedo` the mean and the high one of the model.
+    /// The scheme for colours of lightness, chroma and hue, and for the mean and a high albedo of the model.
     fn lit(body: Option<[f32; 3]>, ground: [f32; 3], [mean, high]: [f64; 2]) -> Self {
         let high = high.max(1e-3);
-        // A dark thing stays darker than a light one, but less so than it is.
+        // A dark model stays darker than a light one, but by less than its albedo says.
         let wanted = (BODY_LIGHT * (high / MIDDLE).powf(0.4)).min(MOST_BODY_LIGHT);
         let light = (wanted / (EXPOSURE * high)).clamp(LEAST_LIGHT, MOST_LIGHT);
         let reflected = EXPOSURE * light * mean;
@@ -135,13 +137,14 @@ impl Scheme {
         srgb(self.ground.0.map(|channel| linear_from_srgb(channel) * reflected as f32))
     }
 
-    /// A ground without light and strokes: the floor, lit.
+    /// The colour of a plain background: that of the lit floor.
     pub fn plain_ground(&self) -> Color {
         let reflected = EXPOSURE * self.light * (0.58 * KEY + SKY);
         srgb(self.ground.0.map(|channel| (linear_from_srgb(channel) * reflected as f32).min(0.8)))
     }
 
-    /// The lights, for a camera with these axes; the sun's goes to the right (1) or to the left (−1).
+    /// The lights, for a camera with these axes. The sun's light goes to the right of the picture if `light_goes` is 1,
+    /// to the left if it is −1.
     pub fn lights(&self, axes: Axes, light_goes: f64) -> Vec<Light> {
         let from_sun = round_to(axes.to_world(from_sun(light_goes)), 1e-3);
         let sun = Light {
@@ -180,7 +183,7 @@ fn used(mesh: &MeshFile) -> impl Iterator<Item = (&Material, f64)> {
     mesh.materials.iter().zip(areas).filter(|(_, area)| *area > 0.0)
 }
 
-/// Linear colours of the surface with their shares of it; a picture counts as its pixels.
+/// Linear colours of the surface, each with the area that has it; a picture counts as its pixels.
 fn colors_of(mesh: &MeshFile) -> Vec<([f32; 3], f64)> {
     let mut colors = Vec::new();
     for (material, area) in used(mesh) {

@@ -8,29 +8,31 @@ use super::scheme;
 use crate::document::Up;
 use crate::mesh_file::MeshFile;
 
-/// Samples of a model's surface that judge how it stands.
+/// Number of samples of a model's surface by which its stance is judged.
 const SAMPLES: usize = 1500;
 
 /// The lowest part of a model that may carry it, as a share of its height.
 const FOOT: f64 = 0.025;
 
-/// What stands on less than the square of this share of its height would topple.
+/// A model would topple if the area that it stands on is less than the square of this share of its height.
 const LEAST_SUPPORT: f64 = 0.06;
 
-/// A sample has a mirror image where another lies this close to it, in spacings.
+/// A sample has a mirror image if another sample lies this close to the mirrored place, in spacings.
 const MIRRORED_WITHIN: f64 = 1.3;
 
-/// A plane mirrors the model where more than this share of the samples have a mirror image.
+/// A plane mirrors the model if more than this share of the samples have a mirror image.
 const MIRRORED: f64 = 0.8;
 
 /// Three quarters from the front, slightly from above.
 const USUAL_VIEW: DVec3 = DVec3::new(0.5, 0.27, 0.9);
 
-/// How far the eye of the best view is above the model's middle, over its distance on the floor: of a model that is 0.6 times as
-/// high as it is wide, and of one that is 1.6 times as high. One looks down on low things, and a tall one is looked in the face.
+/// How far the eye of the best view is above the model's middle, over its level distance. The first is for models at
+/// most 0.6 times as high as wide, the second from 1.6 times on: a low thing is seen from above, a tall one from the
+/// front.
 const RISES: [f64; 2] = [0.38, 0.18];
 
-/// Where less than this share of what faces the eye is lit from the left, the light comes from the right, if that shows more.
+/// If light from the left lights less than this share of what faces the eye, light comes from the right, if that lights
+/// more.
 const LEAST_LIT: f64 = 0.36;
 
 /// An axis is surely up when its score is this much above the next best.
@@ -92,7 +94,7 @@ impl Samples {
         Self { points: turned(&self.points), normals: turned(&self.normals), spacing: self.spacing }
     }
 
-    /// How the model stands, where the user has not said it.
+    /// The stance: `up` and `view` as the user states them, and what is left open as the samples suggest.
     pub fn stance(&self, up: Option<Up>, view: ViewFrom) -> Stance {
         let (found, up_is_unsure) = match up {
             Some(up) => (up, false),
@@ -155,7 +157,8 @@ impl Samples {
         (scores[0].0, scores[0].1 - scores[1].1 < SURE)
     }
 
-    /// How well the samples stand on their lowest part: flat feet, a wide support, the middle above it; not on a point. −0.5 to 1.1.
+    /// How well the model stands on its lowest part, from −0.5 to 1.1: flat feet, a wide support and a middle above it
+    /// count for it, standing on a point against it.
     fn stands(&self) -> f64 {
         let low = self.points.iter().map(|point| point.y).fold(f64::INFINITY, f64::min);
         let high = self.points.iter().map(|point| point.y).fold(f64::NEG_INFINITY, f64::max);
@@ -189,7 +192,8 @@ impl Samples {
         })
     }
 
-    /// The three-quarter view that shows the most small form; of an object that mirrors, along its mirror plane.
+    /// The three-quarter view that shows the most small form. The front of a model with a mirror plane is sought along
+    /// that plane.
     fn best_view(&self) -> DVec3 {
         let (bent, lean) = (self.bent(), self.lean());
         let mirrors = self.mirrors();
@@ -235,7 +239,7 @@ impl Samples {
         [low, self.points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max)]
     }
 
-    /// How far the upper third lies from the middle of the whole, level, over half the model's level extent.
+    /// How far the upper third lies to the side of the model's middle, in halves of the model's level extent.
     fn lean(&self) -> DVec3 {
         let [low, high] = self.bounds();
         let middle = (low + high) / 2.0;
@@ -268,7 +272,8 @@ impl Samples {
         self.points.iter().zip(&self.normals).map(of).collect()
     }
 
-    /// How much bent surface faces an eye in this direction and is not hidden, each sample hiding those close behind it.
+    /// How much bent surface an eye in this direction sees. In each cell of the picture, samples behind the foremost
+    /// are hidden.
     fn form_seen(&self, towards_eye: DVec3, bent: &[f64]) -> f64 {
         let right = DVec3::Y.cross(towards_eye).normalize_or(DVec3::X);
         let up = towards_eye.cross(right);
@@ -306,7 +311,7 @@ impl ViewFrom {
         ("top", Self::Top),
     ];
 
-    /// From the upright model to the eye.
+    /// The direction from the upright model to the eye; `None` for [`Self::Auto`].
     fn direction(self) -> Option<DVec3> {
         match self {
             Self::Auto => None,

@@ -13,17 +13,19 @@ use crate::surface::Geometry;
 /// Models that are smaller than this are scaled to a size of 1: their areas would vanish in single precision.
 const LEAST_EXTENT: f64 = 1e-6;
 
-/// And so are models that are larger than this: a floor for them would leave the limits of a scene.
+/// Models that are larger than this are scaled to a size of 1 too: a floor for them would exceed the limits of a scene.
 const MOST_EXTENT: f64 = 1e7;
 
-/// Models whose middle is this many times their size from the origin are read around it: single precision has too few places there.
+/// A model whose middle is farther from the origin than this many times its size is moved to the origin, since single
+/// precision has too few digits so far out.
 const FAR: f64 = 1000.0;
 
-/// Reads the cleaned text of `checked`; a vertex is a triple of indices that a corner has. Call it only where the linter found no error.
-/// `with_points` where a cache moves the points: it goes with the size that the file has.
+/// Reads the cleaned text of `checked`, in which the linter must have found no error. Each different triple of a
+/// corner's indices is a vertex. With `with_points`, a point cache moves the model, which then must keep the size and
+/// the place that it has in the file.
 ///
 /// # Errors
-/// Those of tobj; none is known that the linter does not find first.
+/// Those of tobj. The linter should have found any of them before.
 pub(super) fn read(
     checked: &mut Checked<'_>,
     findings: &mut Findings<'_>,
@@ -89,8 +91,9 @@ fn bounds(positions: &[[f64; 3]]) -> (DVec3, DVec3) {
     points.fold((DVec3::MAX, DVec3::MIN), |(low, high), at| (low.min(at), high.max(at)))
 }
 
-/// Moves a model that lies far from the origin there, and returns from where; `None` where it stays. It moves by whole steps, each a
-/// power of 2 not smaller than the model, so that a model that was changed a little moves as before.
+/// Moves a model that lies far from the origin to the origin, and returns from where; `None` if it stays. It moves by
+/// whole steps, each a power of 2 not smaller than the model, so that a model that was changed a little moves as
+/// before.
 fn bring_near(positions: &mut [[f64; 3]]) -> Option<DVec3> {
     let (low, high) = bounds(positions);
     let (extent, middle) = ((high - low).max_element(), (low + high) * 0.5);
@@ -101,8 +104,8 @@ fn bring_near(positions: &mut [[f64; 3]]) -> Option<DVec3> {
     Some(from)
 }
 
-/// Scales a model whose areas would vanish, or for which no floor is large enough, to a size of 1, and returns how large it was.
-/// `None` if it is neither.
+/// Scales a model that is smaller than [`LEAST_EXTENT`] or larger than [`MOST_EXTENT`] to a size of 1, and returns how
+/// large it was. `None` for any other model.
 fn rescale_extreme(positions: &mut [[f64; 3]]) -> Option<f64> {
     let (low, high) = bounds(positions);
     let extent = (high - low).max_element();
@@ -134,7 +137,7 @@ mod tests {
             let mut positions = quad(at);
             let from = bring_near(&mut positions);
             assert_eq!(from.is_some(), is_far, "{at:e}");
-            // To the bit.
+            // The move is exact to the bit.
             let from = from.unwrap_or_default();
             assert_eq!(positions.map(|near| (DVec3::from_array(near) + from).to_array()), quad(at));
             assert!(

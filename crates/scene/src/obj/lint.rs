@@ -188,9 +188,9 @@ impl<'a> Linter<'_, 'a> {
         }
     }
 
-    /// Takes the last line of the text if it has no line end. Returns whether it was surely cut short: then it is left
-    /// out, with a warning. A face that only has fewer corners than the face before it may be whole, so it is kept,
-    /// also with a warning.
+    /// Judges the last line of the text, which has no line end. Returns whether it was surely cut short: then it is
+    /// left out, with a warning. A face that only has fewer corners than the face before it may be whole, so it is
+    /// kept, also with a warning.
     fn drop_cut_line(&mut self, words: &[Word<'_>]) -> bool {
         let corners_before = self.checked.faces.last().map_or(0, |face| {
             let mut words = Vec::new();

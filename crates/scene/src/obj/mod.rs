@@ -48,7 +48,7 @@ pub fn read(path: &Path, root: &Path, folders: &AssetFolders) -> Result<(MeshFil
     read_for(path, root, folders, false)
 }
 
-/// As [`read`]; `with_points` where a point cache moves the mesh.
+/// As [`read`]. With `with_points`, the points are kept for a point cache that moves the mesh.
 pub(crate) fn read_for(
     path: &Path,
     root: &Path,

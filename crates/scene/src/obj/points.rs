@@ -27,7 +27,8 @@ pub(super) fn of(cleaned: Cleaned<'_>) -> NamedPoints {
     named
 }
 
-/// The first index of a corner. Indices count from 1, those below 0 backwards from the line.
+/// The first index of a corner, counted from 0. In the text, indices count from 1, negative ones back from the last
+/// point so far.
 fn index(word: &[u8], count: usize) -> u32 {
     let text = word.split(|&byte| byte == b'/').next().and_then(|first| std::str::from_utf8(first).ok());
     let index: i64 = text.and_then(|text| text.parse().ok()).unwrap_or(1);

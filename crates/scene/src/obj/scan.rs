@@ -18,7 +18,7 @@ pub(super) const MAX_UV: f64 = 1e30;
 /// The smallest size of a piece of text, in bytes: smaller pieces would not make scanning quicker.
 const PIECE_BYTES: usize = 1 << 18;
 
-/// What an OBJ file numbers, each kind on its own.
+/// The kinds of values that an OBJ file numbers, each kind on its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     Position,

@@ -103,7 +103,7 @@ const LIGHTS: Layer = Layer {
     overrun: 0.0,
 };
 
-/// The default first.
+/// All presets, the default first.
 pub(super) const PRESETS: [Preset; 6] = [
     // A few large strokes for the masses, small ones only where something happens.
     Preset {

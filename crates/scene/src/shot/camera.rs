@@ -1,4 +1,4 @@
-//! The lens of a shot's camera, as the lenses of scenes are stated.
+//! The camera of a shot: which one is looked through, and its lens in the terms of a scene.
 
 use glam::{DVec2, DVec3};
 use impasto_gltf::{Animator, Lens as ShotLens, Posed};
@@ -7,10 +7,10 @@ use super::Shot;
 use crate::document::{Lens, Seen};
 use crate::gltf::GltfFile;
 
-/// The depth that an infinite camera sees, over its nearest one.
+/// The far depth of a camera that states none, over its near depth.
 const FARTHEST: f64 = 1e5;
 
-/// The lens in a picture of this size: all that the camera's own picture shows is inside.
+/// The lens for a picture of this size in pixels: all that the camera's own picture shows is inside.
 pub(super) fn lens_in(lens: ShotLens, (width, height): (u32, u32)) -> Lens {
     let aspect = f64::from(width.max(1)) / f64::from(height.max(1));
     match lens {
@@ -26,14 +26,14 @@ pub(super) fn lens_in(lens: ShotLens, (width, height): (u32, u32)) -> Lens {
     }
 }
 
-/// Half of what a lens shows.
+/// Half the width and half the height of what a lens shows.
 struct HalfSize {
-    /// `None` where the file leaves it to the picture.
+    /// `None` if the file leaves the aspect to the picture.
     x: Option<f64>,
     y: f64,
 }
 
-/// Half of what a lens shows, at depth one; or anywhere, of parallel rays.
+/// Half of what a lens shows: at depth 1 in perspective, at any depth in parallel projection.
 fn half_size(lens: ShotLens) -> HalfSize {
     match lens {
         ShotLens::Perspective { yfov_rad, aspect, .. } => {
@@ -44,7 +44,7 @@ fn half_size(lens: ShotLens) -> HalfSize {
     }
 }
 
-/// How many objects have their places inside a camera's picture.
+/// How many visible objects have their origin inside a camera's picture.
 fn seen(file: &GltfFile, posed: &Posed, node: usize) -> usize {
     let Some(camera) = file.gltf.nodes[node].camera else { return 0 };
     let view_from_world = posed.world_from_view(node).inverse();
@@ -64,8 +64,8 @@ fn seen(file: &GltfFile, posed: &Posed, node: usize) -> usize {
         .count()
 }
 
-/// The node of the camera with this name, or else of the first of those that see the most objects when the shot begins. Says where the
-/// choice is not clear.
+/// The node of the camera with this name, else of the camera of the first cut, else of the first camera that sees the
+/// most objects when the shot begins. `None` without cameras. Adds to `odd` where the choice is not clear.
 pub(super) fn chosen(
     file: &GltfFile,
     animator: &Animator,
@@ -113,7 +113,8 @@ impl Shot {
         let node_data = &self.file.gltf.nodes[node];
         let own = posed.lenses[node_data.camera?];
         let lens = lens_in(own, size);
-        // A picture of another aspect shows more: then what is shifted by half a picture of the camera's own is shifted by less here.
+        // The sidecar's shift is in halves of the camera's own picture. A picture of another aspect shows more, so the
+        // shift is less of it.
         let own_half = half_size(own);
         let half_height = match lens {
             Lens::Perspective { fov_y_deg, .. } => (0.5 * fov_y_deg.to_radians()).tan(),

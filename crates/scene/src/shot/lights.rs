@@ -7,30 +7,31 @@ use impasto_gltf::{LightKind as ShotKind, LightProperty, LightValues, Posed, Tar
 use super::Shot;
 use crate::document::{Color, Light, LightKind};
 
-/// Our intensity of a sun of one watt a square metre, so that a white surface is as bright as where the shot was made: divided by π, and
-/// by what the curve of display does to the middle values.
+/// The intensity, in a scene, of a sun of one watt per square metre. A white surface is then as bright as in the
+/// program that made the shot: 1/π, over what the display curve does to middle values.
 const OF_WATT: f64 = 0.455;
 
-/// Lux of a watt a square metre, as exporters have it.
+/// Lux per watt per square metre, as exporters convert.
 const LUX_PER_WATT: f64 = 683.0;
 
-/// Light on the objects of the shot, in our intensity, that is neither dimmed nor lifted.
+/// Light on the shot's objects between these intensities is neither dimmed nor lifted.
 const LEAST: f64 = 0.7;
 const MOST: f64 = 1.7;
 
-/// Below this, the numbers are no lux: they are taken as shares.
+/// Light below this intensity cannot have been stated in lux. Its numbers count as relative, and it is lifted to
+/// `MOST`.
 const NO_LUX: f64 = 0.01;
 
-/// What is left of how much darker than `LEAST` a shot is, as a power: a night stays one, and strokes can be seen.
+/// Light that is a share of `LEAST` becomes this power of the share: a night stays dark, and its strokes can be seen.
 const DARKNESS: f64 = 0.6;
 
-/// The soft light all around, which no exporter writes, over the light of suns and over that of lamps.
+/// The soft light all around, which no exporter writes: as a share of the suns' light, and of the lamps' light.
 const AROUND: [f64; 2] = [0.11, 0.25];
 
-/// The tint of this light, as of a sky, sRGB.
+/// The tint of the soft light all around, like that of a sky, sRGB.
 const OF_SKY: [u8; 3] = [0xcf, 0xdc, 0xf2];
 
-/// A lamp counts as at least this far from an object, over the size of the scene.
+/// A lamp counts as at least this far from an object, as a share of the size of the scene.
 const NEAREST: f64 = 0.05;
 
 /// How bright a linear colour is.
@@ -39,11 +40,12 @@ fn luma(color: [f64; 3]) -> f64 {
 }
 
 impl Shot {
-    /// Our intensity over that of the file, and the soft light all around. A shot is as bright as where it was made, within limits: it
-    /// is dimmed where whites would burn, and lifted where it is dark.
+    /// A light's intensity in the scene over that in the file, and the intensity of the soft light all around. A shot
+    /// is as bright as in the program that made it, within limits: it is dimmed where whites would burn out, and lifted
+    /// where it is dark.
     pub(super) fn found_exposure(&self) -> (f64, f64) {
         let [suns, lamps] = self.light_at_middle().map(|lux| lux / LUX_PER_WATT * OF_WATT);
-        // Light from all around shines on a surface from a half of the sphere.
+        // Light from all around shines on a surface from half of the sphere, which makes π times the radiance.
         let world = self.file.sidecar.world.unwrap_or_default();
         let found = suns + lamps + luma(world) * std::f64::consts::PI * OF_WATT;
         if !(suns + lamps > 0.0 && found.is_finite()) {
@@ -59,10 +61,10 @@ impl Shot {
         (scale * OF_WATT / LUX_PER_WATT, around)
     }
 
-    /// What all suns, and all lamps, together bring to the objects of the shot, lux: to the one in the middle, when they are put in order
-    /// by their light. Shadows are not looked for.
+    /// The illuminance in lux by all suns, and by all lamps, at the object that has the median of both together.
+    /// Shadows are ignored.
     fn light_at_middle(&self) -> [f64; 2] {
-        /// As many objects stand for all of them.
+        /// At most this many objects are sampled.
         const ASKED: usize = 256;
         let rest = &self.file.rest;
         let stride = self.objects.len().div_ceil(ASKED).max(1);
@@ -81,7 +83,7 @@ impl Shot {
         lit[lit.len() / 2]
     }
 
-    /// What all suns, and all lamps, bring to a place, lux. Lamps count as at least `nearest` away.
+    /// The illuminance in lux at a place by all suns, and by all lamps. Lamps count as at least `nearest` away.
     fn light_on(&self, at: DVec3, nearest: f64) -> [f64; 2] {
         let rest = &self.file.rest;
         let mut brought = [0.0; 2];
@@ -100,8 +102,8 @@ impl Shot {
         brought
     }
 
-    /// What shows behind the shot: the world, where the sidecar tells of one, else a plain sky, as bright as the shot. `None` without
-    /// lights.
+    /// What shows behind the shot: the world that the sidecar states, or else a plain sky, as bright as the shot.
+    /// `None` for a shot without lights.
     pub(super) fn sky(&self) -> Option<Color> {
         const OF_DAY: [f32; 3] = [0.66, 0.735, 0.80];
         const OF_LAMPS: f64 = 0.35;
@@ -111,14 +113,14 @@ impl Shot {
             return Some(Color::from_hex(&Color(shown).to_hex()).unwrap_or_default());
         }
         let [suns, lamps] = self.light_at_middle();
-        // Suns light the sky, lamps hardly do; and it darkens sooner than what stands below.
+        // Suns light the sky, lamps hardly do. The sky darkens sooner than the objects, hence the square.
         let share = ((suns + OF_LAMPS * lamps) * self.exposure / LEAST).min(1.0).powi(2) as f32;
         let sky = OF_DAY.map(|channel| srgb_from_linear(linear_from_srgb(channel) * share));
-        // As a scene file can state it.
+        // Rounded to 8 bits a channel, as a scene file states it.
         self.has_lights().then(|| Color::from_hex(&Color(sky).to_hex()).unwrap_or_default())
     }
 
-    /// The lights as they are at rest, and a soft light all around where there are any.
+    /// The lights as they are at rest and, if there are any, a soft light all around.
     pub(super) fn lights_at_rest(&self) -> Vec<(Light, Option<usize>)> {
         let mut lights: Vec<(Light, Option<usize>)> = self
             .light_nodes()
@@ -155,12 +157,13 @@ impl Shot {
         Light { color, intensity, ..Light::new("ambient", LightKind::Ambient) }
     }
 
-    /// How much brighter than it was made the shot is lit.
+    /// The brightness of the shot's light, over that in the program that made the shot.
     fn scale(&self) -> f64 {
         self.exposure * LUX_PER_WATT / OF_WATT
     }
 
-    /// A light of the scene at a time: what the document changed stays, the rest is as the shot has it.
+    /// A light of the scene in this pose of the shot: intensity, colour, direction and position are the shot's, unless
+    /// the document changed them.
     pub(crate) fn light_at(&self, light: &Light, posed: &Posed) -> Light {
         let brought = self.lights.iter().find(|(brought, _)| brought.name == light.name);
         let Some((rest, Some(node))) = brought.filter(|(brought, _)| brought.kind == light.kind) else {
@@ -183,8 +186,9 @@ impl Shot {
         lit
     }
 
-    /// Blender 5.0 writes keys of the strength of point and spot lights without the 1/4π of the light itself. Where that shows (one of
-    /// the keys is 4π times the light at rest, and none is as it), the keys are brought down to the light.
+    /// Blender 5.0 writes keys of the strength of point and spot lights without the 1/4π of the light itself. If this
+    /// shows (a key is 4π times as strong as the light at rest, and none is as strong as the light), the keys are
+    /// divided by 4π.
     pub(super) fn mend_light_keys(&mut self, odd: &mut Vec<[String; 2]>) {
         const FOUR_PI: f64 = 4.0 * std::f64::consts::PI;
         let is_near = |value: f64, wanted: f64| (value / wanted - 1.0).abs() < 1e-3;
@@ -205,7 +209,7 @@ impl Shot {
         }
     }
 
-    /// Each node with a light, and the light.
+    /// Each node of the scene with a light, and the index of the light.
     fn light_nodes(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let nodes = self.file.gltf.nodes.iter().enumerate();
         nodes
@@ -218,7 +222,7 @@ impl Shot {
         let Some(index) = self.file.gltf.nodes[node].light else { return light.clone() };
         let LightValues { color, intensity, inner_cone_rad, outer_cone_rad, .. } = posed.lights[index];
         let world = posed.world_from_view(node);
-        // Colours beyond what a scene file can state go into the intensity.
+        // A colour that is too bright for a scene file is scaled down, and its intensity up.
         let most = color.into_iter().fold(0.0f32, f32::max).max(1e-6);
         let scale = if most > 1.0 { most } else { 1.0 };
         let shines = (light.kind != LightKind::Point).then(|| (-world.z_axis.truncate()).to_array());

@@ -1,4 +1,4 @@
-//! Cuts polygons into triangles: into a fan where that is right, by ear clipping in the polygon's plane elsewhere.
+//! Cuts polygons into triangles: convex ones into a fan, others by ear clipping in the polygon's plane.
 
 use std::collections::VecDeque;
 

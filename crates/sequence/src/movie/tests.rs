@@ -2,7 +2,8 @@
 
 use super::*;
 
-/// Flat colours, left to right: three that BT.601 and BT.709 show differently, the corners of the cube of colours, and grey.
+/// Flat colours, left to right: three that BT.601 and BT.709 show differently, the corners of the RGB cube, grey and
+/// orange.
 const COLORS: [[u8; 3]; 13] = [
     [0, 160, 0],
     [200, 30, 30],
@@ -19,7 +20,7 @@ const COLORS: [[u8; 3]; 13] = [
     [255, 128, 0],
 ];
 
-/// What is laid on them from the top down, in rows.
+/// The alpha of each row of patches, from the top down.
 const ALPHAS: [u8; 7] = [255, 128, 64, 192, 1, 254, 0];
 
 /// Side of a patch of one colour and one alpha, in pixels.
@@ -86,8 +87,8 @@ impl Patches {
         movie.finish().unwrap();
     }
 
-    /// Asserts that every pixel in the inner half of every patch, in every frame, is what was written. `coded_px` is the
-    /// size of the frames in the movie.
+    /// Asserts that every pixel in the inner half of every patch, in every frame, is what was written. `coded_px` is
+    /// the size of the frames in the movie.
     fn assert_decoded(&self, path: &Path, decoder: &[&str], coded_px: [usize; 2]) {
         let arguments = [&["-v", "error"], decoder, &["-i"]].concat();
         let decoded = output("ffmpeg", &arguments, path, &["-f", "rawvideo", "-pix_fmt", "rgba", "-"]);
@@ -162,7 +163,7 @@ fn transparency_is_kept_where_a_movie_has_it() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    // ffmpeg's own VP9 decoder drops transparency, and its pixel format is told without.
+    // ffmpeg's own VP9 decoder drops transparency, so another decodes here, and ffprobe tells the pixel format without.
     for (name, decoder, tag) in
         [("a.mov", "prores", "pix_fmt=yuva444p12le"), ("a.webm", "libvpx-vp9", "TAG:alpha_mode=1")]
     {

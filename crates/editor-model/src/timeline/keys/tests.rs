@@ -166,7 +166,7 @@ fn lights_background_and_strokes_have_lanes_once_they_have_keys() {
     assert_eq!(motion::light_at(&document, &document.lights[0], 20.0).intensity, 9.0);
     assert_eq!(motion::light_at(&document, &document.lights[0], 40.0).intensity, intensity);
     assert_eq!(document.lights[0].keys[1].direction, document.lights[0].direction);
-    // Moved together onto others, they replace those; the eases are theirs.
+    // A key that is moved onto another replaces it, and brings its own ease.
     run(Time::SetEase(vec![(KeyOf::Background, 0.0)], Ease::Step), &mut document);
     run(Time::MoveKeys(vec![(KeyOf::Background, 0.0)], 40.0), &mut document);
     let keys: Vec<_> = document.background_keys.iter().map(|key| (key.frame, key.ease)).collect();

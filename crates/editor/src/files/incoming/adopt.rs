@@ -23,7 +23,7 @@ const MAX_NAMES: usize = 1000;
 pub struct Adopted {
     /// Its path relative to the scene's folder, with `/`, as the scene file names it.
     pub name: String,
-    /// Full paths of the copies; none if the file was in the scene's folder already, or was copied before.
+    /// Full paths of the copies; empty if the file was in the scene's folder already, or was copied before.
     pub copied: Vec<PathBuf>,
 }
 
@@ -79,8 +79,8 @@ pub fn adopt_mesh(mesh: &Path, scene_folder: &Path) -> Result<Adopted, AdoptErro
     copy_into_scene(&files, &own_name, scene_folder, "meshes")
 }
 
-/// Makes a picture available to a scene, as [`adopt_mesh`] does; copies go to `subfolder/NAME/`. A picture that cannot be used is
-/// not copied.
+/// Makes a picture available to a scene, as [`adopt_mesh`] does; copies go to `subfolder/NAME/`. A picture that cannot
+/// be used is not copied.
 ///
 /// # Errors
 /// [`AdoptError`], with the words to show.

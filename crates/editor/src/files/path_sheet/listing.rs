@@ -62,7 +62,8 @@ impl Listing {
         Self { folder: folder.to_owned(), rows, note }
     }
 
-    /// The typed text, made longer as far as all names that begin with it agree; `None` if that adds nothing.
+    /// Completes the typed text with what all names that begin with it have in common. `None` if that adds nothing, or
+    /// the folder in the text cannot be read.
     pub(super) fn complete(&self, typed: &str, kinds: &[Kind]) -> Option<String> {
         let (folder, start) = typed.rfind('/').map_or(("", typed), |at| typed.split_at(at + 1));
         let read;
@@ -87,7 +88,8 @@ impl Listing {
     }
 }
 
-/// The folders, then the files of the wanted kinds (all, where none are given), each sorted by name. Hidden ones are left out.
+/// The folders, then the files of the wanted kinds (of any kind, if `kinds` is empty), both sorted by name. Hidden
+/// entries are left out.
 fn entries(folder: &Path, kinds: &[Kind]) -> std::io::Result<Vec<ListedFile>> {
     let (mut folders, mut files) = (Vec::new(), Vec::new());
     for entry in fs::read_dir(folder)?.flatten().take(MAX_ENTRIES) {

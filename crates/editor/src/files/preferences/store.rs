@@ -57,7 +57,7 @@ pub enum PreferencesError {
         /// What the system said.
         source: std::io::Error,
     },
-    /// They could not be turned into RON.
+    /// The preferences could not be turned into RON.
     #[error("the preferences could not be written down: {0}")]
     NoText(#[from] ron::Error),
 }

@@ -17,12 +17,13 @@ const SIZE: Vec2 = Vec2::new(280.0, 40_000.0);
 pub struct Control {
     /// Its name.
     pub name: String,
-    /// The section that it is in, by its name; empty above all sections. A section is in itself.
+    /// The name of its section; empty above all sections. The head of a section has that section's name.
     pub section: String,
 }
 
-/// All controls of the inspector for what is selected, from top to bottom, those of folded sections too. They are found by
-/// laying the inspector out where nobody sees it, with everything open; `ctx` keeps what can be used again.
+/// All controls of the inspector for what is selected, from top to bottom, those of folded sections too. Finds them by
+/// laying out the inspector, with all sections open, in a second context that is never drawn. `ctx` keeps that context
+/// for the next call.
 pub fn controls(ctx: &Context, shown: &PanelInput<'_>) -> Vec<Control> {
     let key = Id::unique("where the inspector is laid out unseen");
     let unseen = ctx.data_mut(|data| {

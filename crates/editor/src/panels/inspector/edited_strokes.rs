@@ -16,6 +16,7 @@ pub(super) struct EditedStrokes<'a> {
 }
 
 impl<'a> EditedStrokes<'a> {
+    /// The settings of a region, by its name, or of the scene. `None` if a scene lacks the region.
     pub(super) fn new(asker: &Asker<'a, '_>, region: Option<&str>) -> Option<Self> {
         let scenes = [asker.scene(), asker.stored()];
         let index_in =

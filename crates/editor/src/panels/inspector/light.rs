@@ -1,4 +1,4 @@
-//! A light: its kind, colour, intensity, and direction or place.
+//! The inspector of a light: its kind, colour, intensity, and direction or place.
 
 use egui::Ui;
 use impasto_editor_model::Item;

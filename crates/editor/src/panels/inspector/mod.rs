@@ -1,4 +1,4 @@
-//! The inspector: the settings of the active item, or of the scene where nothing is selected.
+//! The inspector: the settings of the active item, or of the scene if nothing is selected.
 
 mod amounts;
 mod camera;

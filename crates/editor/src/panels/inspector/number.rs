@@ -1,5 +1,5 @@
-//! Number fields of the inspector. A drag is previewed and makes one entry of the history; so do steps in quick
-//! succession.
+//! Number fields of the inspector. A drag is previewed, and becomes one entry of the history. Steps in quick succession
+//! become one entry too.
 
 use std::ops::RangeInclusive;
 
@@ -33,7 +33,7 @@ pub(super) struct Number<'a> {
     pub(super) default: Option<f64>,
     /// For a box without a label, its width in points. None: the box has a label.
     pub(super) unlabelled: Option<f32>,
-    /// Whether the number is shown in ochre, because it will be lost: a pose that is not keyed.
+    /// Whether the number is shown in ochre, as a warning that it will be lost: it belongs to a pose that is not keyed.
     pub(super) warns: bool,
 }
 

@@ -14,16 +14,17 @@ struct Row {
     label: &'static str,
     effect: &'static str,
     unit: &'static str,
-    /// What stands in the file, for 1 as shown.
+    /// The value in the file is the shown one times this.
     file_per_shown: f64,
-    /// The range of the file, as shown.
+    /// The least and the greatest value, as shown.
     range: [f64; 2],
     step: (f64, usize),
+    /// The default, as a value in the file.
     usual: f64,
     of: fn(&mut StrokesKey) -> &mut f64,
 }
 
-/// What the factors have in common, and the shares.
+/// What the rows of factors have in common.
 const FACTOR: Row = Row {
     label: "",
     effect: "",
@@ -34,6 +35,7 @@ const FACTOR: Row = Row {
     usual: 1.0,
     of: |key| &mut key.size,
 };
+/// What the rows of shares have in common.
 const SHARE: Row = Row { unit: "%", file_per_shown: 0.01, range: [0.0, 100.0], step: (5.0, 0), ..FACTOR };
 
 const ROWS: [Row; 4] = [
@@ -64,7 +66,8 @@ const ROWS: [Row; 4] = [
     },
 ];
 
-/// How the strokes of a region, or of the scene, are changed at the frame that is shown. A changed number keys this frame.
+/// How the strokes of a region, or of the scene, are changed at the frame that is shown. A changed number keys this
+/// frame.
 pub(super) fn of_strokes(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: &StrokesOf) {
     let frame = asker.shown.session.frame;
     let keys = keys_of(asker.stored(), of);

@@ -25,7 +25,7 @@ pub(super) fn is_wide(ui: &Ui) -> bool {
     ui.ctx().content_rect().width() >= WIDE
 }
 
-/// A section that opens and folds; `note` stands at its head's right end.
+/// A section that opens and folds; `note` is at the right end of its head.
 pub(super) fn section(
     ui: &mut Ui,
     name: &str,

@@ -1,4 +1,4 @@
-//! The pigments that the strokes of a region, or of the scene, are mixed from.
+//! The inspector's row for the pigments that the strokes of a region, or of the scene, are mixed from.
 
 use egui::{Popup, Ui, vec2};
 use impasto_editor_model::command::{Command, StrokeChange};
@@ -14,7 +14,7 @@ use crate::widgets::{self, MenuRow, Tip};
 /// The first pigment of a palette that had none: a red earth.
 const FIRST: Color = Color::from_bytes([0xb3, 0x4a, 0x2e]);
 
-/// Shows a square for each pigment, which opens a picker. A right click on it takes it out.
+/// Shows a square for each pigment. A click opens a picker, and a right click a menu that takes the pigment out.
 pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
     let [shown, stored] = place.resolved.each_ref().map(|resolved| resolved.palette.clone());
     let set = |palette: Vec<Color>| place.set(StrokeChange::Palette(Some(palette)));
@@ -70,7 +70,7 @@ fn pigment_square(
     let name = format!("Pigment {}", index + 1);
     let response = asker.colour(ui, &name, seen(pigment), with);
     let mut is_taken_out = false;
-    // Of its own id: the picker has the one of the square.
+    // The menu needs an id of its own: the picker has that of the square.
     let menu = Popup::context_menu(&response).id(response.id.with("menu"));
     menu.show(|ui| {
         let row = MenuRow { words: "Take out", ..MenuRow::default() };

@@ -145,7 +145,7 @@ pub(super) fn key_rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: KeyOf, ease: 
     // Not previewed: a key that moved to another frame would vanish from this section during the drag. It moves
     // on release.
     asker.asks.retain(|ask| !matches!(ask, Ask::Preview(Command::Time(Time::MoveKeys(..)))));
-    // Typed, or stepped by the wheel and the arrows.
+    // The key was moved by typing, or by a step of the wheel or the arrows: go to its new frame.
     if let Some(
         Ask::Do(Command::Time(Time::MoveKeys(_, by)))
         | Ask::DoMerged(Command::Time(Time::MoveKeys(_, by)), _),

@@ -58,8 +58,8 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, name: &str) {
     });
 }
 
-/// A button that goes to the material of the object: a region has strokes and pigments of its own, and the surface below them is
-/// its object's.
+/// A button that goes to the material of the object: a region has strokes and pigments of its own, but the surface
+/// below them is that of its object.
 fn to_material(ui: &mut Ui, asker: &mut Asker<'_, '_>, object: &str) {
     let name = format!("Material of {object}");
     let button = Button::new("Colour and texture\u{2026}").name(&name).show(ui);

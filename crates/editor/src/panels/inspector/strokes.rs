@@ -23,7 +23,7 @@ pub(super) fn of_region(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: &str) {
     section(ui, "Strokes", &note, true, |ui| contents(ui, asker, Some(region)));
 }
 
-/// Shows brush, numbers and layer; for the scene, which `region: None` means, also the preset.
+/// Shows brush, numbers, pigments and layer of a region. With `region: None`, shows those of the scene and its preset.
 pub(super) fn contents(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<&str>) {
     let Some(place) = EditedStrokes::new(asker, region) else { return };
     if region.is_none() {

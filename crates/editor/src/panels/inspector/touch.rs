@@ -1,4 +1,4 @@
-//! A touch: a stroke that was placed by hand.
+//! The inspector of a touch, which is a stroke that was placed by hand: its colour, brush and numbers.
 
 use egui::Ui;
 use impasto_core::brush;

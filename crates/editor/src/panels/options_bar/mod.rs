@@ -153,7 +153,7 @@ fn control(ui: &mut Ui, setting: &Setting, options: &mut ToolOptions, say: Trans
     }
 }
 
-/// A hint about the tool or the mode, where there is room.
+/// A hint about the tool or the mode, if there is room.
 fn hint(ui: &mut Ui, shown: &PanelInput<'_>, tool: Tool, right: f32, say: Translate) {
     let pieces: [(String, bool); 4] = match (tool, shown.document.selection().active()) {
         (Tool::Pick | Tool::ShotCamera, _) => [

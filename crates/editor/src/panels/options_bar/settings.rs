@@ -3,7 +3,7 @@
 use impasto_editor_model::session::{Axes, FillKind, RegionBy, RegionDoes, Tool, ToolOptions};
 use impasto_scene::document::{Amount, Color, LightKind};
 
-/// When a setting is on the bar. Otherwise, or where there is no room, it is in the menu at the bar's end.
+/// When a setting is on the bar. Otherwise, or if there is no room, it is in the menu at the bar's end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum BarPlace {
     Always,

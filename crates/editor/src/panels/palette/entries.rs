@@ -16,7 +16,7 @@ use crate::theme::Theme;
 pub(super) struct Entry {
     /// What it is called.
     pub(super) words: String,
-    /// Its keys, or where it is.
+    /// Its keys; for a preference or a control of the inspector, where it is.
     pub(super) keys: String,
     /// Whether it is on.
     pub(super) on: bool,
@@ -144,7 +144,7 @@ pub(super) fn entries(ctx: &Context, shown: &PanelInput<'_>, controls: &[Control
     all
 }
 
-/// Preferences: the words of each, whether it is so already, and its value.
+/// The values that preferences can be set to: the words of each, whether it is the present one, and the value.
 fn preferences(
     ctx: &Context,
     shown: &PanelInput<'_>,

@@ -45,7 +45,8 @@ struct Row<'a> {
     of: Option<&'a ProblemRow>,
 }
 
-/// Shows the troubles of the window and the problems of the document. Returns the index of the problem that was clicked.
+/// Shows the troubles of the window and the problems of the document. Returns the index of the problem that was
+/// clicked.
 pub(super) fn list(
     ui: &mut Ui,
     shown: &PanelInput<'_>,
@@ -244,7 +245,7 @@ fn with_code(words: &str, font: FontId, colour: Color32) -> LayoutJob {
     job
 }
 
-/// The words with a capital, unless they begin with the name of a file, and a full stop.
+/// Makes a sentence of the words: adds a full stop, and a capital unless they begin with the name of a file.
 fn sentence(words: &str) -> String {
     let mut characters = words.trim().chars();
     let Some(first) = characters.next() else { return String::new() };

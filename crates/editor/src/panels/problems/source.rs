@@ -48,7 +48,7 @@ impl Memory {
         self.begun_from.as_ref().is_some_and(|begun| begun.text != self.typed)
     }
 
-    /// Begins from this source, unless what was typed would be lost.
+    /// Follows the document's source: takes its text, unless edits would be lost. Returns whether the source is new.
     fn follow(&mut self, source: &Arc<Source>) -> bool {
         let is_new = !self.begun_from.as_ref().is_some_and(|begun| Arc::ptr_eq(begun, source));
         if is_new {
@@ -68,7 +68,7 @@ pub fn unread_text(ctx: &Context, document: &Document) -> Option<String> {
     (memory.is_edited() && memory.typed != source.text).then_some(memory.typed)
 }
 
-/// Drops the edited text, since the user said so or another document is shown.
+/// Drops the edited text, because the user wants that or another document is opened.
 pub fn forget_text(ctx: &Context) {
     Memory::default().store(ctx);
 }

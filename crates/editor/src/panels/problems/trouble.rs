@@ -11,7 +11,7 @@ pub struct Trouble {
     pub of: TroubleOf,
     /// What failed and why, as one sentence.
     pub words: String,
-    /// What to do about it, as one sentence; empty where the buttons say it.
+    /// What to do about it, as one sentence; empty if the buttons say it.
     pub mend: String,
     /// What can be done, the best first; never empty.
     pub settles: &'static [Settle],

@@ -10,7 +10,7 @@ use crate::panels::{row, within};
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Tip};
 
-/// More AOVs of a group than this stand in two columns.
+/// The most AOVs in a column; a larger group has several columns.
 const COLUMN: usize = 6;
 
 /// Width of a column, points: the longest name, and some space.
@@ -36,7 +36,7 @@ pub(super) fn format(ui: &mut Ui, scene: &Scene, settings: &mut RenderSettings) 
     }
 }
 
-/// Three choices for all, and a box to tick for each.
+/// The menu of AOVs: three choices that set them all, and a box to tick for each.
 fn menu(ui: &mut Ui, scene: &Scene, choice: &mut AovChoice) {
     let style = &scene.style;
     let has = style.settings().aovs();
@@ -65,7 +65,7 @@ fn menu(ui: &mut Ui, scene: &Scene, choice: &mut AovChoice) {
     }
 }
 
-/// An AOV with its words in its group.
+/// An AOV, after the words that it has in its group.
 type Named = (&'static str, &'static AovRow);
 
 /// The columns of a group; the first has its label.
@@ -93,7 +93,7 @@ fn wholes(ui: &mut Ui, scene: &Scene, choice: &mut AovChoice) {
     }
 }
 
-/// The box of an AOV; `lacking` says why there is none, if so.
+/// The box of an AOV. If the style does not have this AOV, `lacking` says so.
 fn tick(
     ui: &mut Ui,
     words: &str,

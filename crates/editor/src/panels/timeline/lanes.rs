@@ -28,7 +28,7 @@ pub(super) struct LaneRow {
     pub(super) across: FrameScale,
 }
 
-/// The item whose keys these are; `None` for the scene, whose settings show where nothing is selected.
+/// The item whose keys these are; `None` for the scene, whose settings show if nothing is selected.
 pub(super) fn item(of: &KeyOf) -> Option<Item> {
     match of {
         KeyOf::Camera => Some(Item::Camera),

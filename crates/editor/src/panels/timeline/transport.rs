@@ -16,7 +16,7 @@ use crate::widgets::{self, Button, FieldResponse, NumberField, Tip};
 /// The frames per second that can be typed.
 const FPS: std::ops::RangeInclusive<f64> = 0.001..=1e6;
 
-/// In a window narrower than this, in points, the bar leaves out what only tells something.
+/// In a window narrower than this, in points, the bar leaves out what is no control: the time and the key of *Set key*.
 const NARROW: f32 = 900.0;
 
 /// The buttons that go to the ends, step and play; and the field of the frame that is shown.

@@ -55,7 +55,7 @@ fn zoomed(whole: FrameScale, frames: Option<[f64; 2]>, zoom: f64, x: f32, along_
     within([first, first + span], whole)
 }
 
-/// The frames shifted to lie within the whole; `None` where they span all of it.
+/// The frames shifted to lie within the whole; `None` if they span all of it.
 fn within([first, last]: [f64; 2], whole: FrameScale) -> Option<[f64; 2]> {
     let (all, span) = (whole.last - whole.first, last - first);
     if span >= all * (1.0 - 1e-9) {

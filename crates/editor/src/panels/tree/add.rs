@@ -70,7 +70,7 @@ pub(in crate::panels) fn additions(shown: &PanelInput<'_>) -> Vec<Addition> {
     all
 }
 
-/// A light up and to the left of the camera, which shines where the camera looks.
+/// A light above the camera's line of sight and to its left. It shines at the camera's target.
 fn light(shown: &PanelInput<'_>, kind: LightKind) -> Arrange {
     let camera = motion::camera_at(shown.document.scene(), shown.session.frame);
     let back = camera.eye - camera.target;
@@ -79,7 +79,7 @@ fn light(shown: &PanelInput<'_>, kind: LightKind) -> Arrange {
     Arrange::AddLight { kind, at, toward: camera.target }
 }
 
-/// The object that is selected, or that the selected region lies on.
+/// The selected object, or the object that the selected region, guide or touch is on.
 fn object_of<'a>(scene: &'a Scene, active: Option<&'a Item>) -> Option<&'a str> {
     match active? {
         Item::Object(name) => Some(name),

@@ -67,7 +67,7 @@ pub(super) fn drag_and_drop(
     }
 }
 
-/// The command for dropping `dragged` at `place`; none where nothing would change.
+/// The command for dropping `dragged` at `place`; `None` if nothing would change.
 fn command_of(scene: &Scene, dragged: &Item, place: DropTarget<'_>) -> Option<Command> {
     let reorder = |target: &Item, after: bool| {
         let [from, to] = [dragged, target].map(|item| index_of(scene, item));

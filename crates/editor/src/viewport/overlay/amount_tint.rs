@@ -1,4 +1,4 @@
-//! Draws how much of an amount is painted where: warm where there is more, cool where there is less.
+//! Draws a tint where an amount is painted: warm for factors above 1, cool for factors below 1.
 
 use egui::{Color32, Mesh, Rect, Shape};
 
@@ -6,25 +6,26 @@ use super::Sheet;
 use super::ink::OVER_PAINT;
 use crate::viewport::surface_map::{Face, FacePlace, SurfaceMap};
 
-/// Steps of colour on either side of what is not painted.
+/// Steps of colour for factors above 1, and as many for factors below 1.
 const LEVELS: f32 = 12.0;
 
-/// The factor at which the colour is fullest, and its reciprocal; as powers of 2.
+/// The colour is fullest at the factor 2^`FULL_LOG2`, and at the reciprocal of that.
 const FULL_LOG2: f32 = 2.0;
 
 /// Opacity of the fullest colour.
 const FILL: f32 = 0.72;
 
-/// The visible surfaces by what is painted there.
+/// How much of an amount is painted on the visible surfaces, as coloured cells.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AmountTint {
-    /// Runs of cells side by side: their level, from −1, least, to 1, most; row, first column, and the column after the last.
+    /// Runs of cells side by side: their level, from −1 (least) to 1 (most), then row, first column, and the column
+    /// after the last.
     runs: Vec<(f32, [usize; 3])>,
     cells_per_point: f64,
 }
 
 impl AmountTint {
-    /// `factor` tells what is painted at a place.
+    /// The tint of the surfaces of `map`. `factor` gives the factor that is painted at a place.
     pub fn of(map: &SurfaceMap, factor: impl Fn(Face, FacePlace) -> f32) -> Self {
         let [columns, rows] = map.size();
         let mut runs = Vec::new();
@@ -44,7 +45,7 @@ impl AmountTint {
     }
 }
 
-/// The step of colour of a factor: 0 for none.
+/// The step of colour of a factor, from −`LEVELS` to `LEVELS`; 0 for no colour.
 fn level(factor: f32) -> i32 {
     ((factor.max(1e-6).log2() / FULL_LOG2).clamp(-1.0, 1.0) * LEVELS).round() as i32
 }
@@ -62,7 +63,7 @@ pub fn amount_tint(sheet: &Sheet<'_>, tint: &AmountTint) {
 
 fn colour(level: f32) -> Color32 {
     let colour = if level > 0.0 { OVER_PAINT.ochre } else { OVER_PAINT.accent_text };
-    // From the first step on the colour is plainly seen.
+    // Even the first step is plainly visible.
     colour.gamma_multiply(FILL * (0.25 + 0.75 * level.abs()))
 }
 

@@ -395,7 +395,7 @@ fn fields_shift_the_motion_in_arrange_and_key_it_in_animate() {
 fn double_click(harness: &mut Harness<'_, Column>, name: &str) {
     // The test's clock moves in large steps, so the delay has to be long.
     harness.ctx.options_mut(|options| options.input_options.max_double_click_delay = 2.0);
-    // Clicks elsewhere are so long ago that this is no third one.
+    // Waits, so that these clicks and earlier ones are no triple click.
     harness.run_steps(20);
     let middle = harness.get_by_role_and_label(Role::SpinButton, name).rect().center();
     for _ in 0..2 {
@@ -458,7 +458,7 @@ fn noise_of_a_material_is_set_and_reset() {
     };
     assert_eq!(noise(&harness), None);
     click(&mut harness, "Noise");
-    // Nothing moves and no texture is dropped before that is chosen.
+    // Until a part of the noise is chosen, nothing moves and the texture stays.
     assert_eq!(noise(&harness).map(|noise| (noise.vertex, noise.surface)), Some((None, None)));
     click(&mut harness, "Noise moves the vertices");
     click(&mut harness, "Noise colours the surface");

@@ -12,7 +12,7 @@ use super::{Column, click, harness_of, object, region, right_click, type_in};
 
 const OBJ: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n";
 
-/// A folder with a mesh that has texture coordinates, one that has none, a picture, and a file that is none.
+/// A folder with a mesh that has texture coordinates, one that has none, a picture, and a PNG file that is no picture.
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("written");

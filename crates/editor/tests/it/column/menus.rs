@@ -87,7 +87,7 @@ fn a_control_of_a_folded_section_is_unfolded_scrolled_to_and_focused() {
     let seed = harness.get_by_label("Seed");
     assert!(seed.accesskit_node().is_focused());
     assert!(seed.rect().bottom() < SIZE.y && seed.rect().top() > 252.0, "{:?}", seed.rect());
-    // Of two controls of one name, the one of the section.
+    // Two controls have this name: the one in the given section gets the focus.
     let control = Control { name: "Coverage".to_owned(), section: "Strokes over time".to_owned() };
     harness.state_mut().reach = Some(control);
     harness.run();

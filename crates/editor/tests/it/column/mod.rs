@@ -34,7 +34,7 @@ pub struct Column {
     pub tree_height: f32,
     pub strokes_of: Vec<(String, usize)>,
     pub likely_meshes: Vec<(String, String)>,
-    /// The menu at the pointer that was asked for in this pass: what it is about.
+    /// What the menu at the pointer is about, if one was asked for in this pass; the inner `None` is the view.
     pub menu: Option<Option<Item>>,
     /// The control that was asked to have the focus.
     pub reach: Option<Control>,

@@ -60,7 +60,7 @@ impl Drop for Headless {
     }
 }
 
-/// Draws into a picture of its own and reads it back, the bottom row first.
+/// Lets `paint` draw into a new framebuffer, and reads that into `pixels`, the bottom row first.
 #[expect(unsafe_code, reason = "OpenGL calls on a context that is current")]
 fn draw(gl: &glow::Context, [width, height]: [u32; 2], pixels: &mut [u8], paint: impl FnOnce()) {
     // SAFETY: the context is current on this thread, and `pixels` is as large as what is read into it.

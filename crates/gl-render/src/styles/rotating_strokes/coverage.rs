@@ -1,5 +1,5 @@
-//! What is where in the picture, with several samples in each pixel: paint ends between pixels, and things that are thinner than
-//! a pixel do not come and go.
+//! Draws depth and body with several samples in each pixel, so that paint can end within a pixel, and bodies thinner
+//! than a pixel do not come and go.
 
 use std::rc::Rc;
 
@@ -19,9 +19,9 @@ pub(super) struct Coverage {
     place: BodyProgram,
     borders: Program,
     screen: VertexArray,
-    /// The samples.
+    /// For the samples.
     fine: Option<Target>,
-    /// The pixels.
+    /// For the pixels.
     surface: Option<Target>,
 }
 
@@ -36,9 +36,9 @@ struct Target {
 pub(super) struct Covered {
     /// Of every sample.
     fine: Rc<Texture>,
-    /// Of every pixel; the id and half the share of the pixel that shows something else.
+    /// Of every pixel; half the share of the pixel that shows something else is added to the id.
     surface: Rc<Texture>,
-    /// How many samples a pixel has, a side.
+    /// How many samples a pixel has along each axis.
     samples: u32,
 }
 
@@ -117,7 +117,7 @@ impl Coverage {
         }
         let samples_of = Rc::clone(&fine.texture);
         self.fine = if input.keeps.lets_go() {
-            // Their depth has served.
+            // Frees the depth of the samples, which no later pass reads.
             self.gpu.finish();
             None
         } else {

@@ -24,7 +24,7 @@ pub(super) struct PaintData {
 impl PaintData {
     /// Fails where the driver cannot note fragments.
     pub(super) fn new(gpu: &Gpu) -> Result<Self, GlError> {
-        // First, because it says so in plain words.
+        // First, because its error tells in plain words what the driver lacks.
         let gatherer = FragmentGatherer::new(gpu)?;
         Ok(Self { gpu: gpu.clone(), programs: DataPrograms::new(gpu)?, gatherer, target: None })
     }
@@ -40,8 +40,8 @@ impl PaintData {
         self.gatherer.clear()
     }
 
-    /// Strokes whose quads cover this many pixels leave no more fragments than can be noted at a time. A quad is larger than its
-    /// stroke, and that of a narrow stroke much larger.
+    /// The most pixels that the strokes of a piece may cover, so that all their fragments can be noted. Quads have more
+    /// fragments than their strokes cover, those of narrow strokes many more.
     pub(super) fn piece_px(&self) -> f32 {
         const MOST_TIMES: f32 = 4.0;
         self.gatherer.capacity() as f32 / MOST_TIMES
@@ -102,7 +102,7 @@ impl PaintData {
         Ok(())
     }
 
-    /// The layers of the last picture, once.
+    /// The layers of the last picture; they can be taken once.
     pub(super) fn take_layers(&mut self) -> Vec<PaintedLayer> {
         self.gatherer.layers()
     }

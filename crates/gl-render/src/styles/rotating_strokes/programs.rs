@@ -59,13 +59,13 @@ impl StrokePrograms {
     }
 }
 
-/// The programs of a picture of which more is wanted than its colour.
+/// The programs of a picture whose paint is gathered.
 pub(super) struct DataPrograms {
     /// As [`StrokePrograms::paint`], and notes every fragment.
     pub(super) paint: Program,
     pub(super) shaped_paint: Program,
     pub(super) line_paint: Program,
-    /// As [`StrokePrograms::finish`], and tells of the paint's surface.
+    /// As [`StrokePrograms::finish`], and writes the paint's surface.
     pub(super) finish: Program,
 }
 

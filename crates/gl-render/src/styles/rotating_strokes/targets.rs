@@ -1,4 +1,4 @@
-//! What strokes are painted into, from where small ones are wanted to the paint and its height.
+//! The targets of the style: where small strokes are wanted, the paint, and its height.
 
 use std::rc::Rc;
 

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::document::is_default;
 
-/// What dabs of a brush make of one number of the strokes: wherever they reach, it is multiplied.
+/// Dabs of a brush that multiply one number of the strokes wherever they reach.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct PaintedAmount {
@@ -47,10 +47,10 @@ pub struct AmountDab {
 }
 
 impl Amount {
-    /// All of them, in the order of a list.
+    /// All of them, in the order in which lists show them.
     pub const ALL: [Self; 4] = [Self::Width, Self::Length, Self::Density, Self::Flatness];
 
-    /// The factors that a dab may have, and that all dabs together come to.
+    /// The range of a dab's factor. The product of all dabs at a place is held to the same range.
     pub fn range(self) -> RangeInclusive<f64> {
         match self {
             Self::Width | Self::Length => 0.25..=4.0,

@@ -22,8 +22,8 @@ struct Open {
     has_colon: bool,
 }
 
-/// Ends a text before the offset `fault`, or earlier where a bracket must have been forgotten. `None` where nothing
-/// comes before it.
+/// Ends a text before the offset `fault`, or earlier where a bracket must have been forgotten. `None` if nothing before
+/// it can be kept.
 pub(super) fn before(text: &str, fault: usize) -> Option<Cut> {
     let bytes = text.as_bytes();
     // A bracket that is never closed is reported at its opening; the text behind it may be good to the end.
@@ -124,7 +124,8 @@ fn closing_of(opening: u8) -> u8 {
     }
 }
 
-/// The offset behind the closing quote of the text, perhaps a raw one, that opens at `quote`.
+/// The offset behind the closing quote of the text, perhaps a raw one, that opens at `quote`. `None` if nothing closes
+/// it.
 fn behind_text(bytes: &[u8], quote: usize) -> Option<usize> {
     let hashes = bytes[..quote].iter().rev().take_while(|&&byte| byte == b'#').count();
     let is_raw = bytes[..quote - hashes].last() == Some(&b'r');

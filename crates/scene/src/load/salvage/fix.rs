@@ -13,7 +13,7 @@ const NEAR: usize = 2;
 pub struct Fix {
     /// The verb: *Rename*, *Use leaf.obj*.
     pub verb: String,
-    /// Whether nothing else can have been meant.
+    /// Whether the fix must be what was meant.
     pub is_certain: bool,
     /// The ranges to replace, with the new text.
     pub(super) edits: Vec<(Range<usize>, String)>,
@@ -50,7 +50,7 @@ pub(super) fn renamed(located: &Located, field: &Field, error: &ron::Error) -> O
     })
 }
 
-/// Whether a name may be a mistyped other one.
+/// Whether one of two names may be the other one, mistyped.
 pub(super) fn is_near(name: &str, other: &str) -> bool {
     name.len() <= 64 && strsim::damerau_levenshtein(name, other) <= NEAR
 }

@@ -1,5 +1,5 @@
-//! Makes random scenes, in which every field can differ from its default, for the test that a saved scene reads back
-//! equal.
+//! Makes random scenes, in which nearly every field can differ from its default, for the test that a saved scene reads
+//! back equal.
 
 use proptest::prelude::*;
 
