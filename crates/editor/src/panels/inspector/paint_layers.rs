@@ -25,7 +25,7 @@ const OPACITY: f32 = 52.0;
 pub(super) fn section_of(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<&str>) {
     let Some(place) = EditedStrokes::new(asker, region) else { return };
     let open_at_first = region.is_none() || is_wide(ui);
-    section(ui, "Paint layers", "opacity", open_at_first, |ui| {
+    section(ui, "Paint layers", "", open_at_first, |ui| {
         let order = presets::laying_order(asker.scene());
         list(ui, asker, &place, order);
         ui.add_space(4.0);
