@@ -131,7 +131,7 @@ impl Column {
     pub fn answer(&mut self, ask: Ask) {
         let words = |step: impasto_editor_model::document::Step| step.text;
         let refused = |refusal: impasto_editor_model::Refusal| format!("refused: {refusal}");
-        self.log.push(match ask {
+        let words = match ask {
             Ask::Do(command) => self.document.apply(&command).map_or_else(refused, words),
             Ask::DoMerged(command, key) => {
                 let step = self.document.apply_merged(&command, &key, 0.0);
@@ -192,7 +192,8 @@ impl Column {
                 self.session = *session;
                 "session".to_owned()
             }
-        });
+        };
+        self.log.push(words);
     }
 
     pub fn apply(&mut self, command: Command) {
