@@ -90,8 +90,16 @@ const SMALL: FrameOptions = FrameOptions::new([320, 180]);
 fn colour_and_layers_give_the_picture_which_no_data_changes() {
     let mut renderer = pictures::renderer(Driver::Auto);
     let clear = FrameOptions { transparent: true, ..SMALL };
-    for (name, options) in [("still_life", SMALL), ("still_life", clear), ("portrait", SMALL)] {
-        let painting = scenes::painting(name);
+    let upside_down = r#"["lights", "contour", "accents", "scumble", "form", "body", "underpainting"]"#;
+    let upside_down: &[(&str, &str)] = &[("strokes.order", upside_down)];
+    let cases = [
+        ("still_life", SMALL, &[][..]),
+        ("still_life", clear, &[]),
+        ("portrait", SMALL, &[]),
+        ("still_life", SMALL, upside_down),
+    ];
+    for (name, options, set) in cases {
+        let painting = scenes::painting_with(name, set);
         let plain = renderer.render(&painting.at(7.0, &options)).unwrap();
         let shot = shot(&mut renderer, &painting, 7.0, &options);
         assert!(plain == shot.picture, "{name}: data beside the colour changes the picture");

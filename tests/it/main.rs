@@ -38,6 +38,7 @@ mod noise_displace;
 mod openness;
 mod own_shaders;
 mod paint;
+mod paint_layers;
 mod picture_border;
 mod point_caches;
 mod progressive_order;

@@ -5,10 +5,11 @@ use std::sync::{Arc, OnceLock};
 
 use impasto_painting::{Frame, FrameOptions, Painting, PrepareError, PrepareOptions, Preparer, prepare};
 use impasto_scene::document::{
-    Amount, AmountDab, Bend, Dab, Direction, Ease, Edges, Light, LightKind, ObjectKey, PaintedAmount, Region,
-    Scale, Scene, Seam, Selector, Solver, Style,
+    Amount, AmountDab, Bend, Dab, Direction, Ease, Edges, LayerSettings, Light, LightKind, ObjectKey,
+    PaintedAmount, Region, Scale, Scene, Seam, Selector, Solver, Style,
 };
 use impasto_scene::loaded::LoadedScene;
+use impasto_scene::presets::LayerKind;
 use impasto_tests::gestures::{camera, drag};
 use impasto_tests::shapes;
 
@@ -81,6 +82,16 @@ fn edits() -> Vec<Edit> {
         edit("offset", |scene| scene.regions[1].strokes.offset = Some(0.02)),
         edit("edges", |scene| scene.regions[1].strokes.edges = Some(Edges::Free)),
         edit("layer", |scene| scene.regions[1].strokes.layer = Some(-1)),
+        edit("order of layers", |scene| {
+            let mut order = LayerKind::ALL;
+            order.rotate_left(2);
+            scene.strokes.order = order.map(|kind| kind.name().to_owned()).to_vec();
+        }),
+        edit("layer hidden", |scene| {
+            let name = LayerKind::Accents.name().to_owned();
+            let hidden = LayerSettings { name, hidden: Some(true), ..LayerSettings::default() };
+            scene.regions[0].strokes.layers.push(hidden);
+        }),
         edit("dab", move |scene| {
             let on = Selector::Dabs("apple".into(), vec![dab(0.0)]);
             let region = Region { direction: Direction::Angle(70.0), ..Region::new("spot", on) };

@@ -159,18 +159,7 @@ fn paper(scene: &mut Scene) {
 }
 
 fn layer(kind: LayerKind) -> LayerSettings {
-    LayerSettings {
-        name: kind.name().to_owned(),
-        brush: None,
-        length_px: None,
-        width_px: None,
-        coverage: None,
-        opacity: None,
-        thickness: None,
-        dryness: None,
-        pickup: None,
-        color: None,
-    }
+    LayerSettings { name: kind.name().to_owned(), ..LayerSettings::default() }
 }
 
 /// Leaves out all layers but the body's.

@@ -18,7 +18,7 @@ const BATCH: usize = 64;
 /// How many particles one task takes.
 const CHUNK: usize = 64 * Recall::WORD;
 
-/// A region's layer, then the layer of paint: the painting order sorts by these first.
+/// A region's layer, and the layer of paint: all strokes of one key lie together in the painting order.
 type LayerKey = (i32, LayerKind);
 
 /// Strokes of consecutive particles.
@@ -129,9 +129,11 @@ impl PaintingView<'_> {
         found
     }
 
-    /// A draft has no underpainting: the toned ground stands in for it.
+    /// A draft has no underpainting where the toned ground can stand in for it.
     fn is_left_out(&self, kind: LayerKind) -> bool {
-        self.quality == Quality::Draft && kind == LayerKind::Underpainting
+        self.quality == Quality::Draft
+            && kind == LayerKind::Underpainting
+            && self.painting.drafts_lack_underpainting()
     }
 
     fn is_in_picture(&self, candidate: &Candidate) -> bool {

@@ -1,5 +1,5 @@
-//! Puts particles in the order in which they are painted: by the regions' layers, then by the layers of paint, then by rank from
-//! high to low.
+//! Puts particles in the order in which they are painted: by the regions' layers, then by the layers of paint in the scene's
+//! order, then by rank from high to low.
 
 use std::cmp::Reverse;
 use std::collections::binary_heap::PeekMut;
@@ -16,6 +16,8 @@ use crate::traits::Traits;
 
 /// All that the order depends on.
 pub(crate) struct OrderInputs {
+    /// The layers of paint, the lowest first.
+    kinds: [LayerKind; 7],
     coats: Vec<OrderedCoat>,
     /// The layer of each rule; empty if all have the same.
     layers: Vec<i32>,
@@ -41,12 +43,12 @@ impl PartialEq for OrderedCoat {
 
 impl PartialEq for OrderInputs {
     fn eq(&self, other: &Self) -> bool {
-        self.coats == other.coats && self.layers == other.layers
+        self.kinds == other.kinds && self.coats == other.coats && self.layers == other.layers
     }
 }
 
 impl OrderInputs {
-    pub(crate) fn new(coats: &[Arc<Coat>], rules: &[RegionRule]) -> Self {
+    pub(crate) fn new(coats: &[Arc<Coat>], rules: &[RegionRule], kinds: [LayerKind; 7]) -> Self {
         let layers: Vec<i32> = rules.iter().map(|rule| rule.strokes.layer).collect();
         let one_layer = layers.windows(2).all(|pair| pair[0] == pair[1]);
         let coats = coats
@@ -58,18 +60,19 @@ impl OrderInputs {
                 traits: (!one_layer).then(|| Arc::clone(&coat.traits)),
             })
             .collect();
-        Self { coats, layers: if one_layer { Vec::new() } else { layers } }
+        Self { kinds, coats, layers: if one_layer { Vec::new() } else { layers } }
     }
 
     /// All particles in painting order; equal ranks of two objects are ordered by the hash of their names.
     pub(crate) fn order(&self) -> PaintingOrder {
         let (firsts, _) = begins(self.coats.iter().map(|coat| coat.count));
-        let mut runs: BTreeMap<(i32, LayerKind), Vec<Queue>> = BTreeMap::new();
+        let mut runs: BTreeMap<(i32, Option<usize>), Vec<Queue>> = BTreeMap::new();
         for (index, coat) in self.coats.iter().enumerate() {
+            let place = self.kinds.iter().position(|kind| *kind == coat.kind);
             for (layer, particles) in coat.by_layer(&self.layers) {
                 let queue =
                     Queue { first: firsts[index], name_hash: coat.name_hash, count: coat.count, particles };
-                runs.entry((layer, coat.kind)).or_default().push(queue);
+                runs.entry((layer, place)).or_default().push(queue);
             }
         }
         let runs: Vec<Vec<Queue>> = runs.into_values().collect();

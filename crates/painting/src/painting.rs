@@ -9,7 +9,7 @@ use impasto_core::direction::singularities::Singularity;
 use impasto_core::sampling::{PackedParticle, Particle};
 use impasto_scene::document::{Amount, Scene, Solver, Style};
 use impasto_scene::loaded::LoadedScene;
-use impasto_scene::presets::LayerKind;
+use impasto_scene::presets::{self, LayerKind};
 
 use crate::amounts::BodyAmounts;
 use crate::bent::{Bent, BentMemo};
@@ -235,9 +235,15 @@ impl Painting {
     /// The layers of paint that its frames may have, from the lowest: the `layer` of their regions, and which layer of paint.
     pub fn paint_layers(&self) -> Vec<(i32, LayerKind)> {
         let orders: BTreeSet<i32> = self.rules.iter().map(|rule| rule.strokes.layer).collect();
-        let kinds: BTreeSet<LayerKind> = self.coats.iter().map(|coat| coat.kind).collect();
+        let mut kinds = presets::laying_order(self.scene()).to_vec();
+        kinds.retain(|&kind| self.coats.iter().any(|coat| coat.kind == kind));
         let of_regions = orders.iter().flat_map(|&order| kinds.iter().map(move |&kind| (order, kind)));
         of_regions.chain(self.has_touches().then(|| (self.highest_layer(), LayerKind::Touches))).collect()
+    }
+
+    /// Whether drafts leave the underpainting out: the toned ground can stand in for it only if nothing lies below it.
+    pub(crate) fn drafts_lack_underpainting(&self) -> bool {
+        presets::laying_order(self.scene())[0] == LayerKind::Underpainting
     }
 
     /// Whether any stroke was placed by hand.

@@ -199,9 +199,10 @@ impl Preparer {
             body.field = Some(cache.field());
         }
         clock.lap("lift");
-        let order = self.order.resize(OrderInputs::new(&coats, context.rules), |inputs, before| {
-            before.unwrap_or_else(|| Arc::new(inputs.order()))
-        });
+        let order = self.order.resize(
+            OrderInputs::new(&coats, context.rules, presets::laying_order(context.scene)),
+            |inputs, before| before.unwrap_or_else(|| Arc::new(inputs.order())),
+        );
         let order = Arc::clone(order);
         clock.lap("order");
         Ok(Strokes { coats, brushes, order })
@@ -233,7 +234,10 @@ impl Preparer {
             body.field = Some(cache.late_field(context, object));
         }
         let order = Arc::new(found.order);
-        self.order.update(OrderInputs::new(&coats, context.rules), |_, _| Arc::clone(&order));
+        self.order
+            .update(OrderInputs::new(&coats, context.rules, presets::laying_order(context.scene)), |_, _| {
+                Arc::clone(&order)
+            });
         Ok(Strokes { coats, brushes, order })
     }
 

@@ -32,15 +32,15 @@ impl Recall {
     /// the frame, whether anything of that stroke was painted. `turn` counts the pictures.
     pub fn of(painting: &Painting, frame: &Frame, is_present: impl Fn(usize) -> bool, turn: u32) -> Self {
         let order = Arc::clone(&painting.order);
+        let lacks_underpainting = painting.drafts_lack_underpainting();
         let pattern = |number: u32| match painting.coats[order.entry(number).coat as usize].kind {
             LayerKind::Form | LayerKind::Accents | LayerKind::Contour | LayerKind::Lights => {
                 SMALL << (turn % 16)
             }
             // No coat carries them.
             LayerKind::Touches => 0,
-            LayerKind::Body | LayerKind::Scumble => LARGE << (turn % 2),
-            // Drafts have no underpainting.
-            LayerKind::Underpainting => 0,
+            LayerKind::Underpainting if lacks_underpainting => 0,
+            LayerKind::Body | LayerKind::Scumble | LayerKind::Underpainting => LARGE << (turn % 2),
         };
         // A word may hold particles of several layers.
         let word = |numbers: &[u32]| match (pattern(numbers[0]), pattern(numbers[numbers.len() - 1])) {

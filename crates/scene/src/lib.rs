@@ -26,6 +26,7 @@ pub mod presets;
 pub mod problem;
 pub mod save;
 pub mod shot;
+pub mod strokes_file;
 mod surface;
 pub mod texture;
 mod values;

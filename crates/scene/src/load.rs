@@ -23,6 +23,7 @@ mod overrides;
 mod parse;
 pub mod salvage;
 mod source;
+pub mod strokes_file;
 
 use files::{Files, Readers, as_scene_problem};
 use overrides::Applied;

@@ -102,13 +102,19 @@ pub fn is_paper(scene: &Scene) -> bool {
 /// The settings of region `region` of the scene; `None` means everything that no region covers.
 ///
 /// A value comes from the first that states it: the region, the region's preset, the scene, the scene's preset, the
-/// style's own preset. An unknown preset counts as none (`check` refuses it). The index must be one of the scene's
-/// regions.
+/// style's own preset. An unknown preset counts as none (`check` refuses it). A hidden layer has a coverage of 0. The
+/// index must be one of the scene's regions.
 pub fn resolve(scene: &Scene, region: Option<usize>) -> ResolvedStrokes {
-    resolve_with(scene, &scene.strokes, region.map(|region| &scene.regions[region].strokes))
+    let of_region = region.map(|region| &scene.regions[region].strokes);
+    let mut strokes = resolve_with(scene, &scene.strokes, of_region);
+    for layer in strokes.layers.iter_mut().filter(|layer| layer.hidden) {
+        layer.coverage = 0.0;
+    }
+    strokes
 }
 
-/// As [`resolve`], with these settings of the scene and of a region in place of those that `scene` has.
+/// As [`resolve`], with these settings of the scene and of a region in place of those that `scene` has. Hidden layers
+/// keep their coverage: so they are shown where they are edited, and not so painted.
 pub fn resolve_with(
     scene: &Scene,
     of_scene: &StrokeSettings,
@@ -126,13 +132,36 @@ pub fn resolve_with(
 }
 
 /// The tone under the scene's layers. If the scene states none, it is an earthy brown that lets most of each body's own
-/// colour through.
+/// colour through. A hidden ground has an opacity of 0.
 pub fn ground(scene: &Scene) -> ResolvedGround {
-    let stated = scene.strokes.layers.iter().rfind(|layer| layer.name == GROUND);
+    let is_hidden = ground_of(&scene.strokes).is_some_and(|layer| layer.hidden == Some(true));
+    let ground = stated_ground(&scene.strokes);
+    ResolvedGround { opacity: if is_hidden { 0.0 } else { ground.opacity }, ..ground }
+}
+
+/// As [`ground`], for these settings of a scene. A hidden ground keeps its opacity.
+pub fn stated_ground(of_scene: &StrokeSettings) -> ResolvedGround {
+    let stated = ground_of(of_scene);
     ResolvedGround {
         color: stated.and_then(|layer| layer.color).unwrap_or(Color([0.447, 0.341, 0.227])),
         opacity: stated.and_then(|layer| layer.opacity).unwrap_or(0.2) as f32,
     }
+}
+
+fn ground_of(settings: &StrokeSettings) -> Option<&LayerSettings> {
+    settings.layers.iter().rfind(|layer| layer.name == GROUND)
+}
+
+/// The layers of paint in the order in which the scene lays them, the lowest first. An order that does not name each
+/// layer once counts as none (`check` refuses it).
+pub fn laying_order(scene: &Scene) -> [LayerKind; 7] {
+    let stated = &scene.strokes.order;
+    let place_of = |kind: &LayerKind| stated.iter().position(|name| name == kind.name());
+    let mut order = LayerKind::ALL;
+    if stated.len() == order.len() && order.iter().all(|kind| place_of(kind).is_some()) {
+        order.sort_by_key(place_of);
+    }
+    order
 }
 
 impl ResolvedStrokes {
@@ -199,6 +228,7 @@ impl ResolvedLayer {
         if let Some(BrushMix(names)) = &settings.brush {
             self.brushes.clone_from(names);
         }
+        self.hidden = settings.hidden.unwrap_or(self.hidden);
         for LayerNumber { number, resolved } in LayerSettings::NUMBERS {
             if let Some(stated) = (number.get)(settings) {
                 *resolved(self) = stated as f32;

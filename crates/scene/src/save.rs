@@ -6,6 +6,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use crate::document::{Camera, Scene};
+use crate::strokes_file::StrokesFile;
 use crate::whole_file;
 
 mod layout;
@@ -23,6 +24,12 @@ pub fn to_ron(scene: &Scene) -> String {
     if saved.shot.is_some() {
         leave_to_shot(&mut value, &saved);
     }
+    format!("#![enable(implicit_some)]\n{}\n", layout::lay_out(&value))
+}
+
+/// The preset as text that [`crate::load::strokes_file::parse`] reads back as an equal one.
+pub fn preset_to_ron(preset: &StrokesFile) -> String {
+    let value = preset.serialize(serializer::ToValue).expect("a preset holds only what RON can say");
     format!("#![enable(implicit_some)]\n{}\n", layout::lay_out(&value))
 }
 
@@ -46,6 +53,15 @@ fn leave_to_shot(value: &mut Value, saved: &Scene) {
             });
         }
     }
+}
+
+/// Writes the file of a preset, whole or not at all.
+///
+/// # Errors
+///
+/// What the file system said; the old file is then untouched.
+pub fn write_preset(path: &Path, preset: &StrokesFile) -> std::io::Result<()> {
+    whole_file::write(path, preset_to_ron(preset).as_bytes())
 }
 
 /// Writes a scene file so that at any moment, even after a crash, the path holds the old file or the new one, whole.

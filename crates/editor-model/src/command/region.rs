@@ -4,6 +4,8 @@ use impasto_scene::document::{
     BrushMix, Color, Dab, Edges, LayerSettings, Patch, Region, Scene, Seam, Selector, StrokeNumber,
     StrokeSettings,
 };
+use impasto_scene::presets::{GROUND, LayerKind};
+use impasto_scene::strokes_file::StrokesFile;
 
 use super::{Done, region_mut, unlocked_region};
 use crate::euler::tidy;
@@ -35,8 +37,10 @@ pub enum StrokeChange {
     Preset(Option<String>),
     /// The pigments.
     Palette(Option<Vec<Color>>),
-    /// The settings of one layer of paint.
+    /// The settings of one layer of paint; a layer that states nothing is left to the scene and its preset.
     PaintLayer(Box<LayerSettings>),
+    /// The layers of paint in the order in which they are laid, for the scene alone; `None` for the usual order.
+    LayerOrder(Option<[LayerKind; 7]>),
 }
 
 /// A change to a region, or to the stroke settings of a region or of the scene.
@@ -61,6 +65,15 @@ pub enum Regions {
     SetStroke(StrokesOf, StrokeChange),
     /// Replaces all stroke settings by those that were copied.
     PasteStrokes(StrokesOf, Box<StrokeSettings>),
+    /// Replaces the stroke settings by those of a preset of the user's own. What a preset does not state stays.
+    ApplyPreset {
+        /// Whose settings.
+        of: StrokesOf,
+        /// The preset; pictures of its brushes are named as the scene finds them.
+        preset: Box<StrokesFile>,
+        /// Its name.
+        name: String,
+    },
 }
 
 impl Regions {
@@ -95,11 +108,23 @@ impl Regions {
             }
             Self::SetStroke(of, change) => set_stroke(settings(scene, of)?, change),
             Self::PasteStrokes(of, pasted) => {
-                settings(scene, of)?.clone_from(&**pasted);
+                let mut pasted = StrokeSettings::clone(pasted);
+                if matches!(of, StrokesOf::Region(_)) {
+                    // Only a scene has them.
+                    pasted.order.clear();
+                    pasted.layers.retain(|layer| layer.name != GROUND);
+                }
+                *settings(scene, of)? = pasted;
                 Ok(Done::new(match of {
                     StrokesOf::Scene => "Paste strokes to the scene".to_owned(),
                     StrokesOf::Region(name) => format!("Paste strokes to {name}"),
                 }))
+            }
+            Self::ApplyPreset { of, preset, name } => {
+                let height_px = scene.size.1;
+                let own = settings(scene, of)?;
+                *own = preset.applied_to(own, height_px, matches!(of, StrokesOf::Region(_)));
+                Ok(Done::new(format!("Preset {name}")))
             }
         }
     }
@@ -181,14 +206,33 @@ fn set_stroke(settings: &mut StrokeSettings, change: &StrokeChange) -> Result<Do
                 palette.as_ref().map(|colors| colors.iter().map(|&color| in_file(color)).collect());
             palette.as_ref().map_or("Any colour", |_| "Palette").to_owned()
         }
-        StrokeChange::PaintLayer(layer) => {
-            let known = settings.layers.iter_mut().find(|other| other.name == layer.name);
-            match known {
-                Some(known) => known.clone_from(&**layer),
-                None => settings.layers.push(LayerSettings::clone(layer)),
-            }
-            format!("Paint: {}", layer.name)
+        StrokeChange::PaintLayer(layer) => paint_layer(settings, layer),
+        StrokeChange::LayerOrder(order) => {
+            let order = order.filter(|order| *order != LayerKind::ALL);
+            settings.order =
+                order.map_or_else(Vec::new, |order| order.map(|kind| kind.name().to_owned()).to_vec());
+            order.map_or("Reset order of layers", |_| "Order of layers").to_owned()
         }
     };
     Ok(Done::new(text))
+}
+
+/// Replaces the settings of one layer of paint. Returns the text of the entry of the history.
+fn paint_layer(settings: &mut StrokeSettings, layer: &LayerSettings) -> String {
+    let layer = &LayerSettings { color: layer.color.map(in_file), ..layer.clone() };
+    let name = &layer.name;
+    let place = settings.layers.iter().position(|other| other.name == *name);
+    let was_hidden = place.and_then(|place| settings.layers[place].hidden);
+    let states_nothing = *layer == LayerSettings { name: name.clone(), ..LayerSettings::default() };
+    match place {
+        Some(place) if states_nothing => drop(settings.layers.remove(place)),
+        Some(place) => settings.layers[place].clone_from(layer),
+        None if states_nothing => {}
+        None => settings.layers.push(layer.clone()),
+    }
+    match layer.hidden {
+        hidden if hidden == was_hidden => format!("Paint: {name}"),
+        Some(true) => format!("Hide layer {name}"),
+        _ => format!("Show layer {name}"),
+    }
 }

@@ -5,3 +5,4 @@ mod any_command;
 mod history;
 mod hostile;
 mod killed;
+mod paint_layers;

@@ -69,6 +69,10 @@ impl EditorApp {
                 self.toast("Preparing was stopped: the picture is the one before", None, false);
             }
             Ask::StopWork(WorkKind::Rendering) => {}
+            Ask::ListPresets => self.list_presets(),
+            Ask::SavePreset(of) => self.ask_for_preset(FileAsk::SavePreset, of, ctx),
+            Ask::LoadPreset(of) => self.ask_for_preset(FileAsk::LoadPreset, of, ctx),
+            Ask::UsePreset(of, path) => self.use_preset(of, &path),
             Ask::Welcome => self.sheets.welcome = true,
         }
     }

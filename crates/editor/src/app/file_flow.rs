@@ -319,6 +319,8 @@ impl EditorApp {
                     self.picture(&of, &path);
                 }
             }
+            FileAsk::SavePreset => self.save_preset(&path),
+            FileAsk::LoadPreset => self.load_preset(&path),
             FileAsk::RenderOutput { .. } => self.render_to(&path),
         }
     }

@@ -7,10 +7,10 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::{Duration, Instant};
 
 use egui::Context;
-use impasto_editor_model::command::{Arrange, Command};
+use impasto_editor_model::command::{Arrange, Command, StrokesOf};
 use impasto_editor_model::editor::{Mend, Mended, Took};
 use impasto_editor_model::watch::News;
-use impasto_editor_model::{Document, PictureFor};
+use impasto_editor_model::{Document, Item, PictureFor};
 use impasto_scene::load::{LoadOptions, load_mesh};
 use impasto_scene::mesh_file::MeshFile;
 use impasto_scene::problem::Report;
@@ -163,6 +163,13 @@ impl EditorApp {
             Step::Open(path) => self.open_asking(&path),
             Step::Begin(path) => self.open(&path),
             Step::Import(path) => self.import(&path),
+            Step::Preset(path) => {
+                let of = match self.editor.document().selection().active() {
+                    Some(Item::Region(name) | Item::Guide(name, _)) => StrokesOf::Region(name.clone()),
+                    _ => StrokesOf::Scene,
+                };
+                self.use_preset(of, &path);
+            }
             Step::Picture(path) => {
                 let of = PictureFor::dropped(self.editor.document().selection());
                 self.picture(&of, &path);

@@ -19,6 +19,7 @@ mod motion_marks;
 mod picture;
 mod picture_view;
 mod preferring;
+mod preset_flow;
 mod render_flow;
 mod safe_keeping;
 mod shader_flow;
@@ -52,6 +53,7 @@ use following::Following;
 use long_work::LongWork;
 use marks::MarkCache;
 use picture::{News, PictureFlow};
+use preset_flow::PresetFlow;
 use render_flow::RenderFlow;
 use safe_keeping::SafeKeeping;
 use shader_flow::ShaderFlow;
@@ -82,6 +84,7 @@ pub(crate) struct EditorApp {
     /// What failed and is not settled yet.
     troubles: Vec<Trouble>,
     likely_meshes: LikelyMeshes,
+    presets: PresetFlow,
 }
 
 /// Missing meshes, and for each the file in the scene's folder that is likely meant.
@@ -151,6 +154,7 @@ impl EditorApp {
             telling: Telling::new(options.tell),
             troubles: Vec::new(),
             likely_meshes: LikelyMeshes::default(),
+            presets: PresetFlow::default(),
         };
         app.keymap();
         app.use_shaders(shaders);
@@ -272,6 +276,7 @@ impl EditorApp {
             recent: &recent,
             troubles: &self.troubles,
             likely_meshes: &self.likely_meshes.found,
+            presets: &self.presets.own,
         };
         if !self.folds.everything {
             area(ui, Area::TopBar, |ui| panels::top_bar::top_bar(ui, &shown, &mut asks));
@@ -368,6 +373,7 @@ impl window::App for EditorApp {
         }
         if focused && !self.folds.had_focus {
             self.safe.look_now();
+            self.list_presets();
         }
         self.folds.had_focus = focused;
         let numpad = numpad_pressed(&ctx);

@@ -19,9 +19,11 @@ impl EditorApp {
                 "A crash would lose what is not saved",
                 &[Settle::SaveAs, Settle::Retry, Settle::Dismiss],
             ),
-            TroubleOf::Open(_) | TroubleOf::Import(_) | TroubleOf::Picture(..) => {
-                (words, "Nothing changed", &[Settle::Retry, Settle::Dismiss])
-            }
+            TroubleOf::Open(_)
+            | TroubleOf::Import(_)
+            | TroubleOf::Picture(..)
+            | TroubleOf::Preset(..)
+            | TroubleOf::SavePreset(..) => (words, "Nothing changed", &[Settle::Retry, Settle::Dismiss]),
         };
         let trouble = Trouble { of, words, mend: mend.to_owned(), settles };
         match self.troubles.iter_mut().find(|known| known.of == trouble.of) {
@@ -53,6 +55,8 @@ impl EditorApp {
             (Settle::Retry, TroubleOf::Open(path)) => self.open_asking(path),
             (Settle::Retry, TroubleOf::Import(path)) => self.read_mesh(path, MeshFor::Import),
             (Settle::Retry, TroubleOf::Picture(of, path)) => self.picture(of, path),
+            (Settle::Retry, TroubleOf::Preset(of, path)) => self.use_preset(of.clone(), path),
+            (Settle::Retry, TroubleOf::SavePreset(of, path)) => self.save_preset_again(of.clone(), path),
         }
     }
 }

@@ -200,6 +200,7 @@ fn choose_on_desktop(ask: FileAsk, start: &Path) -> Option<PathBuf> {
         FileAsk::SaveAs | FileAsk::SaveCopy => dialog.add_filter("Scenes", &["ron"]),
         FileAsk::Missing => dialog,
         FileAsk::ChoosePicture => dialog.add_filter("Pictures", PICTURES),
+        FileAsk::SavePreset | FileAsk::LoadPreset => dialog.add_filter("Presets", &["strokes.ron", "ron"]),
         FileAsk::RenderOutput { .. } => dialog.add_filter("Pictures", &["png", "exr"]),
     };
     if !ask.is_save() {

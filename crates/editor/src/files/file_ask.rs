@@ -21,6 +21,10 @@ pub enum FileAsk {
     Missing,
     /// Choose a picture.
     ChoosePicture,
+    /// Save a preset.
+    SavePreset,
+    /// Choose a preset.
+    LoadPreset,
     /// Choose where rendered frames go.
     RenderOutput {
         /// The ending for a name without one.
@@ -39,6 +43,8 @@ impl FileAsk {
             Self::LocateMesh => "Locate the mesh",
             Self::Missing => "Locate the missing file",
             Self::ChoosePicture => "Choose a picture",
+            Self::SavePreset => "Save as a preset",
+            Self::LoadPreset => "Load a preset",
             Self::RenderOutput { .. } => "Choose where the frames go",
         }
     }
@@ -50,6 +56,7 @@ impl FileAsk {
             Self::ImportMesh | Self::LocateMesh => &[Kind::Mesh],
             Self::SaveAs | Self::SaveCopy => &[Kind::Scene],
             Self::Missing => &[],
+            Self::SavePreset | Self::LoadPreset => &[Kind::Preset],
             Self::ChoosePicture => &[Kind::Picture],
             Self::RenderOutput { .. } => &[Kind::Picture, Kind::Exr, Kind::Movie],
         }
@@ -59,14 +66,20 @@ impl FileAsk {
     pub(super) fn completed(self, path: PathBuf) -> PathBuf {
         match self {
             Self::SaveAs | Self::SaveCopy => self.as_file(path, "ron"),
+            Self::SavePreset => self.as_file(path, "strokes.ron"),
             Self::RenderOutput { ending } => self.as_file(path, ending),
-            Self::Open | Self::ImportMesh | Self::LocateMesh | Self::Missing | Self::ChoosePicture => path,
+            Self::Open
+            | Self::ImportMesh
+            | Self::LocateMesh
+            | Self::Missing
+            | Self::ChoosePicture
+            | Self::LoadPreset => path,
         }
     }
 
     /// Whether the file will be written.
     pub fn is_save(self) -> bool {
-        matches!(self, Self::SaveAs | Self::SaveCopy | Self::RenderOutput { .. })
+        matches!(self, Self::SaveAs | Self::SaveCopy | Self::SavePreset | Self::RenderOutput { .. })
     }
 
     /// Whether a file is of a kind that fits.

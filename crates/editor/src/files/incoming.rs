@@ -7,6 +7,7 @@ mod tests;
 use std::path::{Path, PathBuf};
 
 use impasto_editor_model::Document;
+use impasto_scene::load::strokes_file::is_preset;
 use impasto_scene::mesh_format;
 
 pub use adopt::{AdoptError, Adopted, adopt_mesh, adopt_picture, bring};
@@ -19,6 +20,8 @@ pub const PICTURES: &[&str] = &["png", "jpg", "jpeg", "bmp", "tga", "webp"];
 pub enum Kind {
     /// A scene, `.ron`.
     Scene,
+    /// A preset, `.strokes.ron`.
+    Preset,
     /// A mesh or a shot: `.obj`, `.gltf`, `.glb`.
     Mesh,
     /// A picture, one of [`PICTURES`].
@@ -34,6 +37,7 @@ impl Kind {
     pub fn of(path: &Path) -> Option<Self> {
         let ending = path.extension()?.to_str()?.to_ascii_lowercase();
         match ending.as_str() {
+            "ron" if is_preset(path) => Some(Self::Preset),
             "ron" => Some(Self::Scene),
             "exr" => Some(Self::Exr),
             "mp4" | "mov" | "webm" | "mkv" => Some(Self::Movie),
@@ -75,6 +79,8 @@ pub enum Step {
     Begin(PathBuf),
     /// Bring the mesh into the document ([`adopt_mesh`]).
     Import(PathBuf),
+    /// Replace the stroke settings of the selected region, or of the scene, by the preset.
+    Preset(PathBuf),
     /// Bring the picture in as the texture of the selected object, or as a brush ([`adopt_picture`]).
     Picture(PathBuf),
 }
@@ -119,6 +125,14 @@ pub fn plan(paths: &[PathBuf], present: Present) -> Plan {
         let mesh = (*mesh).clone();
         plan.steps.push(if is_there { Step::Import(mesh) } else { Step::Begin(mesh) });
         is_there = true;
+    }
+    for (_, preset) in known.iter().filter(|(kind, _)| *kind == Kind::Preset) {
+        if is_there {
+            plan.steps.push(Step::Preset((*preset).clone()));
+        } else {
+            let words = format!("{} is for the strokes of a scene: open one first", name_of(preset));
+            plan.refused.push(words);
+        }
     }
     for (_, picture) in known.iter().filter(|(kind, _)| *kind == Kind::Picture) {
         if is_there {

@@ -5,6 +5,7 @@ pub mod dialogs;
 pub mod file_ask;
 pub mod incoming;
 pub mod nearby;
+pub mod own_presets;
 pub mod path_sheet;
 pub mod preferences;
 pub mod show_folder;

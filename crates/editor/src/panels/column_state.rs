@@ -24,8 +24,8 @@ pub(super) struct ColumnState {
     pub(super) opens_add_menu: bool,
     /// Stroke settings that were copied.
     pub(super) copied_strokes: Option<StrokeSettings>,
-    /// Index of the layer of paint that the section Advanced shows.
-    pub(super) paint_layer: usize,
+    /// The layer of paint whose numbers are shown, by its name; none means the body.
+    pub(super) paint_layer: Option<&'static str>,
     /// The item that was active in the previous pass. When another one is active, the tree scrolls to it.
     pub(super) active: Option<Item>,
 }

@@ -32,7 +32,7 @@ mod column_state;
 mod inspector;
 mod tree;
 
-use impasto_editor_model::command::Command;
+use impasto_editor_model::command::{Command, StrokesOf};
 use impasto_editor_model::editor::Mend;
 use impasto_editor_model::keymap::{Action, Keymap};
 use impasto_editor_model::session::Tool;
@@ -47,6 +47,8 @@ pub use context_menu::{context_menu, open_context_menu};
 pub use inspector::{Control, controls, inspector, reach};
 pub use preference::Preference;
 use problems::{Settle, Trouble};
+
+use crate::files::own_presets::OwnPreset;
 pub use tree::tree;
 
 /// What the panels show.
@@ -72,6 +74,8 @@ pub struct PanelInput<'a> {
     pub troubles: &'a [Trouble],
     /// For each missing mesh, the file in the scene's folder that is likely meant.
     pub likely_meshes: &'a [(String, String)],
+    /// Presets of the user's own.
+    pub presets: &'a [OwnPreset],
 }
 
 impl PanelInput<'_> {
@@ -184,6 +188,14 @@ pub enum Ask {
     Recapture(i64),
     /// Stop this work in the background.
     StopWork(work::WorkKind),
+    /// Look which presets the user has.
+    ListPresets,
+    /// Let the user choose a file, and save these settings as a preset there.
+    SavePreset(StrokesOf),
+    /// Let the user choose a preset, and replace these settings by it.
+    LoadPreset(StrokesOf),
+    /// Replace these settings by the preset in this file.
+    UsePreset(StrokesOf, PathBuf),
     /// Show the first-run sheet.
     Welcome,
 }

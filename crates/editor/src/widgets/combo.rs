@@ -18,7 +18,7 @@ pub fn combo(ui: &mut Ui, name: &str, icon: Option<Icon>, choices: &[&str], chos
     let mut picked = None;
     Popup::menu(&response).width(wide).show(|ui| {
         for (index, choice) in choices.iter().enumerate() {
-            if menu_row(ui, choice, index == *chosen).clicked() {
+            if choice_row(ui, choice, index == *chosen).clicked() {
                 picked = Some(index);
             }
         }
@@ -36,6 +36,11 @@ pub fn drop_down(ui: &mut Ui, name: &str, shown: &str, contents: impl FnOnce(&mu
     let menu = Popup::menu(&response).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     menu.show(contents);
     response
+}
+
+/// A control that shows `shown`, for a menu that the caller opens on it.
+pub fn drop_down_face(ui: &mut Ui, name: &str, shown: &str) -> Response {
+    face(ui, name, None, shown)
 }
 
 /// The control while its menu is closed.
@@ -74,7 +79,8 @@ fn face(ui: &mut Ui, name: &str, icon: Option<Icon>, shown: &str) -> Response {
     response
 }
 
-fn menu_row(ui: &mut Ui, words: &str, on: bool) -> Response {
+/// A row of a menu that picks one of several; `on` tells whether it is the one that is picked.
+pub fn choice_row(ui: &mut Ui, words: &str, on: bool) -> Response {
     let tokens = Tokens::of(ui);
     let wide = ui.available_width().max(draw::width(ui, words, type_face::body()) + 40.0);
     let (rect, response) = ui.allocate_exact_size(vec2(wide, measure::ROW), Sense::click());

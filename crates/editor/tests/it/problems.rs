@@ -88,6 +88,7 @@ impl Page {
             recent: &[],
             troubles: &self.troubles,
             likely_meshes: &[],
+            presets: &[],
         };
         if self.has_bars {
             top_bar::top_bar(ui, &shown, &mut asks);

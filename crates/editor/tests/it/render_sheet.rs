@@ -285,6 +285,7 @@ fn long_work_is_shown_in_the_status_line_and_can_be_stopped() {
             recent: &[],
             troubles: &[],
             likely_meshes: &[],
+            presets: &[],
         };
         status_line::status_line(ui, &shown, &mut line.asked);
     };

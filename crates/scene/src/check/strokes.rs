@@ -130,6 +130,7 @@ fn check_settings(strokes_path: &str, settings: &StrokeSettings, findings: &mut 
         findings.number(&path("layer"), f64::from(layer), -most..=most);
     }
     check_layers(strokes_path, &settings.layers, findings);
+    check_order(strokes_path, &settings.order, findings);
     check_keys(&path("keys"), &settings.keys, findings);
 }
 
@@ -180,6 +181,37 @@ fn check_layers(strokes_path: &str, layers: &[LayerSettings], findings: &mut Fin
             findings.number_of(&layer_path, layer, number);
         }
         check_ground(&layer_path, layer, strokes_path == "strokes", findings);
+    }
+}
+
+/// An order names each layer once, and only the scene has one.
+fn check_order(strokes_path: &str, order: &[String], findings: &mut Findings) {
+    if order.is_empty() {
+        return;
+    }
+    let order_path = format!("{strokes_path}.order");
+    if strokes_path != "strokes" {
+        let mend = "state it in the scene's own strokes";
+        return findings.error(order_path, "a region has no order of its own", mend);
+    }
+    let known = LayerKind::ALL.map(LayerKind::name);
+    let mut has_others = false;
+    for (index, name) in order.iter().enumerate() {
+        let item_path = format!("{order_path}[{index}]");
+        if !known.contains(&name.as_str()) {
+            let message = format!("there is no layer \"{}\"", shown(name));
+            findings.error(item_path, message, did_you_mean(name, known.into_iter()));
+            has_others = true;
+        } else if order[..index].contains(name) {
+            findings.error(item_path, format!("the layer \"{name}\" is named twice"), "name it once");
+            has_others = true;
+        }
+    }
+    let missing: Vec<&str> =
+        known.into_iter().filter(|name| order.iter().all(|other| other != name)).collect();
+    if !missing.is_empty() && !has_others {
+        let message = format!("the order does not name {}", missing.join(", "));
+        findings.error(order_path, message, "name each layer, from the lowest to the highest");
     }
 }
 

@@ -219,13 +219,30 @@ fn layers_of_paint_have_names_and_ranges() {
         assert_finds(&layer(fields), &[(Error, &format!("strokes.layers[0].{field}"))]);
     }
     assert_finds(&layer("name: \"ground\", color: \"#a08060\", opacity: 0.5"), &[]);
-    assert_finds(&layer("name: \"lights\", coverage: 0, thickness: 5, brush: [\"knife\", \"round\"]"), &[]);
+    assert_finds(&layer("name: \"ground\", hidden: true"), &[]);
+    assert_finds(
+        &layer("name: \"lights\", hidden: false, coverage: 0, thickness: 5, brush: [\"knife\", \"round\"]"),
+        &[],
+    );
     let many: String = (0..17).map(|index| format!("\"{index}.png\",")).collect();
     assert_finds(&format!("strokes: (brush: [{many}])"), &[(Error, "strokes.brush")]);
     for style in ["relief: -1", "weave: 11", "varnish: NaN"] {
         let field = style.split(':').next().unwrap();
         assert_finds(&format!("style: RotatingStrokes({style})"), &[(Error, &format!("style.{field}"))]);
     }
+}
+
+#[test]
+fn an_order_names_each_layer_once_and_is_the_scenes() {
+    let all = "\"body\", \"underpainting\", \"form\", \"scumble\", \"accents\", \"contour\"";
+    let order = |names: &str| format!("strokes: (order: [{names}])");
+    assert_finds(&order(&format!("{all}, \"lights\"")), &[]);
+    assert_finds(&order(all), &[(Error, "strokes.order")]);
+    assert_finds(&order(&format!("{all}, \"light\"")), &[(Error, "strokes.order[6]")]);
+    assert_finds(&order(&format!("{all}, \"body\"")), &[(Error, "strokes.order[6]")]);
+    assert_finds(&order(&format!("{all}, \"ground\"")), &[(Error, "strokes.order[6]")]);
+    let of_region = format!("regions: [(name: \"a\", on: Everything, {})]", order(all));
+    assert_finds(&of_region, &[(Error, "regions[0].strokes.order")]);
 }
 
 #[test]

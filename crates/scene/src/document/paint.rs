@@ -29,6 +29,10 @@ macro_rules! layer_numbers {
             /// Brush, or a mix of brushes.
             #[serde(default, skip_serializing_if = "is_default")]
             pub brush: Option<BrushMix>,
+            /// Leaves the layer out of the picture, and keeps its numbers. In a region, `false` shows a layer that the
+            /// scene hides.
+            #[serde(default, skip_serializing_if = "is_default")]
+            pub hidden: Option<bool>,
             $($(#[doc = $effect])+ #[serde(default, skip_serializing_if = "is_default")] pub $field: Option<f64>,)+
             /// Tone of the ground; for `ground` alone.
             #[serde(default, skip_serializing_if = "is_default")]
@@ -50,6 +54,8 @@ macro_rules! layer_numbers {
         pub struct ResolvedLayer {
             /// Brushes by name; one named twice is taken twice as often. At least one.
             pub brushes: Vec<String>,
+            /// Whether the layer is left out of the picture.
+            pub hidden: bool,
             $($(#[doc = $effect])+ pub $field: f32,)+
             /// How many pixels this layer's paint runs past its body where the body layer's paint runs one pixel.
             pub overrun: f32,

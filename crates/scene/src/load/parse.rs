@@ -25,6 +25,15 @@ pub(super) struct Parsed {
 
 /// Parses a text without byte order mark. Reports all unknown fields at once, but only the first fault of another kind.
 pub(super) fn parse(path: &Path, text: &str) -> Result<Parsed, Report> {
+    parse_with(path, text, from_ron).map(|(scene, located)| Parsed { scene, located })
+}
+
+/// As [`parse`], for whatever `from_ron` reads.
+pub(super) fn parse_with<T>(
+    path: &Path,
+    text: &str,
+    from_ron: impl Fn(&Located, &str) -> Result<T, SpannedError>,
+) -> Result<(T, Located), Report> {
     let located = source::scan(path, text).map_err(|problem| Report(vec![problem]))?;
     check_version(path, &located).map_err(|problem| Report(vec![problem]))?;
     let mut problems = Vec::new();
@@ -33,7 +42,7 @@ pub(super) fn parse(path: &Path, text: &str) -> Result<Parsed, Report> {
     let most_problems = (MOST_PARSED_BYTES / text.len().max(1)).clamp(1, limits::MAX_PROBLEMS);
     loop {
         let error = match from_ron(&located, &left) {
-            Ok(scene) if problems.is_empty() => return Ok(Parsed { scene, located }),
+            Ok(read) if problems.is_empty() => return Ok((read, located)),
             Ok(_) => break,
             Err(error) => error,
         };
@@ -104,10 +113,7 @@ pub(super) fn is_newer(located: &Located) -> bool {
 
 /// Parses the document in `text`. `located` is the scan of this text before parts of it were blanked out.
 pub(super) fn from_ron(located: &Located, text: &str) -> Result<Scene, SpannedError> {
-    let scene: Scene = ron::Options::default()
-        .with_default_extension(Extensions::IMPLICIT_SOME)
-        .with_recursion_limit(2 * limits::MAX_NESTING)
-        .from_str(text)?;
+    let scene: Scene = options().from_str(text)?;
     match left_to_shot(located, text).filter(|_| scene.shot.is_none()) {
         Some((field, at)) => {
             let TextPosition { line, column } = located.place(at);
@@ -117,6 +123,13 @@ pub(super) fn from_ron(located: &Located, text: &str) -> Result<Scene, SpannedEr
         }
         None => Ok(scene),
     }
+}
+
+/// How the files of this house are written in RON.
+pub(super) fn options() -> ron::Options {
+    ron::Options::default()
+        .with_default_extension(Extensions::IMPLICIT_SOME)
+        .with_recursion_limit(2 * limits::MAX_NESTING)
 }
 
 /// The first field that `text` leaves out although only a scene with a shot may: its name, and the offset where it
@@ -385,6 +398,7 @@ fn what_goes_into(field: &str) -> Option<&'static str> {
         "brush" => "a brush such as \"filbert\", a picture such as \"mark.png\", or a list of them",
         "palette" => "a list of colours, as in [\"#b3262a\", \"#e3b62c\"]",
         "layers" => "a list of layers, as in [(name: \"scumble\", coverage: 0)]",
+        "order" => "all layers from the lowest up, as in [\"underpainting\", \"body\", …]",
         "edges" => "Clip, Overrun(3) or Free",
         "canvas" => "Linen or Board",
         "canvas_follows" | "paper_follows" => "Picture or Camera",

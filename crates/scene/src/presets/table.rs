@@ -294,6 +294,7 @@ impl From<Layer> for ResolvedLayer {
             layer.brushes.iter().flat_map(|&(name, times)| std::iter::repeat_n(name.to_owned(), times));
         Self {
             brushes: repeated.collect(),
+            hidden: false,
             length_px: layer.size_px[0],
             width_px: layer.size_px[1],
             coverage: layer.coverage,

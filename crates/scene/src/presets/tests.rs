@@ -131,6 +131,47 @@ fn every_preset_names_brushes_that_exist() {
 }
 
 #[test]
+fn a_hidden_layer_paints_nothing_and_keeps_its_numbers() {
+    let layer = |name: &str, hidden| LayerSettings {
+        name: name.to_owned(),
+        hidden: Some(hidden),
+        thickness: Some(0.25),
+        ..Default::default()
+    };
+    let of_scene = StrokeSettings {
+        layers: vec![layer("form", true), layer("lights", true), layer("body", false), layer(GROUND, true)],
+        ..Default::default()
+    };
+    let of_region = StrokeSettings { layers: vec![layer("lights", false)], ..Default::default() };
+    let scene = scene(of_scene, of_region.clone());
+    let coverage = |strokes: &ResolvedStrokes, kind| strokes.layer_of(kind).coverage;
+    let (everywhere, region) = (resolve(&scene, None), resolve(&scene, Some(0)));
+    let kinds = [LayerKind::Body, LayerKind::Form, LayerKind::Lights];
+    assert_eq!(kinds.map(|kind| coverage(&everywhere, kind)), [2.7, 0.0, 0.0]);
+    assert_eq!(kinds.map(|kind| coverage(&region, kind)), [2.7, 0.0, 0.25], "a region may show one again");
+    assert_eq!(everywhere.layer_of(LayerKind::Form).thickness, 0.25);
+    assert!(everywhere.at(0.0).layer_of(LayerKind::Form).coverage == 0.0);
+    let edited = resolve_with(&scene, &scene.strokes, None);
+    assert_eq!((coverage(&edited, LayerKind::Form), edited.layer_of(LayerKind::Form).hidden), (1.25, true));
+    assert_eq!(ground(&scene).opacity, 0.0);
+}
+
+#[test]
+fn the_order_of_layers_is_the_scenes_or_the_usual_one() {
+    let names = |kinds: [LayerKind; 7]| kinds.map(|kind| kind.name().to_owned()).to_vec();
+    let mut kinds = LayerKind::ALL;
+    let order =
+        |order| laying_order(&scene(StrokeSettings { order, ..Default::default() }, Default::default()));
+    assert_eq!(order(Vec::new()), LayerKind::ALL);
+    kinds.reverse();
+    kinds.swap(0, 3);
+    assert_eq!(order(names(kinds)), kinds);
+    // What `check` refuses counts as none.
+    assert_eq!(order(names(kinds)[1..].to_vec()), LayerKind::ALL);
+    assert_eq!(order(vec!["body".to_owned(); 7]), LayerKind::ALL);
+}
+
+#[test]
 fn the_ground_is_the_last_that_is_stated() {
     let ground = LayerSettings {
         name: GROUND.to_owned(),

@@ -7,10 +7,12 @@ use impasto_editor_model::command::{
     RegionTarget, Regions, SceneEdit, Shift, StrokeChange, StrokesOf, Time, Touches,
 };
 use impasto_scene::document::{
-    Amount, AmountDab, BrushMix, Color, Dab, Direction, Ease, Guide, GuidePoint, LightKind, MaterialOverride,
-    ObjectKey, Region, STROKE_NUMBERS, Scene, Seam, Selector, Sense, Style, SumiE, Touch, TouchPoint,
+    Amount, AmountDab, BrushMix, Color, Dab, Direction, Ease, Guide, GuidePoint, LayerSettings, LightKind,
+    MaterialOverride, ObjectKey, Region, STROKE_NUMBERS, Scene, Seam, Selector, Sense, Style, SumiE, Touch,
+    TouchPoint,
 };
 use impasto_scene::motion;
+use impasto_scene::presets::LayerKind;
 
 /// The random numbers that one command is made from.
 pub type Dice = (u8, u8, u8, f64, f64);
@@ -189,8 +191,18 @@ pub fn command(scene: &Scene, (kind, which, other, x, y): Dice) -> Command {
         }),
         36 => Command::Regions(Regions::SetStroke(
             of,
-            match other % 6 {
+            match other % 8 {
                 0 => StrokeChange::Brush(Some(BrushMix(vec!["round".to_owned()]))),
+                6 => StrokeChange::PaintLayer(Box::new(LayerSettings {
+                    name: ["form", "lights", "ground"][usize::from(which) % 3].to_owned(),
+                    hidden: (which % 2 == 0).then_some(x > 0.0),
+                    ..LayerSettings::default()
+                })),
+                7 => {
+                    let mut order = LayerKind::ALL;
+                    order.rotate_left(usize::from(which) % 7);
+                    StrokeChange::LayerOrder(Some(order))
+                }
                 1 => StrokeChange::Layer(Some(i32::from(other % 3))),
                 _ => StrokeChange::Number(
                     field.number.field,

@@ -10,6 +10,7 @@ use super::Asker;
 pub(super) struct EditedStrokes<'a> {
     pub(super) of: StrokesOf,
     pub(super) own: [&'a StrokeSettings; 2],
+    /// With preset, scene and region combined. Hidden layers keep their coverage.
     pub(super) resolved: [ResolvedStrokes; 2],
     /// The region's index in the scene as it is shown; `None` for the scene's own settings.
     pub(super) index: Option<usize>,
@@ -29,10 +30,14 @@ impl<'a> EditedStrokes<'a> {
             let scene = scenes[which];
             indices[which].map_or(&scene.strokes, |index| &scene.regions[index].strokes)
         };
+        let resolved = |which: usize| {
+            let of_region = indices[which].map(|index| &scenes[which].regions[index].strokes);
+            presets::resolve_with(scenes[which], &scenes[which].strokes, of_region)
+        };
         Some(Self {
             of: region.map_or(StrokesOf::Scene, |name| StrokesOf::Region(name.to_owned())),
             own: [own(0), own(1)],
-            resolved: [0, 1].map(|which| presets::resolve(scenes[which], indices[which])),
+            resolved: [resolved(0), resolved(1)],
             index: indices[0],
         })
     }

@@ -1,11 +1,13 @@
 //! The inspector: the settings of the active item, or of the scene if nothing is selected.
 
 mod amounts;
+mod brushes;
 mod camera;
 mod controls;
 mod edited_strokes;
 mod guides;
 mod ink;
+mod layer_numbers;
 mod light;
 mod noise;
 mod number;
@@ -16,6 +18,7 @@ mod parts;
 mod picture;
 mod pigments;
 mod pose;
+mod preset_chooser;
 mod region;
 mod rotating_strokes;
 mod scene;

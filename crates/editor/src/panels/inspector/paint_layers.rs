@@ -1,77 +1,208 @@
-//! The rows of the inspector for the settings of one layer of paint. The user chooses the layer, from the underpainting
-//! to the lights.
+//! The section *Paint layers* of the inspector: the layers of paint as a list, the last laid at the top, and under it
+//! the numbers of the one that is selected.
 
-use egui::Ui;
+use egui::{Align, Layout, Rect, Response, Ui, UiBuilder};
 use impasto_editor_model::command::StrokeChange;
-use impasto_scene::document::{LayerNumber, LayerSettings, ResolvedStrokes};
-use impasto_scene::presets::LayerKind;
+use impasto_scene::document::{LayerNumber, LayerSettings, Style};
+use impasto_scene::presets::{self, LayerKind};
 
 use super::Asker;
+use super::brushes::{self, BrushRow};
 use super::edited_strokes::EditedStrokes;
+use super::layer_numbers::{EditedLayer, shown};
 use super::number::Number;
-use super::parts::{pick, row};
+use super::parts::{is_wide, note, reset, row, section, seen};
+use crate::icons;
+use crate::panels::brush_thumbnails::thumbnail;
 use crate::panels::column_state::ColumnState;
-use crate::widgets::Tip;
+use crate::theme::{Tokens, measure};
+use crate::widgets::{self, LayerRow, Tip};
 
-/// Rounds away the digits that only the conversion from 32 to 64 bits added.
-fn tidy(value: f32) -> f64 {
-    (f64::from(value) * 1e6).round() / 1e6
-}
+/// Width of the field with a layer's opacity, points.
+const OPACITY: f32 = 52.0;
 
-/// The numbers of a layer that are shown, each with its field. The size of a layer is not shown: it keeps its
-/// proportion to the size of the body layer.
-fn shown() -> impl Iterator<Item = (&'static LayerNumber, Number<'static>)> {
-    LayerSettings::NUMBERS.iter().filter_map(|of| {
-        let share = |name| Number::share(name, of.number.effect);
-        let shown = match of.number.field {
-            "coverage" => {
-                Number { unit: "\u{d7}", range: 0.0..=8.0, step: (0.1, 2), ..share("Layer coverage") }
-            }
-            "opacity" => share("Layer opacity"),
-            "thickness" => Number { range: 0.0..=2.0, ..share("Layer thickness") },
-            "dryness" => share("Layer dryness"),
-            "pickup" => share("Layer pickup"),
-            _ => return None,
-        };
-        Some((of, Number { limits: Some(of.number.limits.clone()), scene_decides: false, ..shown }))
-    })
-}
-
-pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
-    let chosen = ColumnState::with(ui.ctx(), |state| state.paint_layer).min(LayerKind::ALL.len() - 1);
-    row(ui, "Paint layer", |ui| {
-        let names = LayerKind::ALL.map(LayerKind::name);
-        let tip = Tip {
-            name: "Paint layer",
-            effect: "Which layer of paint the next five numbers are of, from below.",
-            ..Tip::default()
-        };
-        if let Some(picked) = pick(ui, tip, &names, chosen) {
-            ColumnState::with(ui.ctx(), |state| state.paint_layer = picked);
+/// The layers of a region, or with `region: None` those of the scene and the ground under them.
+pub(super) fn section_of(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<&str>) {
+    let Some(place) = EditedStrokes::new(asker, region) else { return };
+    let open_at_first = region.is_none() || is_wide(ui);
+    section(ui, "Paint layers", "", open_at_first, |ui| {
+        let order = presets::laying_order(asker.scene());
+        list(ui, asker, &place, order);
+        ui.add_space(4.0);
+        let name = ColumnState::with(ui.ctx(), |state| state.paint_layer);
+        let kind = order.into_iter().find(|kind| Some(kind.name()) == name);
+        match kind {
+            None if name == Some(presets::GROUND) && has_ground(asker, &place) => tone(ui, asker, &place),
+            kind => selected(ui, asker, &place, kind.unwrap_or(LayerKind::Body)),
         }
     });
-    let kind = LayerKind::ALL[chosen];
-    // The body layer's coverage is already shown, as that of the strokes.
-    let is_twin = |name: &str| kind == LayerKind::Body && name == "Layer coverage";
-    for (of, number) in shown().filter(|(_, number)| !is_twin(number.name)) {
-        let known = place.own[1].layers.iter().find(|layer| layer.name == kind.name());
-        let empty = LayerSettings { name: kind.name().to_owned(), ..LayerSettings::default() };
-        let settings = known.cloned().unwrap_or(empty);
-        let value_in =
-            |resolved: &ResolvedStrokes| tidy(*(of.resolved)(&mut resolved.layer_of(kind).clone()));
-        let values = place.resolved.each_ref().map(value_in);
-        let is_own = (of.number.get)(&settings).is_some();
-        let default = is_own.then(|| {
-            let mut without = place.own[1].clone();
-            for layer in without.layers.iter_mut().filter(|layer| layer.name == kind.name()) {
-                *(of.number.of)(layer) = None;
-            }
-            value_in(&place.resolve(asker.stored(), &without))
-        });
-        asker.number(ui, &Number { default, ..number }, values, |to| {
-            let mut settings = settings.clone();
-            *(of.number.of)(&mut settings) = to;
-            place.set(StrokeChange::PaintLayer(Box::new(settings)))
-        });
+}
+
+/// Whether the ground is one of the rows: a region has none of its own, and ink lies on paper.
+fn has_ground(asker: &Asker<'_, '_>, place: &EditedStrokes<'_>) -> bool {
+    place.index.is_none() && matches!(asker.scene().style, Style::RotatingStrokes(_))
+}
+
+fn list(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, order: [LayerKind; 7]) {
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing.y = 0.0;
+        match asker.scene().touches.len() {
+            0 => {}
+            1 => note(ui, "Over them lies 1 touch: it is in the tree."),
+            count => note(ui, &format!("Over them lie {count} touches: they are in the tree.")),
+        }
+        let mut rows = Vec::new();
+        for kind in order.into_iter().rev() {
+            rows.push((kind, layer(ui, asker, place, EditedLayer::Paint(kind))));
+        }
+        if has_ground(asker, place) {
+            layer(ui, asker, place, EditedLayer::Ground);
+        }
+        if place.index.is_none() {
+            drag(ui, asker, place, &rows);
+        }
+    });
+}
+
+/// One row of the list.
+fn layer(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, layer: EditedLayer) -> Response {
+    let name = layer.name();
+    let loaded = asker.shown.document.shown();
+    let mut mix: &[String] = &[];
+    let mut idle = false;
+    if let EditedLayer::Paint(kind) = layer {
+        let resolved = place.resolved[0].layer_of(kind);
+        mix = &resolved.brushes;
+        idle = resolved.coverage == 0.0 || is_left_out(asker, kind);
     }
+    let mut used = brushes::by_count(mix);
+    // The two that are taken most often.
+    used.sort_by_key(|(_, times)| std::cmp::Reverse(*times));
+    let pictures = used.iter().take(2).filter_map(|(name, _)| thumbnail(ui.ctx(), name, loaded));
+    let tone = (layer == EditedLayer::Ground).then(|| seen(presets::stated_ground(place.own[0]).color));
+    let chosen = ColumnState::with(ui.ctx(), |state| state.paint_layer).unwrap_or(LayerKind::Body.name());
+    let pictures: Vec<_> = pictures.collect();
+    let shown = LayerRow {
+        name,
+        selected: chosen == name,
+        hidden: layer.is_hidden(&place.resolved[0], place.own[0]),
+        idle,
+        pictures: pictures.iter().map(|picture| picture.id()).collect(),
+        tone,
+        end: OPACITY + measure::ROW_END,
+    }
+    .show(ui);
+    if shown.eye_clicked {
+        asker.ask(layer.toggle(asker, place));
+    }
+    let inside = UiBuilder::new().max_rect(shown.end).layout(Layout::left_to_right(Align::Center));
+    ui.scope_builder(inside, |ui| {
+        ui.spacing_mut().item_spacing.x = 0.0;
+        let Some(of) = LayerSettings::NUMBERS.iter().find(|of| of.number.field == "opacity") else { return };
+        let name = format!("Opacity of {name}");
+        let number = Number { unlabelled: Some(OPACITY), ..Number::share(&name, of.number.effect) };
+        if layer.number(ui, asker, place, (of, number)) && reset(ui, &name) {
+            asker.ask(layer.with(place, of, None));
+        }
+    });
+    let brushes = if mix.len() > 1 { format!("Brushes: {}.", brushes::counted(mix)) } else { String::new() };
+    let words = if idle { format!("It paints nothing now. {brushes}") } else { brushes };
+    let tip = Tip { name, effect: layer.effect(), range: words.trim_end(), key: "" };
+    let response = tip.on(shown.response);
+    if response.clicked() || shown.eye_clicked {
+        ColumnState::with(ui.ctx(), |state| state.paint_layer = Some(name));
+    }
+    response
+}
+
+/// Whether the style or the preset leaves a layer out, whatever is stated for it.
+fn is_left_out(asker: &Asker<'_, '_>, kind: LayerKind) -> bool {
+    let scene = asker.scene();
+    let lacks_underpainting = !scene.style.settings().preparation().underpainting;
+    kind == LayerKind::Underpainting && lacks_underpainting
+        || kind != LayerKind::Body && presets::is_paper(scene)
+}
+
+/// Moves a layer that is dragged to another place of the list.
+fn drag(ui: &Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, rows: &[(LayerKind, Response)]) {
+    let Some(from) = rows.iter().position(|(_, row)| row.dragged() || row.drag_stopped()) else { return };
+    let Some(pointer) = ui.input(|input| input.pointer.latest_pos()) else { return };
+    let to = rows.iter().filter(|(_, row)| row.rect.center().y < pointer.y).count();
+    let goes_nowhere = to == from || to == from + 1;
+    if !goes_nowhere {
+        let rect = rows.iter().fold(Rect::NOTHING, |all, (_, row)| all.union(row.rect));
+        let y = rows.get(to).map_or(rect.bottom(), |(_, row)| row.rect.top());
+        ui.painter().hline(rect.x_range(), y, (2.0, Tokens::of(ui).accent_text));
+    }
+    if rows[from].1.drag_stopped() && !goes_nowhere {
+        let mut order: Vec<LayerKind> = rows.iter().map(|(kind, _)| *kind).collect();
+        let dragged = order.remove(from);
+        order.insert(if to > from { to - 1 } else { to }, dragged);
+        order.reverse();
+        asker.ask(place.set(StrokeChange::LayerOrder(order.try_into().ok())));
+    }
+}
+
+/// The brushes and numbers of a layer.
+fn selected(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, kind: LayerKind) {
+    let layer = EditedLayer::Paint(kind);
+    // What the body layer shares with the strokes is shown there.
+    let is_twin = |field: &str| {
+        kind == LayerKind::Body && matches!(field, "brush" | "length_px" | "width_px" | "coverage")
+    };
+    if place.index.is_none() {
+        order(ui, asker, place, kind);
+    }
+    if is_twin("brush") {
+        let section = if place.index.is_none() { "All strokes" } else { "Strokes" };
+        note(ui, &format!("Brush, size and coverage of the body: see {section}."));
+    } else {
+        let stated = layer.stated(place.own[1]);
+        let is_own = stated.brush.is_some();
+        let own = BrushRow { of: layer.name(), mix: &place.resolved[0].layer_of(kind).brushes, is_own };
+        brushes::show(ui, asker, &own, |brush| place.set_layer(LayerSettings { brush, ..stated.clone() }));
+    }
+    let numbers = LayerSettings::NUMBERS.iter().filter(|of| !is_twin(of.number.field));
+    for (of, number) in numbers.filter_map(|of: &'static LayerNumber| Some((of, shown(of)?))) {
+        layer.number(ui, asker, place, (of, number));
+    }
+}
+
+/// Buttons that move a layer of the scene up and down.
+fn order(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, kind: LayerKind) {
+    let order = presets::laying_order(asker.stored());
+    let Some(at) = order.iter().position(|other| *other == kind) else { return };
+    row(ui, "Order", |ui| {
+        let moves = [
+            (icons::KEYS_UP, "Move layer up", at.checked_add(1).filter(|to| *to < order.len())),
+            (icons::KEYS_DOWN, "Move layer down", at.checked_sub(1)),
+        ];
+        for (icon, name, to) in moves {
+            let button = ui.add_enabled_ui(to.is_some(), |ui| widgets::icon_button(ui, icon, name)).inner;
+            let effect = "Lays it later or earlier, in the whole scene; or drag its row.";
+            let clicked = Tip { name, effect, ..Tip::default() }.on(button).clicked();
+            if let Some(to) = to.filter(|_| clicked) {
+                let mut moved = order;
+                moved.swap(at, to);
+                asker.ask(place.set(StrokeChange::LayerOrder(Some(moved))));
+            }
+        }
+        if order != LayerKind::ALL && reset(ui, "Order of layers") {
+            asker.ask(place.set(StrokeChange::LayerOrder(None)));
+        }
+    });
+}
+
+/// The colour of the ground.
+fn tone(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
+    let stated = EditedLayer::Ground.stated(place.own[1]);
+    row(ui, "Tone", |ui| {
+        let shown = seen(presets::stated_ground(place.own[0]).color);
+        asker.colour(ui, "Tone of the ground", shown, |color| {
+            place.set_layer(LayerSettings { color: Some(color), ..stated.clone() })
+        });
+        if stated.color.is_some() && reset(ui, "Tone of the ground") {
+            asker.ask(place.set_layer(LayerSettings { color: None, ..stated.clone() }));
+        }
+    });
 }

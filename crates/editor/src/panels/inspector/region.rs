@@ -9,7 +9,7 @@ use super::Asker;
 use super::controls::Control;
 use super::number::{ANY, Number, decimals};
 use super::parts::{at_end, axes, body, head, head_note, note, pick, row, section};
-use super::{amounts, guides, over_time, strokes};
+use super::{amounts, guides, over_time, paint_layers, strokes};
 use crate::panels::Ask;
 use crate::panels::tree::region_color;
 use crate::widgets::{self, Button, Tip};
@@ -48,6 +48,7 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, name: &str) {
     ui.add_enabled_ui(locked.is_none(), |ui| {
         section(ui, "Direction", "", true, |ui| direction(ui, asker, [region, stored]));
         strokes::of_region(ui, asker, name);
+        paint_layers::section_of(ui, asker, Some(name));
         if let Some(object) = region.on.object() {
             body(ui, |ui| to_material(ui, asker, object));
         }

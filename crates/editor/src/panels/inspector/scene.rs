@@ -9,7 +9,7 @@ use impasto_scene::motion;
 
 use super::number::Number;
 use super::parts::{head, note, row, section, seen};
-use super::{Asker, ink, over_time, rotating_strokes, strokes};
+use super::{Asker, ink, over_time, paint_layers, rotating_strokes, strokes};
 use crate::panels::Ask;
 use crate::theme::type_face;
 use crate::widgets::{self, Button, Tip};
@@ -28,6 +28,7 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
     section(ui, "Time", "", true, |ui| time(ui, asker));
     section(ui, "Style", "", true, |ui| style(ui, asker));
     section(ui, "All strokes", "", false, |ui| strokes::contents(ui, asker, None));
+    paint_layers::section_of(ui, asker, None);
     strokes::advanced(ui, asker, None);
     over_time::of_strokes(ui, asker, &StrokesOf::Scene);
     over_time::of_background(ui, asker);

@@ -1,21 +1,19 @@
 //! The sections of the inspector for the stroke settings of a region or of the scene: *Strokes* and *Advanced*.
 
-use egui::{Ui, vec2};
-use impasto_core::brush;
+use egui::Ui;
 use impasto_editor_model::command::{Command, Regions, SceneEdit, StrokeChange};
 use impasto_editor_model::stroke_fields::{FieldValue, field_values};
-use impasto_scene::document::{BrushMix, Edges, InspectorPlace};
+use impasto_scene::document::{Edges, InspectorPlace};
 use impasto_scene::limits::{MAX_LAYER, MAX_STROKE_PX};
-use impasto_scene::presets;
 
+use super::brushes::{self, BrushRow};
 use super::edited_strokes::EditedStrokes;
 use super::number::Number;
-use super::parts::{note, pick, reset, row, section};
-use super::{Asker, paint_layers, pigments};
-use crate::panels::brush_thumbnails::thumbnail;
+use super::parts::{pick, reset, row, section};
+use super::{Asker, pigments, preset_chooser};
 use crate::panels::column_state::ColumnState;
 use crate::panels::status_line::grouped;
-use crate::widgets::{self, Button, Tip};
+use crate::widgets::{Button, Tip};
 
 pub(super) fn of_region(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: &str) {
     let strokes = asker.shown.numbers.strokes_of.iter().find(|(name, _)| name == region);
@@ -27,9 +25,11 @@ pub(super) fn of_region(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: &str) {
 pub(super) fn contents(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<&str>) {
     let Some(place) = EditedStrokes::new(asker, region) else { return };
     if region.is_none() {
-        preset(ui, asker, &place);
+        preset_chooser::show(ui, asker, &place);
     }
-    brushes(ui, asker, &place);
+    let own =
+        BrushRow { of: "", mix: &place.resolved[0].body().brushes, is_own: place.own[0].brush.is_some() };
+    brushes::show(ui, asker, &own, |mix| place.set(StrokeChange::Brush(mix)));
     numbers(ui, asker, &place, false);
     pigments::show(ui, asker, &place);
     let layers = place.resolved.each_ref().map(|resolved| f64::from(resolved.layer));
@@ -78,108 +78,16 @@ fn number(
     });
 }
 
-/// One radio button for each brush; with Shift or Ctrl, a click adds a brush to the mix or takes it out.
-fn brushes(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
-    let loaded = asker.shown.document.shown();
-    let mix = &place.resolved[0].body().brushes;
-    let names = brush::NAMES.iter().copied().chain(loaded.brushes.keys().map(String::as_str));
-    ui.add_space(4.0);
-    ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing = vec2(3.0, 0.0);
-        for name in names {
-            let Some(picture) = thumbnail(ui.ctx(), name, loaded) else { continue };
-            let on = mix.iter().any(|other| other == name);
-            let label = format!("Brush {name}");
-            let response = widgets::brush_thumbnail(ui, &label, picture.id(), on);
-            let tip = Tip { name, effect: effect_of(name), range: "Ctrl-click mixes brushes.", key: "" };
-            let response = tip.on(response);
-            if !response.clicked() {
-                continue;
-            }
-            let mixes = ui.input(|input| input.modifiers.shift || input.modifiers.command);
-            let mut wanted = if mixes { mix.clone() } else { vec![name.to_owned()] };
-            if mixes && on && mix.iter().any(|other| other != name) {
-                wanted.retain(|other| other != name);
-            } else if mixes && !on {
-                wanted.push(name.to_owned());
-            }
-            if wanted != *mix {
-                asker.ask(place.set(StrokeChange::Brush(Some(BrushMix(wanted)))));
-            }
-        }
-        if place.own[0].brush.is_some() && reset(ui, "Brush") {
-            asker.ask(place.set(StrokeChange::Brush(None)));
-        }
-    });
-    ui.add_space(2.0);
-    if mix.len() > 1 {
-        note(ui, &mixed(mix));
-    }
-}
-
-/// How often each brush of a mix is taken, as *Mixed: filbert 2, round 1*.
-fn mixed(mix: &[String]) -> String {
-    let mut words: Vec<String> = Vec::new();
-    for (index, name) in mix.iter().enumerate() {
-        if !mix[..index].contains(name) {
-            let times = mix.iter().filter(|other| *other == name).count();
-            words.push(format!("{name} {times}"));
-        }
-    }
-    format!("Mixed: {}", words.join(", "))
-}
-
-fn effect_of(brush: &str) -> &'static str {
-    match brush {
-        "flat" => "Square ends and even edges.",
-        "filbert" => "Rounded ends, soft sides.",
-        "round" => "Pointed, full in the middle.",
-        "fan" => "Many thin lines side by side.",
-        "dry" => "Broken paint that lets the ground through.",
-        "knife" => "A flat slab of thick paint.",
-        "rigger" => "One long thin line.",
-        _ => "A picture of this scene's own.",
-    }
-}
-
-fn preset(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
-    let is_region = place.index.is_some();
-    // The source paper's rule holds only for a whole scene.
-    let mut names: Vec<&str> =
-        presets::names().filter(|name| !is_region || *name != presets::PAPER_PRESET).collect();
-    if is_region {
-        names.insert(0, "As the scene");
-    }
-    let own = place.own[0].preset.as_deref();
-    let shown = own.unwrap_or(if is_region { names[0] } else { presets::DEFAULT_PRESET });
-    row(ui, "Preset", |ui| {
-        let tip = Tip {
-            name: "Preset",
-            effect: "The set of values that everything begins with.",
-            ..Tip::default()
-        };
-        let chosen = names.iter().position(|name| *name == shown).unwrap_or(0);
-        if let Some(picked) = pick(ui, tip, &names, chosen) {
-            let wanted = (!is_region || picked > 0).then(|| names[picked].to_owned());
-            asker.ask(place.set(StrokeChange::Preset(wanted)));
-        }
-        if !is_region && own.is_some_and(|own| own != presets::DEFAULT_PRESET) && reset(ui, "Preset") {
-            asker.ask(place.set(StrokeChange::Preset(None)));
-        }
-    });
-}
-
-/// Shows what is seldom set: more numbers, edges, layers of paint, a region's preset, the seed, and buttons to copy and
+/// Shows what is seldom set: more numbers, edges, a region's preset, the seed, and buttons to copy and
 /// paste strokes.
 pub(super) fn advanced(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<&str>) {
     let Some(place) = EditedStrokes::new(asker, region) else { return };
-    section(ui, "Advanced", "edges, layers, seed", false, |ui| {
+    section(ui, "Advanced", "edges, seed", false, |ui| {
         if region.is_some() {
-            preset(ui, asker, &place);
+            preset_chooser::show(ui, asker, &place);
         }
         numbers(ui, asker, &place, true);
         edges(ui, asker, &place);
-        paint_layers::show(ui, asker, &place);
         seed(ui, asker);
         copy_and_paste(ui, asker, &place);
     });

@@ -63,6 +63,7 @@ fn boxes(session: &Session, (wide, window): (f32, f32), say: Translate) -> Vec<(
         recent: &[],
         troubles: &[],
         likely_meshes: &[],
+        presets: &[],
     };
     let size = Rect::from_min_size(pos2(0.0, 0.0), vec2(window, 800.0));
     let input = || egui::RawInput { screen_rect: Some(size), ..egui::RawInput::default() };

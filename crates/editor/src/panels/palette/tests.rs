@@ -29,6 +29,7 @@ fn with_entries<R>(selected: Option<Item>, test: impl FnOnce(&[Control], Vec<Ent
         recent: &[],
         troubles: &[],
         likely_meshes: &[],
+        presets: &[],
     };
     let ctx = Context::default();
     theme::apply(&ctx, Theme::Dark, 1.0);

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use impasto_editor_model::PictureFor;
+use impasto_editor_model::command::StrokesOf;
 
 /// A failure that is listed until it is settled.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -30,6 +31,10 @@ pub enum TroubleOf {
     Import(PathBuf),
     /// A picture was not taken for this.
     Picture(PictureFor, PathBuf),
+    /// A preset was not applied to these settings.
+    Preset(StrokesOf, PathBuf),
+    /// These settings were not saved as a preset.
+    SavePreset(StrokesOf, PathBuf),
 }
 
 /// What settles a trouble.

@@ -14,6 +14,8 @@ fn a_region_shows_all_that_can_be_set() {
     let mut harness = harness("still_life.ron", region("apple"));
     click(&mut harness, "Advanced");
     click(&mut harness, "Guides");
+    click(&mut harness, "Paint layers");
+    click(&mut harness, "Layer form");
     assert_named(
         &harness,
         &[
@@ -60,9 +62,15 @@ fn a_region_shows_all_that_can_be_set() {
             "Temperature",
             "Grading",
             "Edges",
-            "Paint layer",
+            "Paint layers",
+            "Layer lights",
+            "Hide layer lights",
+            "Opacity of lights",
+            "Layer underpainting",
+            "Brush knife of form",
+            "Layer length",
+            "Layer width",
             "Layer coverage",
-            "Layer opacity",
             "Layer thickness",
             "Layer dryness",
             "Layer pickup",
@@ -346,19 +354,6 @@ fn strokes_are_copied_from_one_region_to_another() {
     let column = harness.state();
     assert_eq!(column.region("lemon").strokes, column.region("jug rim").strokes);
     assert_eq!(column.document.undo_text(), Some("Paste strokes to lemon"));
-}
-
-#[test]
-fn a_layer_of_paint_is_set_and_reset() {
-    let mut harness = harness("still_life.ron", region("lemon"));
-    click(&mut harness, "Advanced");
-    pick(&mut harness, "Paint layer", "lights");
-    let before = harness.get_by_label("Layer opacity").accesskit_node().value();
-    type_in(&mut harness, "Layer opacity", "0.4");
-    let layers = &harness.state().region("lemon").strokes.layers;
-    assert_eq!(layers.iter().find(|layer| layer.name == "lights").and_then(|layer| layer.opacity), Some(0.4));
-    click(&mut harness, "Reset Layer opacity");
-    assert_eq!(harness.get_by_label("Layer opacity").accesskit_node().value(), before);
 }
 
 #[test]

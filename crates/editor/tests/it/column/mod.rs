@@ -7,6 +7,7 @@ mod looks;
 mod material;
 mod menus;
 mod missing;
+mod paint_layers;
 mod tree;
 
 use std::path::Path;
@@ -15,9 +16,10 @@ use egui::accesskit::Toggled;
 use egui::{Key, Role, Vec2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, HarnessBuilder};
+use impasto_editor::files::own_presets::OwnPreset;
 use impasto_editor::panels::{self, Ask, Control, Numbers, PanelInput};
 use impasto_editor::theme::{self, Theme};
-use impasto_editor_model::command::Command;
+use impasto_editor_model::command::{Command, StrokesOf};
 use impasto_editor_model::keymap::{Action, Keymap};
 use impasto_editor_model::{Document, Item, Session};
 use impasto_scene::document::{Guide, GuidePoint};
@@ -34,10 +36,21 @@ pub struct Column {
     pub tree_height: f32,
     pub strokes_of: Vec<(String, usize)>,
     pub likely_meshes: Vec<(String, String)>,
+    pub own_presets: Vec<OwnPreset>,
+    /// What was asked about presets, in words.
+    pub asked_presets: Vec<String>,
     /// What the menu at the pointer is about, if one was asked for in this pass; the inner `None` is the view.
     pub menu: Option<Option<Item>>,
     /// The control that was asked to have the focus.
     pub reach: Option<Control>,
+}
+
+/// *scene*, or the name of the region.
+fn name_of(of: &StrokesOf) -> &str {
+    match of {
+        StrokesOf::Scene => "scene",
+        StrokesOf::Region(name) => name,
+    }
 }
 
 impl Column {
@@ -60,6 +73,11 @@ impl Column {
             tree_height: 252.0,
             strokes_of,
             likely_meshes,
+            asked_presets: Vec::new(),
+            own_presets: vec![OwnPreset {
+                name: "mine".to_owned(),
+                path: "/presets/mine.strokes.ron".into(),
+            }],
             menu: None,
             reach: None,
         }
@@ -79,6 +97,7 @@ impl Column {
             recent: &[],
             troubles: &[],
             likely_meshes: &self.likely_meshes,
+            presets: &self.own_presets,
         };
         // The harness has margins, the window has none.
         let whole = ui.ctx().content_rect();
@@ -104,10 +123,15 @@ impl Column {
         }
     }
 
+    fn asked(&mut self, words: String) -> String {
+        self.asked_presets.push(words);
+        "of a preset".to_owned()
+    }
+
     pub fn answer(&mut self, ask: Ask) {
         let words = |step: impasto_editor_model::document::Step| step.text;
         let refused = |refusal: impasto_editor_model::Refusal| format!("refused: {refusal}");
-        self.log.push(match ask {
+        let words = match ask {
             Ask::Do(command) => self.document.apply(&command).map_or_else(refused, words),
             Ask::DoMerged(command, key) => {
                 let step = self.document.apply_merged(&command, &key, 0.0);
@@ -146,6 +170,10 @@ impl Column {
             | Ask::TakeUp(_)
             | Ask::Prefer(_)
             | Ask::StopWork(_) => "of another panel".to_owned(),
+            Ask::ListPresets => return,
+            Ask::SavePreset(of) => self.asked(format!("save for {}", name_of(&of))),
+            Ask::LoadPreset(of) => self.asked(format!("load for {}", name_of(&of))),
+            Ask::UsePreset(of, path) => self.asked(format!("use {} for {}", path.display(), name_of(&of))),
             Ask::ChoosePicture(of) => format!("choose {}", of.words()),
             Ask::NamePicture(of, name) => {
                 let command = of.command(self.document.scene(), name).expect("it is there");
@@ -164,7 +192,8 @@ impl Column {
                 self.session = *session;
                 "session".to_owned()
             }
-        });
+        };
+        self.log.push(words);
     }
 
     pub fn apply(&mut self, command: Command) {

@@ -128,6 +128,7 @@ impl Page {
             recent: &self.recent,
             troubles: &[],
             likely_meshes: &[],
+            presets: &[],
         };
         top_bar::top_bar(ui, &shown, &mut asks);
         status_line::status_line(ui, &shown, &mut asks);

@@ -203,15 +203,14 @@ fn any_brush() -> impl Strategy<Value = Option<BrushMix>> {
 
 fn any_layer() -> impl Strategy<Value = LayerSettings> {
     let numbers = prop::collection::vec(proptest::option::of(number()), LayerSettings::NUMBERS.len());
-    (name(), any_brush(), numbers, proptest::option::of(any_color())).prop_map(
-        |(name, brush, numbers, color)| {
-            let mut layer = LayerSettings { name, brush, color, ..LayerSettings::default() };
-            for (of, value) in LayerSettings::NUMBERS.iter().zip(numbers) {
-                *(of.number.of)(&mut layer) = value;
-            }
-            layer
-        },
-    )
+    let looks = (any_brush(), proptest::option::of(any::<bool>()), proptest::option::of(any_color()));
+    (name(), looks, numbers).prop_map(|(name, (brush, hidden, color), numbers)| {
+        let mut layer = LayerSettings { name, brush, hidden, color, ..LayerSettings::default() };
+        for (of, value) in LayerSettings::NUMBERS.iter().zip(numbers) {
+            *(of.number.of)(&mut layer) = value;
+        }
+        layer
+    })
 }
 
 fn any_strokes() -> impl Strategy<Value = StrokeSettings> {
@@ -231,12 +230,13 @@ fn any_strokes() -> impl Strategy<Value = StrokeSettings> {
         proptest::option::of(prop::collection::vec(any_color(), 0..3)),
         prop::collection::vec(any_layer(), 0..3),
         prop::collection::vec(key, 0..3),
+        prop::collection::vec(name(), 0..3),
     );
     let head = (proptest::option::of(name()), any_brush(), proptest::option::of(edges));
     (head, numbers, proptest::option::of(any::<i32>()), lists).prop_map(
-        |((preset, brush, edges), numbers, layer, (palette, layers, keys))| {
-            let mut strokes =
-                StrokeSettings { preset, brush, edges, palette, layer, layers, keys, ..Default::default() };
+        |((preset, brush, edges), numbers, layer, (palette, layers, keys, order))| {
+            let lists = StrokeSettings { palette, layers, order, keys, ..Default::default() };
+            let mut strokes = StrokeSettings { preset, brush, edges, layer, ..lists };
             for (of, value) in STROKE_NUMBERS.iter().zip(numbers) {
                 *(of.number.of)(&mut strokes) = value;
             }
