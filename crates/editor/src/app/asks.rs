@@ -31,6 +31,7 @@ impl EditorApp {
                 } else {
                     self.editor.session = *session;
                 }
+                self.keep_pressure();
             }
             Ask::Timeline(event) => self.editor.timeline(event),
             Ask::Mend(mend) => self.mend(mend),
@@ -70,6 +71,8 @@ impl EditorApp {
             }
             Ask::StopWork(WorkKind::Rendering) => {}
             Ask::Welcome => self.sheets.welcome = true,
+            Ask::KeySheet => self.sheets.keys = true,
+            Ask::OwnKeys(own) => self.keep_own_keys(&own),
         }
     }
 

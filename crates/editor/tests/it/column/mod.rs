@@ -73,7 +73,7 @@ impl Column {
             document: &self.document,
             session: &self.session,
             painting: None,
-            keymap: Keymap::default(),
+            keymap: &Keymap::default(),
             status: "",
             numbers: Numbers { strokes_of: &self.strokes_of, ..Numbers::default() },
             recent: &[],

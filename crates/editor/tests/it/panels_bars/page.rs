@@ -117,7 +117,7 @@ impl Page {
             document: &self.document,
             session: &self.session,
             painting: None,
-            keymap: self.keymap,
+            keymap: &self.keymap,
             status: &self.status,
             numbers: Numbers {
                 strokes: 5774,
