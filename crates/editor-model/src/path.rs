@@ -312,7 +312,8 @@ impl SurfacePath {
     fn finish_at(&mut self, hand: DVec2, pick: &mut dyn FnMut(DVec2) -> Option<Hit>) {
         let from = self.tip;
         let count = (from.distance(hand) / STEP_PX).ceil().clamp(1.0, 65_536.0) as u32;
-        let pressure = self.pressure;
+        // A pen that is lifted presses less and less, but this piece is drawn as it was before.
+        let pressure = self.pieces.last().and_then(|piece| piece.last()).map_or(1.0, |point| point.pressure);
         let steps: Vec<Step> = (1..=count)
             .map(|step| Step { at_px: from.lerp(hand, f64::from(step) / f64::from(count)), pressure })
             .collect();

@@ -138,7 +138,7 @@ impl Board {
 }
 
 fn bytes_of(picture: &ColorImage) -> usize {
-    std::mem::size_of_val(picture.pixels.as_slice())
+    size_of_val(picture.pixels.as_slice())
 }
 
 fn run(shared: &Shared, wake: &dyn Fn()) {
@@ -186,8 +186,7 @@ fn mean(picture: &FramePixels, [left, top]: [usize; 2], step: usize) -> egui::Co
     for y in top..(top + step).min(height) {
         for x in left..(left + step).min(width) {
             let at = (y * width + x) * 4;
-            let Some([r, g, b, a]) = picture.rgba.get(at..at + 4).and_then(|pixel| pixel.try_into().ok())
-            else {
+            let Some(&[r, g, b, a]) = picture.rgba.get(at..at + 4) else {
                 continue;
             };
             let color = egui::Color32::from_rgba_unmultiplied(r, g, b, a);

@@ -21,7 +21,10 @@ fn files(count: u8, side: u32) -> (Vec<PathBuf>, tempfile::TempDir) {
 /// A reading, and what waits for its next frame.
 fn reading(paths: Vec<PathBuf>, most_bytes: usize) -> (FrameReading, impl Fn()) {
     let (sender, receiver) = mpsc::channel();
-    let wake = move || drop(sender.send(()));
+    let wake = move || {
+        // The test may have ended.
+        let _ended = sender.send(());
+    };
     let reading = FrameReading::within(paths, most_bytes, wake).expect("a thread");
     (reading, move || receiver.recv_timeout(Duration::from_secs(60)).expect("a frame"))
 }

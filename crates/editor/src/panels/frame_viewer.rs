@@ -190,7 +190,7 @@ fn words(ui: &mut Ui, room: Rect, shown: &ViewerShown<'_>) -> Rect {
             continue;
         }
         let place = Rect::from_x_y_ranges(right - wide..=right, room.y_range());
-        within(ui, place, row(), |ui| {
+        within(ui, place, row_from_right(), |ui| {
             let words = RichText::new(words).font(type_face::number()).color(colour);
             ui.add(egui::Label::new(words).extend()).on_hover_text(path.display().to_string());
         });

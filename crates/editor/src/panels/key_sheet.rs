@@ -224,7 +224,7 @@ fn foot(ui: &mut Ui, keymap: &Keymap, memory: &mut Memory, asks: &mut Vec<Ask>) 
                 }
             }
             Doing::Asking(id, chords, _) => {
-                if widgets::Button::new("Cancel").name("Cancel the change").on_sheet().show(ui).clicked() {
+                if Button::new("Cancel").name("Cancel the change").on_sheet().show(ui).clicked() {
                     next = Some(Doing::Nothing);
                 }
                 if Button::new("Take it over").primary().on_sheet().show(ui).clicked() {

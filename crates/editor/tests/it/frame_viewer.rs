@@ -61,6 +61,7 @@ impl Page {
 fn harness(page: Page, theme: Theme, wide: f32) -> Harness<'static, Page> {
     let mut harness = Harness::builder()
         .with_size(vec2(wide, 240.0))
+        .with_theme(if theme == Theme::Dark { egui::Theme::Dark } else { egui::Theme::Light })
         .with_render_cursor(false)
         .with_context_setup(move |ctx| theme::apply(ctx, theme, 1.0))
         .renderer(Headless::open(Driver::Auto))

@@ -75,6 +75,7 @@ fn harness_in(theme: Theme, preset: Preset) -> Harness<'static, Page> {
     };
     let mut harness = Harness::builder()
         .with_size(vec2(800.0, 640.0))
+        .with_theme(if theme == Theme::Dark { egui::Theme::Dark } else { egui::Theme::Light })
         .with_render_cursor(false)
         .with_context_setup(move |ctx| {
             theme::apply(ctx, theme, 1.0);
@@ -116,7 +117,7 @@ fn a_click_and_new_keys_change_a_command() {
     let mut harness = harness();
     find(&mut harness, "comb");
     click(&mut harness, "Comb");
-    press(&mut harness, Modifiers::CTRL, egui::Key::L);
+    press(&mut harness, Modifiers::COMMAND, egui::Key::L);
     assert_eq!(does(&harness, "Ctrl L", Scope::Paint), Some(Action::Comb));
     assert_eq!(does(&harness, "C", Scope::Paint), None);
     assert!(harness.query_by_label("Take it over").is_none());

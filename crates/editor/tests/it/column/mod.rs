@@ -138,6 +138,8 @@ impl Column {
             | Ask::Open(_)
             | Ask::Copy(_)
             | Ask::Welcome
+            | Ask::KeySheet
+            | Ask::OwnKeys(_)
             | Ask::Mend(_)
             | Ask::SaveCopy
             | Ask::BringFile(_)
