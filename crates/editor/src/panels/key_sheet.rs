@@ -12,6 +12,8 @@ use crate::window::tab_pressed;
 
 const WIDTH: f32 = 560.0;
 const ROWS: f32 = 14.0;
+/// Height of the sheet without its list, with some space around the sheet.
+const AROUND_LIST: f32 = 210.0;
 /// The place of the reset icon at a row's end.
 const END: f32 = 32.0;
 
@@ -123,7 +125,9 @@ fn list(ui: &mut Ui, keymap: &Keymap, memory: &mut Memory, asks: &mut Vec<Ask>) 
     let typed = memory.typed.trim().to_lowercase();
     let found: Vec<CommandKeys> =
         keymap.commands().filter(|command| command.id.is_free() && is_meant(command, &typed)).collect();
-    let high = ROWS * measure::ROW;
+    // In a low window the list is shorter, so that what stands under it stays in view.
+    let room = ui.ctx().content_rect().height() - AROUND_LIST;
+    let high = (ROWS * measure::ROW).min(room).max(3.0 * measure::ROW);
     ui.spacing_mut().item_spacing.y = 0.0;
     let area = ScrollArea::vertical().max_height(high).min_scrolled_height(high).auto_shrink([false, false]);
     area.show(ui, |ui| {

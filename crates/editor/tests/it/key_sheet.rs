@@ -213,6 +213,17 @@ fn commands_are_found_by_name_place_and_key() {
 }
 
 #[test]
+fn the_sheet_fits_into_the_smallest_window() {
+    let mut harness = harness();
+    harness.set_size(vec2(640.0, 440.0));
+    harness.run();
+    harness.run();
+    let [top, bottom] =
+        ["Close the change of keys", "Reset all keys"].map(|name| harness.get_by_label(name).rect());
+    assert!(top.top() >= 0.0 && bottom.bottom() <= 440.0, "{top:?} {bottom:?}");
+}
+
+#[test]
 fn how_it_looks() {
     let mut results = SnapshotResults::new();
     let mut keep = |harness: &mut Harness<'_, Page>, name: &str| {
