@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use impasto_editor_model::keymap::{Digits, Keymap, Preset, Scope};
+use impasto_editor_model::keymap::{Keymap, Preset, Scope};
 
 const HEAD: &str = "# Keys\n\nMade from the editor's own table: `IMPASTO_BLESS=1 cargo test -p impasto-tests --test it -- \
                     editor_keys` writes it anew.\n";
@@ -19,7 +19,7 @@ fn heading(scope: Option<Scope>) -> &'static str {
 }
 
 fn page() -> String {
-    let of = |preset| -> Vec<_> { Keymap { preset, digits: Digits::Modes }.listed().collect() };
+    let of = |preset| -> Vec<_> { Keymap { preset, ..Keymap::default() }.listed().collect() };
     let (blender, maya) = (of(Preset::Blender), of(Preset::Maya));
     let places = [
         "Everywhere",

@@ -150,7 +150,7 @@ impl Editor {
             frame_before_paint: None,
             ..self.session.clone()
         };
-        let (keymap, version) = (self.keymap, self.version + 1);
+        let (keymap, version) = (self.keymap.clone(), self.version + 1);
         *self = Self { session, keymap, version, ..Self::new(document) };
     }
 

@@ -1,13 +1,18 @@
 //! The keymap: what each key does, in two presets (Blender's keys and Maya's). `Editor::key` decides which scope holds.
 //! A modal tool takes every key; in the other scopes, keys without a binding of their own do what they do everywhere.
 
+mod own;
 mod table;
 #[cfg(test)]
 mod tests;
+mod text;
 
 use crate::transform::Axis;
 
 use table::{BINDINGS, DIGITS_AS_NUMPAD};
+
+pub use own::{CommandId, CommandKeys, OwnKeys};
+pub use text::NoChord;
 
 /// An action that has a key, or could have one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -248,12 +253,14 @@ pub enum Digits {
 }
 
 /// The keys as the user set them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Keymap {
     /// The preset: Blender's keys or Maya's.
     pub preset: Preset,
     /// What digits do.
     pub digits: Digits,
+    /// Keys that the user chose in place of the preset's.
+    pub own: OwnKeys,
 }
 
 /// The scopes of bindings. One holds at a time.
@@ -355,24 +362,35 @@ impl Keymap {
         }
     }
 
-    /// Every binding with its keys.
+    /// Every binding with its keys: the user's own, else those of the preset that no key of the user's took.
     fn bindings(&self) -> impl Iterator<Item = (&'static Binding, Vec<Chord>)> {
-        let Self { preset, digits } = *self;
-        BINDINGS.iter().map(move |binding| {
-            let own = match preset {
-                Preset::Blender => binding.blender,
-                Preset::Maya => binding.maya,
+        BINDINGS.iter().enumerate().map(|(index, binding)| {
+            let chords = match self.own.of(index) {
+                Some(own) => own.to_vec(),
+                None => {
+                    let mut chords = self.preset_chords(binding);
+                    chords.retain(|chord| !self.own.takes(index, *chord));
+                    chords
+                }
             };
-            let mut chords = own.to_vec();
-            if digits == Digits::NumPad {
-                chords.retain(|chord| {
-                    !(matches!(chord.key, Key::Digit(_)) && chord.held == Modifiers::default())
-                });
-                let digit = DIGITS_AS_NUMPAD.iter().find(|(action, _)| *action == binding.action);
-                chords.extend(digit.map(|&(_, digit)| Chord::plain(Key::Digit(digit))));
-            }
             (binding, chords)
         })
+    }
+
+    /// The keys that a binding has by itself.
+    fn preset_chords(&self, binding: &Binding) -> Vec<Chord> {
+        let own = match self.preset {
+            Preset::Blender => binding.blender,
+            Preset::Maya => binding.maya,
+        };
+        let mut chords = own.to_vec();
+        if self.digits == Digits::NumPad {
+            chords
+                .retain(|chord| !(matches!(chord.key, Key::Digit(_)) && chord.held == Modifiers::default()));
+            let digit = DIGITS_AS_NUMPAD.iter().find(|(action, _)| *action == binding.action);
+            chords.extend(digit.map(|&(_, digit)| Chord::plain(Key::Digit(digit))));
+        }
+        chords
     }
 }
 
@@ -433,35 +451,10 @@ impl Key {
             _ => None,
         }
     }
-
-    fn text(self) -> String {
-        match self {
-            Self::Letter(letter) => letter.to_string(),
-            Self::Sign(sign) => sign.to_string(),
-            Self::Digit(digit) => digit.to_string(),
-            Self::NumPad(digit) => format!("NumPad {digit}"),
-            Self::NumPadPoint => "NumPad .".to_owned(),
-            Self::Function(number) => format!("F{number}"),
-            Self::Escape => "Esc".to_owned(),
-            Self::Left => "←".to_owned(),
-            Self::Right => "→".to_owned(),
-            Self::Up => "↑".to_owned(),
-            Self::Down => "↓".to_owned(),
-            named => format!("{named:?}"),
-        }
-    }
 }
 
 impl Chord {
     const fn plain(key: Key) -> Self {
         Self { key, held: Modifiers { ctrl: false, shift: false, alt: false } }
-    }
-
-    /// As menus write it: `Ctrl Shift S`.
-    pub fn text(&self) -> String {
-        let Modifiers { ctrl, shift, alt } = self.held;
-        let held = [(ctrl, "Ctrl "), (alt, "Alt "), (shift, "Shift ")];
-        let held: String = held.iter().filter(|(on, _)| *on).map(|(_, text)| *text).collect();
-        held + &self.key.text()
     }
 }

@@ -13,6 +13,7 @@ pub mod command;
 pub mod document;
 pub mod editor;
 mod euler;
+pub mod finished_frames;
 pub mod gizmo;
 mod history;
 pub mod keymap;

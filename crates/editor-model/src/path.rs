@@ -20,7 +20,7 @@ pub(crate) mod simplify;
 mod tests;
 mod view;
 
-use curve::PointerCurve;
+use curve::{PointerCurve, Step};
 
 pub use mirror::{MirrorAxes, mirrored};
 pub use view::ObjectView;
@@ -69,6 +69,8 @@ pub struct PathPoint {
     pub position: DVec3,
     /// Normal of the surface there, unit.
     pub normal: DVec3,
+    /// How hard the pen pressed there, 0..=1; 1 without a pen.
+    pub pressure: f64,
 }
 
 /// A gesture under way. It stays on the object of its press.
@@ -81,6 +83,8 @@ pub struct SurfacePath {
     string_px: f64,
     faces: Faces,
     curve: PointerCurve,
+    /// How hard the pen presses now.
+    pressure: f64,
     /// The end of the string, which draws.
     tip: DVec2,
     /// Where the tip was when the surface under it was looked up last.
@@ -116,7 +120,7 @@ pub enum PathSense {
 }
 
 impl SurfacePath {
-    /// Begins at a press that met a surface.
+    /// Begins at a press that met a surface, of a pointer without pressure.
     pub fn press(
         at_px: DVec2,
         hit: &Hit,
@@ -132,12 +136,48 @@ impl SurfacePath {
             px_per_unit,
             string_px: settings.steady.clamp(0.0, 1.0) * LONGEST_STRING_PX,
             faces: settings.faces,
-            curve: PointerCurve::new(at_px),
+            curve: PointerCurve::new(Step { at_px, pressure: 1.0 }),
+            pressure: 1.0,
             tip: at_px,
             sampled_px: at_px,
             lifted: false,
-            pieces: vec![vec![PathPoint::new(at_px, hit)]],
+            pieces: vec![vec![PathPoint::new(at_px, hit, 1.0)]],
         }
+    }
+
+    /// A path that has only begun, pressed this hard.
+    pub fn pressed(mut self, pressure: f64) -> Self {
+        if let [piece] = self.pieces.as_mut_slice()
+            && let [point] = piece.as_mut_slice()
+        {
+            point.pressure = pressure;
+            self.pressure = pressure;
+            self.curve = PointerCurve::new(Step { at_px: point.at_px, pressure });
+        }
+        self
+    }
+
+    /// Sets how hard the pen presses from now on.
+    pub fn press_by(&mut self, pressure: f64) {
+        self.pressure = pressure;
+    }
+
+    /// How hard the pen presses now.
+    pub fn pressure(&self) -> f64 {
+        self.pressure
+    }
+
+    /// How hard the pen pressed along the path, on the average; exactly 1 without a pen.
+    pub fn mean_pressure(&self) -> f64 {
+        let points = self.pieces.iter().flatten();
+        let count = points.clone().count().max(1);
+        points.map(|point| point.pressure).sum::<f64>() / count as f64
+    }
+
+    /// The path as drawn by a brush that is smaller by this factor.
+    pub fn narrowed(mut self, by: f64) -> Self {
+        self.radius *= by;
+        self
     }
 
     /// The object of the press.
@@ -164,7 +204,14 @@ impl SurfacePath {
     /// region).
     pub fn move_to(&mut self, at_px: DVec2, pick: &mut dyn FnMut(DVec2) -> Option<Hit>) {
         if at_px.is_finite() {
-            let steps = self.curve.move_to(at_px);
+            // Until the pointer moves, it is a press that may become harder.
+            if let [piece] = self.pieces.as_mut_slice()
+                && let [point] = piece.as_mut_slice()
+                && point.at_px == at_px
+            {
+                point.pressure = point.pressure.max(self.pressure);
+            }
+            let steps = self.curve.move_to(Step { at_px, pressure: self.pressure });
             self.walk(&steps, pick);
         }
     }
@@ -174,7 +221,9 @@ impl SurfacePath {
         let mut path = self.clone();
         let steps = path.curve.finish();
         path.walk(&steps, pick);
-        if let Some(&hand) = steps.last().filter(|_| path.sampled_px != path.pieces[0][0].at_px) {
+        if let Some(&Step { at_px: hand, .. }) =
+            steps.last().filter(|_| path.sampled_px != path.pieces[0][0].at_px)
+        {
             path.finish_at(hand, pick);
         }
         path
@@ -187,16 +236,24 @@ impl SurfacePath {
 
     /// As [`Self::stamps`], this share of the radius apart.
     pub fn stamps_apart(&self, share: f64) -> Vec<PathPoint> {
-        let spacing = self.radius * share;
+        self.stamps_of(share, &|_| 1.0)
+    }
+
+    /// As [`Self::stamps_apart`], of a brush whose radius at a point is smaller by the factor `narrows`, > 0.
+    pub fn stamps_of(&self, share: f64, narrows: &dyn Fn(&PathPoint) -> f64) -> Vec<PathPoint> {
+        let spacing_at = |point: &PathPoint| self.radius * share * narrows(point);
         let mut stamps = Vec::new();
         for piece in &self.pieces {
             stamps.extend(piece.first());
             let mut walked = 0.0;
+            let mut spacing = piece.first().map_or(self.radius * share, spacing_at);
             for pair in piece.windows(2) {
                 let length = pair[0].position.distance(pair[1].position);
                 let mut at = spacing - walked;
                 while at <= length {
-                    stamps.push(pair[0].mixed(&pair[1], at / length));
+                    let stamp = pair[0].mixed(&pair[1], at / length);
+                    stamps.push(stamp);
+                    spacing = spacing_at(&stamp);
                     at += spacing;
                 }
                 walked = length - (at - spacing);
@@ -255,16 +312,19 @@ impl SurfacePath {
     fn finish_at(&mut self, hand: DVec2, pick: &mut dyn FnMut(DVec2) -> Option<Hit>) {
         let from = self.tip;
         let count = (from.distance(hand) / STEP_PX).ceil().clamp(1.0, 65_536.0) as u32;
-        let steps: Vec<DVec2> =
-            (1..=count).map(|step| from.lerp(hand, f64::from(step) / f64::from(count))).collect();
+        // A pen that is lifted presses less and less, but this piece is drawn as it was before.
+        let pressure = self.pieces.last().and_then(|piece| piece.last()).map_or(1.0, |point| point.pressure);
+        let steps: Vec<Step> = (1..=count)
+            .map(|step| Step { at_px: from.lerp(hand, f64::from(step) / f64::from(count)), pressure })
+            .collect();
         self.string_px = 0.0;
         self.walk(&steps, pick);
     }
 
     /// Pulls the string along steps of the pointer.
-    fn walk(&mut self, steps: &[DVec2], pick: &mut dyn FnMut(DVec2) -> Option<Hit>) {
-        for &hand in steps {
-            let pull = hand - self.tip;
+    fn walk(&mut self, steps: &[Step], pick: &mut dyn FnMut(DVec2) -> Option<Hit>) {
+        for step in steps {
+            let pull = step.at_px - self.tip;
             let length = pull.length();
             if length <= self.string_px {
                 continue;
@@ -273,13 +333,13 @@ impl SurfacePath {
             // A little less than a step, so that rounding does not skip one.
             if self.tip.distance(self.sampled_px) > STEP_PX * 0.999 {
                 self.sampled_px = self.tip;
-                self.sample(pick);
+                self.sample(step.pressure, pick);
             }
         }
     }
 
-    fn sample(&mut self, pick: &mut dyn FnMut(DVec2) -> Option<Hit>) {
-        let Some(point) = self.look_up(self.tip, pick) else {
+    fn sample(&mut self, pressure: f64, pick: &mut dyn FnMut(DVec2) -> Option<Hit>) {
+        let Some(point) = self.look_up(self.tip, pressure, pick) else {
             self.lifted = true;
             return;
         };
@@ -292,10 +352,15 @@ impl SurfacePath {
         }
     }
 
-    fn look_up(&self, at_px: DVec2, pick: &mut dyn FnMut(DVec2) -> Option<Hit>) -> Option<PathPoint> {
+    fn look_up(
+        &self,
+        at_px: DVec2,
+        pressure: f64,
+        pick: &mut dyn FnMut(DVec2) -> Option<Hit>,
+    ) -> Option<PathPoint> {
         let hit = pick(at_px)?;
         let takes_part = hit.object == self.object && (hit.front || self.faces == Faces::All);
-        takes_part.then(|| PathPoint::new(at_px, &hit))
+        takes_part.then(|| PathPoint::new(at_px, &hit, pressure))
     }
 
     /// Whether the surface is connected between two steps, and does not jump from a fold to what lies behind. Bisects
@@ -311,7 +376,8 @@ impl SurfacePath {
             return true;
         }
         for _ in 0..6 {
-            let Some(middle) = self.look_up((from.at_px + to.at_px) * 0.5, pick) else { return false };
+            let at_px = (from.at_px + to.at_px) * 0.5;
+            let Some(middle) = self.look_up(at_px, to.pressure, pick) else { return false };
             if middle.position.distance(from.position) > middle.position.distance(to.position) {
                 to = middle;
             } else {
@@ -333,8 +399,8 @@ fn line_rad(points: &[PathPoint], index: usize) -> f64 {
 }
 
 impl PathPoint {
-    fn new(at_px: DVec2, hit: &Hit) -> Self {
-        Self { at_px, position: hit.position_in_model, normal: hit.normal_in_model }
+    pub(crate) fn new(at_px: DVec2, hit: &Hit, pressure: f64) -> Self {
+        Self { at_px, position: hit.position_in_model, normal: hit.normal_in_model, pressure }
     }
 
     fn mixed(&self, other: &Self, share: f64) -> Self {
@@ -342,6 +408,7 @@ impl PathPoint {
             at_px: self.at_px.lerp(other.at_px, share),
             position: self.position.lerp(other.position, share),
             normal: self.normal.lerp(other.normal, share).normalize_or(self.normal),
+            pressure: self.pressure + (other.pressure - self.pressure) * share,
         }
     }
 

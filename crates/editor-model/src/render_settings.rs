@@ -247,11 +247,20 @@ impl RenderPlan {
 
     /// How many of its frames have a file already, whole or not.
     pub fn existing_count(&self) -> usize {
-        let Ok(entries) = std::fs::read_dir(self.folder()) else { return 0 };
-        let there: HashSet<OsString> = entries.flatten().map(|entry| entry.file_name()).collect();
+        let there = names_in(self.folder());
         let is_named = |path: PathBuf| path.file_name().is_some_and(|name| there.contains(name));
         let is_there = |frame: &i64| self.kind.files(&self.path(*frame)).into_iter().any(is_named);
         self.frames.iter().filter(is_there).count()
+    }
+
+    /// The frames whose PNG file is there, each with that file; none where the kind has no PNG.
+    pub fn finished(&self) -> Vec<(i64, PathBuf)> {
+        if !self.kind.has_png() {
+            return Vec::new();
+        }
+        let there = names_in(self.folder());
+        let frames = self.frames.iter().map(|frame| (frame, self.path(frame)));
+        frames.filter(|(_, path)| path.file_name().is_some_and(|name| there.contains(name))).collect()
     }
 
     /// Makes the folder; checks that files can be written there, and that none is a file that the scene is read from.
@@ -275,6 +284,12 @@ impl RenderPlan {
     pub fn scene_name(&self) -> String {
         self.loaded.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
     }
+}
+
+/// The names of all that is in a folder.
+fn names_in(folder: &Path) -> HashSet<OsString> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    entries.map(|entry| entry.file_name()).collect()
 }
 
 /// All frames of the scene's timeline, as a list.

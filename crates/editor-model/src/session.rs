@@ -146,6 +146,18 @@ pub enum RegionDoes {
     TakeAway,
 }
 
+/// What the pressure of a pen changes. Without a pen it changes nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Pressure {
+    /// Nothing.
+    #[default]
+    Off,
+    /// The radius of the brush; the width of a touch.
+    Radius,
+    /// The strength of the brush; the opacity of a touch.
+    Strength,
+}
+
 /// The settings of the tools.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ToolOptions {
@@ -159,6 +171,8 @@ pub struct ToolOptions {
     pub even: bool,
     /// How much the drag is steadied, 0..=1.
     pub steady: f64,
+    /// What the pressure of a pen changes.
+    pub pressure: Pressure,
     /// For each of the object's own axes, whether what is painted is mirrored along it.
     pub mirror: [bool; 3],
     /// Whether only surfaces that face the eye are painted.
@@ -238,6 +252,8 @@ pub struct Session {
     pub lock_to_view: bool,
     /// Whether the lanes of keys are open: in Animate, and in the other modes.
     pub lanes: [bool; 2],
+    /// Whether a pen that tells its pressure was seen.
+    pub has_pen: bool,
 }
 
 impl Default for Session {
@@ -259,6 +275,7 @@ impl Default for Session {
             auto_key: true,
             lock_to_view: false,
             lanes: [true, false],
+            has_pen: false,
         }
     }
 }
@@ -271,6 +288,7 @@ impl Default for ToolOptions {
             against: false,
             even: false,
             steady: 0.2,
+            pressure: Pressure::default(),
             mirror: [false; 3],
             front_only: true,
             smear: false,

@@ -26,6 +26,7 @@ mod erase;
 mod fill;
 mod hand;
 mod heading;
+mod pressure;
 mod region;
 mod ring;
 mod sizing;
@@ -102,6 +103,8 @@ pub enum ToolEvent {
         at_secs: f64,
         /// With what held.
         held: Modifiers,
+        /// How hard a pen presses, 0..=1; 1 without a pen.
+        pressure: f64,
     },
     /// The pointer moved with the button held.
     Move {
@@ -111,6 +114,8 @@ pub enum ToolEvent {
         at_secs: f64,
         /// With what held.
         held: Modifiers,
+        /// How hard a pen presses, 0..=1; 1 without a pen.
+        pressure: f64,
     },
     /// The button went up.
     Release,

@@ -2,6 +2,7 @@
 
 mod app;
 pub mod files;
+mod frame_reading;
 pub mod icons;
 mod options;
 pub mod panels;

@@ -46,6 +46,13 @@ pub struct PointerEvent {
     pub held: Modifiers,
     /// When, in seconds on any clock.
     pub at_secs: f64,
+    /// How hard a pen presses, 0..=1; 1 without a pen.
+    pub pressure: f64,
+}
+
+/// A pressure as tools take it, whatever a driver reports.
+fn sound(pressure: f64) -> f64 {
+    if pressure.is_finite() { pressure.clamp(0.0, 1.0) } else { 1.0 }
 }
 
 impl Editor {
@@ -54,6 +61,8 @@ impl Editor {
         if !event.at_px.is_finite() {
             return;
         }
+        // A mouse always presses fully; a pen does not even while it hovers.
+        self.session.has_pen |= event.pressure < 1.0;
         let before_px = self.pointer_px.unwrap_or(event.at_px);
         (self.held, self.at_secs) = (event.held, event.at_secs);
         (self.moved_secs, self.has_rested) = (event.at_secs, false);
@@ -109,7 +118,8 @@ impl Editor {
                 *pose = free.pose().clone();
             }
             Busy::Painting => {
-                let event = ToolEvent::Move { at_px: event.at_px, at_secs: event.at_secs, held: event.held };
+                let PointerEvent { at_px, at_secs, held, pressure, .. } = *event;
+                let event = ToolEvent::Move { at_px, at_secs, held, pressure: sound(pressure) };
                 self.tool(event, view);
             }
             Busy::Pressed(from_px) => {
@@ -160,7 +170,8 @@ impl Editor {
         }
         match (self.session.mode, self.session.tool()) {
             (Mode::Paint, _) => {
-                let press = ToolEvent::Press { at_px: event.at_px, at_secs: event.at_secs, held: event.held };
+                let PointerEvent { at_px, at_secs, held, pressure, .. } = *event;
+                let press = ToolEvent::Press { at_px, at_secs, held, pressure: sound(pressure) };
                 self.busy = Busy::Painting;
                 self.tool(press, view);
                 if self.output.refusal.is_some() {

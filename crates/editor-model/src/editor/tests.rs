@@ -42,7 +42,7 @@ fn view(editor: &Editor) -> View {
 fn event(editor: &mut Editor, kind: PointerKind, at_px: DVec2, held: Modifiers) {
     let view = view(editor);
     let at_secs = editor.at_secs + 0.01;
-    editor.pointer(&PointerEvent { kind, at_px, held, at_secs }, &view);
+    editor.pointer(&PointerEvent { kind, at_px, held, at_secs, pressure: 1.0 }, &view);
 }
 
 fn drag(editor: &mut Editor, button: Button, path: [DVec2; 2], held: Modifiers) {

@@ -10,48 +10,60 @@ use super::STEP_PX;
 #[derive(Clone, Debug)]
 pub(super) struct PointerCurve {
     /// The last points, at most three; neighbours are never at the same place.
-    points: Vec<DVec2>,
+    points: Vec<Step>,
     /// Length of the curve from the last step to where the walk ended.
     walked_px: f64,
+}
+
+/// A place of the pointer, and how hard it presses there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Step {
+    pub(super) at_px: DVec2,
+    pub(super) pressure: f64,
 }
 
 /// Reports closer than this count as one.
 const SAME_PX: f64 = 1e-3;
 
 impl PointerCurve {
-    pub(super) fn new(at_px: DVec2) -> Self {
-        Self { points: vec![at_px], walked_px: 0.0 }
+    pub(super) fn new(step: Step) -> Self {
+        Self { points: vec![step], walked_px: 0.0 }
     }
 
     /// Takes a point; returns the steps on the piece of the curve that is final from now on.
-    pub(super) fn move_to(&mut self, at_px: DVec2) -> Vec<DVec2> {
-        if self.points.last().is_some_and(|last| last.distance(at_px) < SAME_PX) {
+    pub(super) fn move_to(&mut self, step: Step) -> Vec<Step> {
+        if let Some(last) = self.points.last_mut()
+            && last.at_px.distance(step.at_px) < SAME_PX
+        {
+            // A pen that is set down presses harder without moving.
+            last.pressure = last.pressure.max(step.pressure);
             return Vec::new();
         }
-        self.points.push(at_px);
+        self.points.push(step);
         match *self.points.as_slice() {
-            [a, b, c] => self.walk([mirrored(c, a, b), a, b, c]),
+            [a, b, c] => self.walk(mirrored(c.at_px, a.at_px, b.at_px), [a, b], c.at_px),
             [a, b, c, d] => {
                 self.points.remove(0);
-                self.walk([a, b, c, d])
+                self.walk(a.at_px, [b, c], d.at_px)
             }
             _ => Vec::new(),
         }
     }
 
     /// The steps to the last point, and that point.
-    pub(super) fn finish(&mut self) -> Vec<DVec2> {
+    pub(super) fn finish(&mut self) -> Vec<Step> {
         let (end, mut steps) = match *self.points.as_slice() {
-            [a, b] => (b, self.walk([a * 2.0 - b, a, b, b * 2.0 - a])),
-            [a, b, c] => (c, self.walk([a, b, c, mirrored(a, b, c)])),
+            [a, b] => (b, self.walk(a.at_px * 2.0 - b.at_px, [a, b], b.at_px * 2.0 - a.at_px)),
+            [a, b, c] => (c, self.walk(a.at_px, [b, c], mirrored(a.at_px, b.at_px, c.at_px))),
             _ => return Vec::new(),
         };
         steps.push(end);
         steps
     }
 
-    /// Steps on the curve from `b` to `c`.
-    fn walk(&mut self, [a, b, c, d]: [DVec2; 4]) -> Vec<DVec2> {
+    /// Steps on the curve between two points; `a` is the point before them, `d` the point after.
+    fn walk(&mut self, a: DVec2, [first, second]: [Step; 2], d: DVec2) -> Vec<Step> {
+        let (b, c) = (first.at_px, second.at_px);
         let knot = |from: DVec2, to: DVec2| from.distance(to).sqrt().max(1e-9);
         let (ab, bc, cd) = (knot(a, b), knot(b, c), knot(c, d));
         let tangent = |[p, q, r]: [DVec2; 3], pq: f64, qr: f64| {
@@ -73,7 +85,9 @@ impl PointerCurve {
             let length = from.distance(to);
             let mut next = STEP_PX - self.walked_px;
             while next <= length {
-                steps.push(from.lerp(to, next / length));
+                let share = (f64::from(piece - 1) + next / length) / f64::from(pieces);
+                let pressure = first.pressure + (second.pressure - first.pressure) * share;
+                steps.push(Step { at_px: from.lerp(to, next / length), pressure });
                 next += STEP_PX;
             }
             self.walked_px = length - (next - STEP_PX);

@@ -41,6 +41,11 @@ impl FileKind {
         matches!(self, Self::Exr | Self::PngAndExr)
     }
 
+    /// Whether a PNG file is one of the files.
+    pub fn has_png(self) -> bool {
+        matches!(self, Self::Png8 | Self::Png16 | Self::PngAndExr)
+    }
+
     /// The endings of the files; the first is that of the pattern.
     pub fn endings(self) -> &'static [&'static str] {
         match self {

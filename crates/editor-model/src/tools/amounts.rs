@@ -24,13 +24,21 @@ pub(super) fn factor(of: Amount, raises: bool, strength: f64) -> f64 {
     ((by * 1000.0).round() / 1000.0).clamp(*of.range().start(), *of.range().end())
 }
 
-/// The dabs of a drag that touched these points.
-pub(super) fn dabs(touched: &[PathPoint], radius: f64, by: f64) -> Vec<AmountDab> {
-    let dab = |stamp: &PathPoint| AmountDab {
-        at: stamp.position.to_array().map(|value| short(value, radius)),
-        normal: stamp.normal.to_array().map(|value| short(value, 1.0)),
-        radius: short(radius, radius),
-        by,
+/// The dabs of a drag that touched these points. `felt` says of a point by which factor its dab is smaller than
+/// `radius`, and the factor that it paints.
+pub(super) fn dabs(
+    touched: &[PathPoint],
+    radius: f64,
+    felt: impl Fn(&PathPoint) -> (f64, f64),
+) -> Vec<AmountDab> {
+    let dab = |stamp: &PathPoint| {
+        let (narrows, by) = felt(stamp);
+        AmountDab {
+            at: stamp.position.to_array().map(|value| short(value, radius)),
+            normal: stamp.normal.to_array().map(|value| short(value, 1.0)),
+            radius: short(radius * narrows, radius),
+            by,
+        }
     };
     touched.iter().map(dab).collect()
 }

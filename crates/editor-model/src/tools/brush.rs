@@ -4,6 +4,7 @@ use glam::DVec2;
 use impasto_scene::document::{Amount, Dab, Falloff, Guide, GuideMode, Region, Selector};
 
 use super::heading::Heading;
+use super::pressure::Felt;
 use super::ring::{CombPreview, Needle, Ring, radius_in_model};
 use super::{
     NOTHING_HERE, Paintable, Surroundings, ToolEvent, ToolOutput, amounts, erase, smear, waiting_words,
@@ -66,17 +67,18 @@ impl Brush {
     pub(super) fn take(&mut self, tool: Tool, event: &ToolEvent, around: &Surroundings) -> ToolOutput {
         match *event {
             ToolEvent::Hover { at_px, at_secs } => self.aim(tool, at_px, at_secs, around),
-            ToolEvent::Press { at_px, at_secs, held } => {
+            ToolEvent::Press { at_px, at_secs, held, pressure } => {
                 self.heading.forget();
                 self.previews_comb = false;
                 self.heading.follow(at_px, at_secs);
-                self.press(tool, at_px, held, around)
+                self.press(tool, (at_px, held, pressure), around)
             }
-            ToolEvent::Move { at_px, at_secs, .. } => {
+            ToolEvent::Move { at_px, at_secs, pressure, .. } => {
                 self.heading.follow(at_px, at_secs);
                 let Some(stroke) = &mut self.stroke else { return self.aim(tool, at_px, at_secs, around) };
                 stroke.at_px = at_px;
                 let on = stroke.on.clone();
+                stroke.path.press_by(pressure);
                 stroke.path.move_to(at_px, &mut stroke.does.picks(&on, around));
                 let preview = stroke.command(around);
                 ToolOutput { preview, ..self.under_way(around) }
@@ -158,7 +160,12 @@ impl Brush {
         })
     }
 
-    fn press(&mut self, tool: Tool, at_px: DVec2, held: Modifiers, around: &Surroundings) -> ToolOutput {
+    fn press(
+        &mut self,
+        tool: Tool,
+        (at_px, held, pressure): (DVec2, Modifiers, f64),
+        around: &Surroundings,
+    ) -> ToolOutput {
         let does = Act::of(tool, held, around);
         let begun = does.begin(at_px, around);
         let (on, hit) = match begun {
@@ -173,7 +180,7 @@ impl Brush {
         };
         let path = SurfacePath::press(at_px, &hit, around.view, around.pose(hit.object), &settings);
         let sense = if options.against != held.ctrl { PathSense::Against } else { PathSense::Along };
-        let stroke = Stroke { does, on, path, sense, at_px };
+        let stroke = Stroke { does, on, path: path.pressed(pressure), sense, at_px };
         let preview = stroke.command(around);
         self.stroke = Some(stroke);
         ToolOutput { preview, ..self.under_way(around) }
@@ -182,7 +189,9 @@ impl Brush {
     /// What shows during a drag: the rings, the needle and the words of the status line.
     fn under_way(&self, around: &Surroundings) -> ToolOutput {
         let Some(stroke) = &self.stroke else { return ToolOutput::default() };
-        let radius_px = around.options.radius_px;
+        let options = stroke.felt_now(around).options(around);
+        let around = &Surroundings { options: &options, ..*around };
+        let radius_px = options.radius_px;
         let along = self.heading.along();
         let angle = along.map(|along| {
             let along = if stroke.sense == PathSense::Against { -along } else { along };
@@ -250,6 +259,11 @@ impl Act {
         matches!(self, Self::Add | Self::TakeAway | Self::AddNew)
     }
 
+    /// Whether it leaves dabs, each with a radius and a strength of its own; else a gesture has one of each.
+    fn leaves_dabs(self) -> bool {
+        self.is_for_regions() || matches!(self, Self::Raise | Self::Lower)
+    }
+
     /// Whether it paints or erases an amount. If so, no direction matters.
     fn is_for_amounts(self) -> bool {
         matches!(self, Self::Raise | Self::Lower | Self::EraseAmount)
@@ -315,9 +329,19 @@ impl Act {
 }
 
 impl Stroke {
+    /// The factors of the pen's pressure on what the ring shows.
+    fn felt_now(&self, around: &Surroundings) -> Felt {
+        match self.does.leaves_dabs() {
+            true => Felt::of(self.path.pressure(), around.options),
+            false => Felt::of_path(&self.path, around.options),
+        }
+    }
+
     /// The command that a release of the button would give now; `None` if the stroke is too short.
     fn command(&self, around: &Surroundings) -> Option<Command> {
         let path = self.path.finished(&mut self.does.picks(&self.on, around));
+        let felt = Felt::of_path(&path, around.options);
+        let path = if self.does.leaves_dabs() { path } else { path.narrowed(felt.radius) };
         let directions = |gesture: Gesture, guides: Vec<Guide>| {
             let region = self.on.target.clone();
             (!guides.is_empty()).then_some(Command::Directions(Directions::Stroke {
@@ -343,7 +367,7 @@ impl Stroke {
         let style = GuideStyle {
             mode,
             object: self.on.object_name.clone(),
-            strength: options.strength,
+            strength: Felt::of_path(path, options).strength(options.strength),
             falloff: if options.even { Falloff::Flat } else { Falloff::Smooth },
             sense: self.sense,
         };
@@ -375,7 +399,10 @@ impl Stroke {
     /// The points at which the brush touches the surface along a path, `share` of its radius apart, then their mirror
     /// images.
     fn touched(&self, path: &SurfacePath, share: f64, around: &Surroundings) -> Vec<PathPoint> {
-        let mut touched = path.stamps_apart(share);
+        let mut touched = match self.does.leaves_dabs() {
+            true => path.stamps_of(share, &|point| Felt::at(point, around.options).radius),
+            false => path.stamps_apart(share),
+        };
         let own = touched.len();
         for flip in mirror_axes(around).flips() {
             for index in 0..own {
@@ -410,9 +437,14 @@ impl Stroke {
     /// The dabs of an amount that a drag leaves.
     fn raised(&self, path: &SurfacePath, around: &Surroundings) -> Option<Command> {
         let options = around.options;
-        let by = amounts::factor(options.amount, self.does == Act::Raise, options.strength);
-        let dabs = amounts::dabs(&self.touched(path, amounts::DAB_SHARE, around), path.radius(), by);
-        (!dabs.is_empty() && by != 1.0).then(|| {
+        let raises = self.does == Act::Raise;
+        let touched = self.touched(path, amounts::DAB_SHARE, around);
+        let mut dabs = amounts::dabs(&touched, path.radius(), |point| {
+            let felt = Felt::at(point, options);
+            (felt.radius, amounts::factor(options.amount, raises, options.strength * felt.strength))
+        });
+        dabs.retain(|dab| dab.by != 1.0);
+        (!dabs.is_empty()).then(|| {
             Command::Amounts(Amounts::Paint {
                 region: self.on.target.clone(),
                 of: options.amount,
@@ -440,7 +472,7 @@ impl Stroke {
             .map(|stamp| Dab {
                 at: stamp.position.to_array(),
                 normal: stamp.normal.to_array(),
-                radius: path.radius(),
+                radius: path.radius() * Felt::at(stamp, around.options).radius,
                 take_away,
             })
             .collect();

@@ -95,7 +95,7 @@ impl Curve {
                 self.at_px = Some(at_px);
                 self.shown(around)
             }
-            ToolEvent::Press { at_px, at_secs, held } => {
+            ToolEvent::Press { at_px, at_secs, held, .. } => {
                 self.at_px = Some(at_px);
                 self.press(at_px, at_secs, held, around)
             }
@@ -282,7 +282,7 @@ impl Drawing {
             let found = around.picker.closest_on_surface(self.on.object, at, normal, self.radius);
             let (position, normal) = found.map_or((at, normal), |found| (found.position, found.normal));
             let at_px = around.view.project(around.world(self.on.object, position)).unwrap_or_default();
-            PathPoint { at_px, position, normal }
+            PathPoint { at_px, position, normal, pressure: 1.0 }
         })
     }
 
@@ -352,7 +352,7 @@ impl Dragging {
 }
 
 fn place(at_px: DVec2, hit: &Hit) -> PathPoint {
-    PathPoint { at_px, position: hit.position_in_model, normal: hit.normal_in_model }
+    PathPoint::new(at_px, hit, 1.0)
 }
 
 /// The part of a guide under the pointer, among guides of the selected region that face the eye.

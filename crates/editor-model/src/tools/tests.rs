@@ -17,6 +17,7 @@ use crate::session::FillKind;
 mod amounts;
 mod clicks;
 mod curves;
+mod pressure;
 mod strokes;
 mod touches;
 
@@ -77,6 +78,8 @@ struct World {
     options: ToolOptions,
     hand: Hand,
     secs: f64,
+    /// How hard the pen presses.
+    pressure: f64,
     painted: Stub,
     _folder: tempfile::TempDir,
 }
@@ -130,6 +133,7 @@ impl World {
             options,
             hand: Hand::default(),
             secs: 0.0,
+            pressure: 1.0,
             painted: Stub { shown: Some(PaintedDirection { angle_rad: 10f64.to_radians(), trust: 0.97 }) },
             _folder: folder,
         }
@@ -178,12 +182,12 @@ impl World {
 
     fn press(&mut self, tool: Tool, at: [f64; 2], held: Modifiers) -> ToolOutput {
         let (at_px, at_secs) = self.at(at);
-        self.take(tool, ToolEvent::Press { at_px, at_secs, held })
+        self.take(tool, ToolEvent::Press { at_px, at_secs, held, pressure: self.pressure })
     }
 
     fn drag_to(&mut self, tool: Tool, at: [f64; 2], held: Modifiers) -> ToolOutput {
         let (at_px, at_secs) = self.at(at);
-        self.take(tool, ToolEvent::Move { at_px, at_secs, held })
+        self.take(tool, ToolEvent::Move { at_px, at_secs, held, pressure: self.pressure })
     }
 
     fn release(&mut self, tool: Tool) -> ToolOutput {

@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 use impasto_scene::document::{Amount, AmountDab, Touch, TouchPoint};
 use impasto_scene::limits;
 
+use super::pressure::Felt;
 use super::ring::Ring;
 use super::{NOTHING_HERE, Paintable, Surroundings, ToolEvent, ToolOutput, amounts};
 use crate::command::{Amounts, Command, Touches};
@@ -52,12 +53,13 @@ impl TouchTool {
     pub(super) fn take(&mut self, event: &ToolEvent, around: &Surroundings) -> ToolOutput {
         match *event {
             ToolEvent::Hover { at_px, .. } => aim(at_px, around),
-            ToolEvent::Press { at_px, held, .. } => self.press(at_px, held, around),
-            ToolEvent::Move { at_px, .. } => {
+            ToolEvent::Press { at_px, held, pressure, .. } => self.press(at_px, held, pressure, around),
+            ToolEvent::Move { at_px, pressure, .. } => {
                 let Some(drag) = &mut self.drag else { return aim(at_px, around) };
                 drag.at_px = at_px;
                 drag.farthest_px = drag.farthest_px.max(at_px.distance(drag.press_px));
                 let object = drag.on.object;
+                drag.path.press_by(pressure);
                 drag.path.move_to(at_px, &mut |at_px| around.hit(at_px).filter(|hit| hit.object == object));
                 self.under_way(around)
             }
@@ -74,7 +76,7 @@ impl TouchTool {
         }
     }
 
-    fn press(&mut self, at_px: DVec2, held: Modifiers, around: &Surroundings) -> ToolOutput {
+    fn press(&mut self, at_px: DVec2, held: Modifiers, pressure: f64, around: &Surroundings) -> ToolOutput {
         let options = around.options;
         let hit = around.hit(at_px).filter(|hit| hit.front || !options.front_only);
         let Some(hit) = hit else { return ToolOutput::refusing(Refusal::new(NOTHING_HERE)) };
@@ -97,7 +99,8 @@ impl TouchTool {
             erases: options.touch_erases != held.shift,
             on,
             object: object.name.clone(),
-            path: SurfacePath::press(at_px, &hit, around.view, around.pose(hit.object), &settings),
+            path: SurfacePath::press(at_px, &hit, around.view, around.pose(hit.object), &settings)
+                .pressed(pressure),
             press_px: at_px,
             farthest_px: 0.0,
             at_px,
@@ -109,9 +112,10 @@ impl TouchTool {
         let Some(drag) = &self.drag else { return ToolOutput::default() };
         let verb = if drag.erases { "Erasing on" } else { "Laying a touch on" };
         let words = format!("{verb} {}   [Esc] take it back", drag.object);
+        let radius_px = around.options.radius_px * Felt::of_path(&drag.path, around.options).radius;
         let rings = match around.hit(drag.at_px).filter(|hit| hit.object == drag.on.object) {
-            Some(hit) => vec![Ring::on(&hit, around.options.radius_px, around)],
-            None => vec![Ring::hollow(drag.at_px, around.options.radius_px)],
+            Some(hit) => vec![Ring::on(&hit, radius_px, around)],
+            None => vec![Ring::hollow(drag.at_px, radius_px)],
         };
         ToolOutput { preview: drag.command(around), rings, ..ToolOutput::saying(words) }
     }
@@ -146,7 +150,7 @@ fn paintable(hit: &Hit, around: &Surroundings) -> Result<Paintable, Refusal> {
 }
 
 fn point_of(at_px: DVec2, hit: &Hit) -> PathPoint {
-    PathPoint { at_px, position: hit.position_in_model, normal: hit.normal_in_model }
+    PathPoint::new(at_px, hit, 1.0)
 }
 
 fn radius_of(hit: &Hit, around: &Surroundings) -> f64 {
@@ -208,7 +212,8 @@ impl Drag {
         });
         // The ring is as wide as the stroke: from points of the window to pixels of the scene's own size.
         let scale = f64::from(around.scene().size.1) / around.view.size_px.y.max(1.0);
-        let width_px = (2.0 * options.radius_px * scale)
+        let felt = Felt::of_path(path, options);
+        let width_px = (2.0 * options.radius_px * felt.radius * scale)
             .clamp(*limits::TOUCH_WIDTH_PX.start(), *limits::TOUCH_WIDTH_PX.end());
         let width_px = (width_px * 10.0).round() / 10.0;
         let ratio = Touch::USUAL_LENGTH_PX / Touch::USUAL_WIDTH_PX;
@@ -219,7 +224,7 @@ impl Drag {
             width_px,
             length_px: if kept.len() == 1 { length_px } else { Touch::USUAL_LENGTH_PX },
             color: (!options.touch_from_picture).then_some(options.touch_color),
-            opacity: options.touch_opacity,
+            opacity: felt.strength(options.touch_opacity),
             taper: options.touch_taper,
             ..Touch::new(NAME, self.object.clone(), points.collect())
         }
@@ -227,13 +232,14 @@ impl Drag {
 
     /// Takes the touches under the drag away; where there are none, strokes are thinned to nothing.
     fn erased(&self, path: &SurfacePath, around: &Surroundings) -> Option<Command> {
+        let path = path.clone().narrowed(Felt::of_path(path, around.options).radius);
         let touched = path.stamps_apart(STAMP_SHARE);
         let names = near(around, &self.object, &touched, path.radius());
         if !names.is_empty() {
             return Some(Command::Touches(Touches::Erase(names)));
         }
         let dabs: Vec<AmountDab> =
-            amounts::dabs(&path.stamps_apart(amounts::DAB_SHARE), 1.5 * path.radius(), 0.0);
+            amounts::dabs(&path.stamps_apart(amounts::DAB_SHARE), 1.5 * path.radius(), |_| (1.0, 0.0));
         (!dabs.is_empty()).then(|| {
             Command::Amounts(Amounts::Paint {
                 region: self.on.target.clone(),

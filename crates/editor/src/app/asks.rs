@@ -31,6 +31,7 @@ impl EditorApp {
                 } else {
                     self.editor.session = *session;
                 }
+                self.keep_pressure();
             }
             Ask::Timeline(event) => self.editor.timeline(event),
             Ask::Mend(mend) => self.mend(mend),
@@ -74,6 +75,8 @@ impl EditorApp {
             Ask::LoadPreset(of) => self.ask_for_preset(FileAsk::LoadPreset, of, ctx),
             Ask::UsePreset(of, path) => self.use_preset(of, &path),
             Ask::Welcome => self.sheets.welcome = true,
+            Ask::KeySheet => self.sheets.keys = true,
+            Ask::OwnKeys(own) => self.keep_own_keys(&own),
         }
     }
 

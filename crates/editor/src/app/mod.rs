@@ -10,6 +10,7 @@ mod asks;
 mod comb_preview;
 mod file_flow;
 mod following;
+mod frame_view;
 mod keys;
 mod last_seen;
 mod lights;
@@ -34,7 +35,7 @@ use egui::{CentralPanel, Context, Ui};
 use impasto_editor_model::command::Command;
 use impasto_editor_model::document::Document;
 use impasto_editor_model::editor::{Editor, Offer, Said, reference_frame};
-use impasto_editor_model::keymap::{Digits, Keymap, Preset};
+use impasto_editor_model::keymap::{Digits, Key, Keymap, Modifiers, Preset};
 use impasto_gl_render::ShaderTexts;
 use impasto_scene::problem::Report;
 
@@ -50,6 +51,7 @@ use impasto_gl_render::shader_folder::ShaderFolder;
 
 use file_flow::FileFlow;
 use following::Following;
+use frame_view::FrameView;
 use long_work::LongWork;
 use marks::MarkCache;
 use picture::{News, PictureFlow};
@@ -73,6 +75,8 @@ pub(crate) struct EditorApp {
     files: FileFlow,
     safe: SafeKeeping,
     render: RenderFlow,
+    /// The finished frames, while they are shown in place of the page.
+    frame_view: Option<FrameView>,
     long: LongWork,
     shaders: ShaderFlow,
     following: Following,
@@ -100,6 +104,8 @@ struct Sheets {
     welcome: bool,
     palette: bool,
     shortcuts: bool,
+    /// The sheet that changes keys.
+    keys: bool,
     recapture: Option<i64>,
     /// A command that takes triangles from other regions, and these triangles in words: *340 triangles of skin*.
     take_faces: Option<(Command, String)>,
@@ -137,6 +143,7 @@ impl EditorApp {
             files: FileFlow::new(FileDialogs::new(options.dialogs)),
             safe: SafeKeeping::new(),
             render: RenderFlow::new(opened.waker.clone()),
+            frame_view: None,
             long: LongWork::new(opened.waker.clone()),
             shaders: ShaderFlow::default(),
             following: if options.follow {
@@ -160,7 +167,7 @@ impl EditorApp {
         app.use_shaders(shaders);
         opened.ctx.add_plugin(window::FocusRules);
         theme::apply(&opened.ctx, app.preferences.theme, app.preferences.scale);
-        if let Some(note) = loaded.note {
+        for note in loaded.note.into_iter().chain(app.preferences.own_keys.fault()) {
             app.toast(note, None, true);
         }
         if let Some(path) = &options.path {
@@ -171,7 +178,7 @@ impl EditorApp {
         app
     }
 
-    /// Uses the keys and the comb preview of the preferences.
+    /// Uses the keys, the comb preview and the pressure of the preferences.
     fn keymap(&mut self) {
         self.editor.keymap = Keymap {
             preset: match self.preferences.keys {
@@ -179,9 +186,11 @@ impl EditorApp {
                 Keys::Maya => Preset::Maya,
             },
             digits: if self.preferences.digits_as_numpad { Digits::NumPad } else { Digits::Modes },
+            own: self.preferences.own_keys.keys(),
         };
         self.editor.session.options.foresee =
             self.preferences.foresee_strokes && !self.preferences.reduced_motion;
+        self.editor.session.options.pressure = self.preferences.pressure;
     }
 
     fn opened(&mut self, path: &Path, opened: Result<Document, Report>) {
@@ -228,6 +237,7 @@ impl EditorApp {
     fn forget_document(&mut self) {
         self.picture_flow.forget();
         self.render.forget();
+        self.frame_view = None;
         panels::problems::forget_text(&self.ctx);
         self.troubles.retain(|trouble| matches!(trouble.of, TroubleOf::Open(_)));
     }
@@ -246,12 +256,19 @@ impl EditorApp {
     }
 
     fn is_modal(&self) -> bool {
-        let Sheets { welcome, palette, shortcuts, recapture, take_faces, problems: _ } = &self.sheets;
+        let Sheets { welcome, palette, shortcuts, keys, recapture, take_faces, problems: _ } = &self.sheets;
         let asks = self.files.is_asking() || self.safe.is_asking() || self.render.is_modal();
-        *welcome || *palette || *shortcuts || recapture.is_some() || take_faces.is_some() || asks
+        *welcome
+            || *palette
+            || *shortcuts
+            || *keys
+            || self.frame_view.is_some()
+            || recapture.is_some()
+            || take_faces.is_some()
+            || asks
     }
 
-    fn page(&mut self, ui: &mut Ui) {
+    fn page(&mut self, ui: &mut Ui, numpad: &[(Key, Modifiers)]) {
         let status = self.editor.status();
         let driver = self.picture_flow.driver().to_owned();
         let recent: Vec<PathBuf> = self.preferences.recent_there().into_iter().map(Path::to_owned).collect();
@@ -263,7 +280,7 @@ impl EditorApp {
             session: &self.editor.session,
             time: self.editor.time(),
             painting: self.editor.painting(),
-            keymap: self.editor.keymap,
+            keymap: &self.editor.keymap,
             status: &status,
             numbers: Numbers {
                 strokes: self.picture_flow.strokes(),
@@ -290,10 +307,14 @@ impl EditorApp {
             area(ui, Area::Rail, |ui| panels::rail::rail(ui, &shown, &mut asks));
         }
         let palette_closed = self.sheets.palette && panels::palette::palette(ui.ctx(), &shown, &mut asks);
-        let shortcuts_closed = self.sheets.shortcuts && panels::shortcuts::shortcuts(ui.ctx(), &shown);
+        let shortcuts_closed =
+            self.sheets.shortcuts && panels::shortcuts::shortcuts(ui.ctx(), &shown, &mut asks);
+        let keys_closed =
+            self.sheets.keys && panels::key_sheet::key_sheet(ui.ctx(), &shown, numpad, &mut asks);
         panels::context_menu(ui, &shown, &mut asks);
         self.sheets.palette &= !palette_closed;
         self.sheets.shortcuts &= !shortcuts_closed;
+        self.sheets.keys &= !keys_closed;
         CentralPanel::default()
             .frame(egui::Frame::NONE)
             .show(ui, |ui| area(ui, Area::Viewport, |ui| self.viewport(ui, &mut asks)));
@@ -379,13 +400,16 @@ impl window::App for EditorApp {
         let numpad = numpad_pressed(&ctx);
         // While a menu is open, keys belong to it.
         if !self.is_modal() && !egui::Popup::is_any_open(&ctx) {
-            if tab_pressed(&ctx).is_some_and(|held| held.is_none()) {
-                self.editor.act(impasto_editor_model::keymap::Action::TogglePaint, &view);
+            if let Some(held) = tab_pressed(&ctx) {
+                self.editor.key(Key::Tab, keys::held(held), false, &view);
             }
             keys::wheel(ui, &mut self.editor);
-            keys::hand_on(ui, &mut self.editor, &view, numpad);
+            keys::hand_on(ui, &mut self.editor, &view, &numpad);
         }
-        self.page(ui);
+        match self.frame_view.is_some() {
+            true => self.show_frames(ui),
+            false => self.page(ui, &numpad),
+        }
         let now = ui.input(|input| input.time);
         if let Some(wait) = self.editor.time().playback.wait_secs(now) {
             ctx.request_repaint_after(Duration::from_secs_f64(wait.min(1.0)));

@@ -1,7 +1,7 @@
 //! Applies and saves the preferences that are set in the command search.
 
 use egui::Context;
-use impasto_editor_model::keymap::{Digits, Preset};
+use impasto_editor_model::keymap::{Digits, OwnKeys, Preset};
 
 use super::EditorApp;
 use crate::files::preferences::Keys;
@@ -9,6 +9,22 @@ use crate::panels::Preference;
 use crate::theme;
 
 impl EditorApp {
+    /// Keeps what a pen's pressure changes, if the options bar changed it.
+    pub(super) fn keep_pressure(&mut self) {
+        let pressure = self.editor.session.options.pressure;
+        if pressure != self.preferences.pressure {
+            self.preferences.pressure = pressure;
+            self.keep_preferences();
+        }
+    }
+
+    /// Uses these keys in place of the preset's, and keeps them.
+    pub(super) fn keep_own_keys(&mut self, own: &OwnKeys) {
+        self.preferences.own_keys.set(own);
+        self.keymap();
+        self.keep_preferences();
+    }
+
     /// Applies a preference, and saves it.
     pub(super) fn prefer(&mut self, preference: Preference, ctx: &Context) {
         let preferences = &mut self.preferences;

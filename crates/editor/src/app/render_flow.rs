@@ -10,6 +10,7 @@ use impasto_editor_model::render_settings::{
 use impasto_gl_render::ShaderTexts;
 
 use super::EditorApp;
+use super::frame_view::FrameView;
 use crate::files::file_ask::FileAsk;
 use crate::files::incoming::name_of;
 use crate::files::show_folder::show_folder;
@@ -167,6 +168,8 @@ impl EditorApp {
             driver: self.picture_flow.driver(),
             progress: progress.as_ref(),
             picture: self.render.picture.as_ref(),
+            viewable: progress.as_ref().is_some_and(|progress| progress.done() > 0)
+                && self.render.running.as_ref().is_some_and(|running| running.plan().kind.has_png()),
         };
         let ask = render_sheet(ctx, &shown, &mut settings);
         self.render.settings = Some(settings);
@@ -188,6 +191,7 @@ impl EditorApp {
                     self.toast(words, None, true);
                 }
             }
+            Some(RenderAsk::View) => self.view_frames(),
             Some(RenderAsk::CopyCommand) => self.copy_render_command(ctx),
             Some(RenderAsk::Browse) => {
                 let ending = self.render.settings.as_ref().map_or("png", RenderSettings::ending);
@@ -197,6 +201,16 @@ impl EditorApp {
                 };
                 self.files.dialogs.open(ctx, FileAsk::RenderOutput { ending }, &start);
             }
+        }
+    }
+
+    /// Shows the finished frames of the rendering in place of the page; the sheet closes, and rendering goes on.
+    fn view_frames(&mut self) {
+        let Some(plan) = self.render.running.as_ref().map(Rendering::plan) else { return };
+        let (frames, fps) = (plan.finished(), plan.loaded.scene.timeline.fps);
+        match FrameView::open(frames, fps, self.render.waker.clone()) {
+            Ok(view) => (self.frame_view, self.render.is_open) = (Some(view), false),
+            Err(words) => self.toast(words, None, true),
         }
     }
 

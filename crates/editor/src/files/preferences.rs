@@ -1,16 +1,18 @@
 //! The user's preferences and recent files, kept as readable RON in the user's config folder.
 
+mod own_keys;
 mod store;
 #[cfg(test)]
 mod tests;
 
 use std::path::{Path, PathBuf};
 
-use impasto_editor_model::session::Mode;
+use impasto_editor_model::session::{Mode, Pressure};
 use serde::{Deserialize, Serialize};
 
 use crate::theme::Theme;
 
+pub use own_keys::OwnKeysText;
 pub use store::{Loaded, PreferencesError, config_folder, load, recovery_folder, save};
 
 /// The newest layout that this build reads.
@@ -31,6 +33,8 @@ pub struct Preferences {
     pub version: u32,
     /// The key bindings.
     pub keys: Keys,
+    /// Keys in place of those that `keys` and `digits_as_numpad` give.
+    pub own_keys: OwnKeysText,
     /// The colour theme.
     #[serde(with = "ThemeText")]
     pub theme: Theme,
@@ -46,6 +50,9 @@ pub struct Preferences {
     pub digits_as_numpad: bool,
     /// Whether to preview what a comb would do, before the press.
     pub foresee_strokes: bool,
+    /// What the pressure of a pen changes.
+    #[serde(with = "PressureText")]
+    pub pressure: Pressure,
     /// Whether to leave out animations that are not needed.
     pub reduced_motion: bool,
     /// Files that were opened or saved, newest first.
@@ -61,6 +68,7 @@ impl Default for Preferences {
         Self {
             version: VERSION,
             keys: Keys::default(),
+            own_keys: OwnKeysText::default(),
             theme: Theme::default(),
             scale: 1.0,
             show_welcome: true,
@@ -68,6 +76,7 @@ impl Default for Preferences {
             copy_after_secs: 10,
             digits_as_numpad: false,
             foresee_strokes: true,
+            pressure: Pressure::default(),
             reduced_motion: false,
             recent: Vec::new(),
             last_seen: Vec::new(),
@@ -203,6 +212,15 @@ fn storable(file: &Path) -> Option<PathBuf> {
 enum ThemeText {
     Dark,
     Light,
+}
+
+/// How the pressure of a pen is written in the file.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Pressure")]
+enum PressureText {
+    Off,
+    Radius,
+    Strength,
 }
 
 /// How a mode is written in the file.

@@ -26,11 +26,13 @@ pub(super) enum Line {
     CopyRenderCommand,
     /// Shows the first-run sheet.
     FirstRun,
+    /// Shows the sheet that changes keys.
+    KeySheet,
     /// A menu of its own.
     Sub(&'static str, &'static [Line]),
 }
 
-use Line::{Add, CopyRenderCommand, Do, FirstRun, Recent, Separator, Sub};
+use Line::{Add, CopyRenderCommand, Do, FirstRun, KeySheet, Recent, Separator, Sub};
 
 const MENUS: [(&str, &[Line]); 4] = [
     (
@@ -73,6 +75,8 @@ const MENUS: [(&str, &[Line]); 4] = [
             Separator,
             Sub("Tools", TOOLS),
             Sub("Time", TIME),
+            Separator,
+            KeySheet,
         ],
     ),
     (
@@ -215,6 +219,11 @@ pub(super) fn list(ui: &mut Ui, lines: &[Line], shown: &PanelInput<'_>, asks: &m
                     asks.extend(command);
                 }
             }
+            KeySheet => {
+                if usable(ui, None, MenuRow { words: words_of(*line), ..MenuRow::default() }) {
+                    asks.push(Ask::KeySheet);
+                }
+            }
             FirstRun => {
                 if usable(ui, None, MenuRow { words: words_of(*line), ..MenuRow::default() }) {
                     asks.push(Ask::Welcome);
@@ -231,8 +240,12 @@ fn copied_command(shown: &PanelInput<'_>) -> Result<Ask, &'static str> {
 }
 
 /// What the menus hold beside actions: the words, and the request or why it cannot be made.
-pub(super) fn others(shown: &PanelInput<'_>) -> [(&'static str, Result<Ask, &'static str>); 2] {
-    [(words_of(CopyRenderCommand), copied_command(shown)), (words_of(FirstRun), Ok(Ask::Welcome))]
+pub(super) fn others(shown: &PanelInput<'_>) -> [(&'static str, Result<Ask, &'static str>); 3] {
+    [
+        (words_of(CopyRenderCommand), copied_command(shown)),
+        (words_of(FirstRun), Ok(Ask::Welcome)),
+        (words_of(KeySheet), Ok(Ask::KeySheet)),
+    ]
 }
 
 fn words_of(line: Line) -> &'static str {
@@ -243,6 +256,7 @@ fn words_of(line: Line) -> &'static str {
         Recent => "Open recent",
         CopyRenderCommand => "Copy render command",
         FirstRun => "First run sheet",
+        KeySheet => "Change keys",
         Separator => "",
     }
 }

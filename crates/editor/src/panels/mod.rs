@@ -8,6 +8,8 @@ mod areas;
 pub mod ask_close;
 mod context_menu;
 pub mod empty;
+pub mod frame_viewer;
+pub mod key_sheet;
 mod menus;
 pub mod options_bar;
 pub mod palette;
@@ -34,7 +36,7 @@ mod tree;
 
 use impasto_editor_model::command::{Command, StrokesOf};
 use impasto_editor_model::editor::Mend;
-use impasto_editor_model::keymap::{Action, Keymap};
+use impasto_editor_model::keymap::{Action, Keymap, OwnKeys};
 use impasto_editor_model::session::Tool;
 use impasto_editor_model::timeline::{TimeHand, TimelineEvent};
 use impasto_editor_model::{Document, Item, PictureFor, Selection, Session};
@@ -63,7 +65,7 @@ pub struct PanelInput<'a> {
     /// The painting as it was last prepared, perhaps from an earlier version of the document; `None` before the first.
     pub painting: Option<&'a Painting>,
     /// The key bindings in use; menus and tooltips take the texts of shortcuts from them.
-    pub keymap: Keymap,
+    pub keymap: &'a Keymap,
     /// What the mouse would do now, alone and with keys: `[Drag] comb  [Shift] smooth`.
     pub status: &'a str,
     /// Numbers for the status line.
@@ -198,6 +200,10 @@ pub enum Ask {
     UsePreset(StrokesOf, PathBuf),
     /// Show the first-run sheet.
     Welcome,
+    /// Show the sheet that changes keys.
+    KeySheet,
+    /// Keep these keys in place of the preset's.
+    OwnKeys(OwnKeys),
 }
 
 /// A file's name to show, without its folder.

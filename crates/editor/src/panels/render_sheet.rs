@@ -29,6 +29,8 @@ pub struct RenderShown<'a> {
     pub progress: Option<&'a RenderProgress>,
     /// The picture of the last rendered frame.
     pub picture: Option<&'a TextureHandle>,
+    /// Whether finished frames can be viewed: some are there, as PNG files.
+    pub viewable: bool,
 }
 
 /// What the sheet asks for.
@@ -44,6 +46,8 @@ pub enum RenderAsk {
     Close,
     /// Show the files in the desktop's file manager.
     OpenFolder,
+    /// Show the finished frames in the window.
+    View,
     /// Put the command on the clipboard.
     CopyCommand,
     /// Choose where the files go.
@@ -87,7 +91,9 @@ pub fn render_sheet(
         });
         if let Some(progress) = shown.progress {
             ui.add_space(12.0);
-            progress::card(ui, progress, shown.picture);
+            if progress::card(ui, progress, shown.picture, shown.viewable) {
+                ask = Some(RenderAsk::View);
+            }
         }
         ui.add_space(20.0);
         ask = foot(ui, shown, &plan).or(ask);

@@ -3,7 +3,7 @@
 use egui::{RichText, ScrollArea, Ui, vec2};
 use impasto_editor_model::keymap::{Button, Keymap, Modifiers, Navigation, Preset, Scope};
 
-use super::{PanelInput, row, row_from_right, within};
+use super::{Ask, PanelInput, row, row_from_right, within};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, sheet};
@@ -18,7 +18,7 @@ struct Group {
 }
 
 /// Shows the sheet over everything. Returns true once it closes.
-pub fn shortcuts(ctx: &egui::Context, shown: &PanelInput<'_>) -> bool {
+pub fn shortcuts(ctx: &egui::Context, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) -> bool {
     let room = ctx.content_rect().size() - vec2(48.0, 48.0);
     let inner = room.x.min(1136.0) - 2.0 * measure::SHEET_PADDING;
     let columns = ((inner / COLUMN) as usize).max(1);
@@ -31,13 +31,21 @@ pub fn shortcuts(ctx: &egui::Context, shown: &PanelInput<'_>) -> bool {
                 Preset::Blender => "like Blender",
                 Preset::Maya => "like Maya",
             };
+            let like = match shown.keymap.own.is_empty() {
+                true => like.to_owned(),
+                false => format!("{like}, some changed"),
+            };
             ui.label(RichText::new(like).font(type_face::body()).color(tokens.weak));
             ui.with_layout(row_from_right(), |ui| {
                 close = widgets::icon_button(ui, icons::CLOSE, "Close keys").clicked();
+                if widgets::Button::new("Change keys\u{2026}").name("Change keys").show(ui).clicked() {
+                    asks.push(Ask::KeySheet);
+                    close = true;
+                }
             });
         });
         ui.add_space(measure::GAP);
-        let lines = lines(groups(&shown.keymap));
+        let lines = lines(groups(shown.keymap));
         // One more line, because no column may end with a heading.
         let high = lines.len().div_ceil(columns) + 1;
         let most = room.y - 2.0 * measure::SHEET_PADDING - 48.0;

@@ -8,6 +8,7 @@ use impasto_editor_model::keymap::{Button, Modifiers};
 
 use super::framing::Framing;
 use crate::widgets::press_closes_menu;
+use crate::window::pressures;
 
 /// A pinch by this factor counts as one step of the wheel.
 const PINCH_STEP: f64 = 1.1;
@@ -32,9 +33,15 @@ impl Pointer {
         let (raw, at_secs) = ui.input(|input| (input.raw.events.clone(), input.time));
         let mut held = ui.input(|input| plain(input.modifiers));
         let closes_menu = press_closes_menu(ui.ctx());
+        let mut pressures = pressures(ui.ctx()).into_iter();
         let mut events = Vec::new();
         for event in raw {
-            let mut push = |kind, at_px, held| events.push(PointerEvent { kind, at_px, held, at_secs });
+            let pressure = match event {
+                Event::PointerMoved(_) | Event::PointerButton { .. } => pressures.next().unwrap_or(1.0),
+                _ => 1.0,
+            };
+            let mut push =
+                |kind, at_px, held| events.push(PointerEvent { kind, at_px, held, at_secs, pressure });
             match event {
                 Event::PointerMoved(at) => {
                     let inside = over(at);

@@ -17,6 +17,7 @@ use super::gl::WindowGl;
 use super::icon::icon;
 use super::input::one_thing_each;
 use super::numpad::{keep_numpad, numpad_key};
+use super::pen::{Pens, keep_pressures};
 use super::{App, Asks, Frame, Opened, Options, Waker, WindowError};
 
 /// The shortest time between two frames that only an animation asks for. Software drivers do not wait for the screen.
@@ -120,6 +121,7 @@ struct OpenWindow<A> {
     /// Keys of the number pad, for the next pass.
     numpad: Vec<(Key, Modifiers)>,
     held: Modifiers,
+    pens: Pens,
     title: String,
     last_start: Instant,
     last_shown: Instant,
@@ -177,6 +179,7 @@ impl<A: App, M: FnOnce(&Opened) -> A> Shell<A, M> {
             textures: egui::TexturesDelta::default(),
             numpad: Vec::new(),
             held: Modifiers::default(),
+            pens: Pens::of_system(event_loop),
             title: String::new(),
             last_start: Instant::now(),
             last_shown: Instant::now(),
@@ -318,7 +321,10 @@ impl<A: App, M: FnOnce(&Opened) -> A> ApplicationHandler<Happening> for Shell<A,
             }
             _ => (),
         }
-        if open.state.on_window_event(&open.window, &event).repaint {
+        open.pens.before(&event);
+        let repaint = open.state.on_window_event(&open.window, &event).repaint;
+        open.pens.after(&event, open.state.egui_input());
+        if repaint {
             if open.holds && matches!(event, WindowEvent::CursorMoved { .. }) {
                 let at = open.last_start + HELD_PASS;
                 self.next = Some(self.next.map_or(at, |next| next.min(at)));
@@ -357,7 +363,9 @@ impl<A: App> OpenWindow<A> {
         let input = self.state.take_egui_input(&self.window);
         let ctx = self.state.egui_ctx().clone();
         keep_numpad(&ctx, std::mem::take(&mut self.numpad));
+        let mut pressures = self.pens.take();
         for pass in one_thing_each(input) {
+            keep_pressures(&ctx, &pass, &mut pressures);
             let (app, painter, last) = (&mut self.app, &mut self.painter, self.last_took);
             let mut asks = Asks::default();
             let output = ctx.run_ui(pass, |ui| app.ui(ui, &mut Frame { painter, last, asks: &mut asks }));

@@ -6,6 +6,7 @@ mod gl;
 mod icon;
 mod input;
 mod numpad;
+mod pen;
 
 use std::time::Duration;
 
@@ -17,6 +18,7 @@ pub use event_loop::run;
 pub use focus::{FocusRules, tab_pressed};
 pub use gl::force_software;
 pub use numpad::numpad_pressed;
+pub use pen::{Pens, PressureAxis, keep_pressures, pressures};
 
 use event_loop::Happening;
 

@@ -2,7 +2,9 @@
 //! each further program would have to be linked.
 
 mod column;
+mod frame_viewer;
 mod headless;
+mod key_sheet;
 mod page;
 mod panels_bars;
 mod problems;

@@ -82,7 +82,7 @@ impl Page {
             session: &session,
             time: self.editor.time(),
             painting: None,
-            keymap: Keymap::default(),
+            keymap: &Keymap::default(),
             status: "",
             numbers: Numbers::default(),
             recent: &[],

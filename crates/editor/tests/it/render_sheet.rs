@@ -73,6 +73,7 @@ impl Page {
             driver: "llvmpipe",
             progress: self.progress.as_ref(),
             picture: self.picture.as_ref(),
+            viewable: self.progress.as_ref().is_some_and(|progress| progress.outcome.is_some()),
         };
         self.asked.extend(render_sheet(&ctx, &shown, &mut self.settings));
     }
@@ -279,7 +280,7 @@ fn long_work_is_shown_in_the_status_line_and_can_be_stopped() {
             session: &Session::default(),
             time: &TimeHand::default(),
             painting: None,
-            keymap: Keymap::default(),
+            keymap: &Keymap::default(),
             status: "[Drag] comb",
             numbers: Numbers { strokes: 5774, works: &line.works, ..Numbers::default() },
             recent: &[],
@@ -307,4 +308,16 @@ fn long_work_is_shown_in_the_status_line_and_can_be_stopped() {
         ),
         "{asked:?}"
     );
+}
+
+#[test]
+fn finished_frames_are_viewed_from_the_sheet() {
+    let mut harness = harness(Page::unsaved().running());
+    assert!(harness.query_by_label("View frames").is_none());
+    if let Some(progress) = &mut harness.state_mut().progress {
+        progress.outcome = Some(Outcome::Done);
+    }
+    harness.run();
+    click(&mut harness, "View frames");
+    assert_eq!(asked(&mut harness), [RenderAsk::View]);
 }

@@ -11,6 +11,7 @@ use impasto_editor::viewport::overlay::{CurvePart, DirectionInk, DirectionMark, 
 use impasto_editor::viewport::{
     Badge, CameraChoice, Framing, Layout, Marks, Now, Pictures, ViewportEvents, ViewportInput, viewport,
 };
+use impasto_editor::window::keep_pressures;
 use impasto_editor_model::Session;
 use impasto_editor_model::editor::{PointerEvent, PointerKind};
 use impasto_editor_model::keymap::{Action, Button};
@@ -140,6 +141,40 @@ fn a_drag_comes_back_whole_and_in_order() {
     // The pointer is outside the picture now.
     expected.push((PointerKind::Leave, -30.0));
     assert_eq!(told, expected);
+}
+
+#[test]
+fn the_pressure_of_a_pen_comes_with_each_event() {
+    let ctx = egui::Context::default();
+    theme::apply(&ctx, Theme::Dark, 1.0);
+    let mut page = Page::new(Badge::Reference(0.0));
+    let mut pass = |events: Vec<Event>, mut pressures: Vec<f64>| {
+        let screen_rect = Some(Rect::from_min_size(pos2(0.0, 0.0), vec2(600.0, 420.0)));
+        let input = egui::RawInput { events, screen_rect, ..egui::RawInput::default() };
+        keep_pressures(&ctx, &input, &mut pressures);
+        ctx.run_ui(input, |ui| page.ui(ui)).drop_without_applying_deltas();
+        std::mem::take(&mut page.pointer)
+    };
+    let at = |x: f32| pos2(x, 200.0);
+    // Chips know their size from the second pass on.
+    for _ in 0..2 {
+        pass(Vec::new(), Vec::new());
+    }
+    let drag = || {
+        vec![
+            Event::PointerMoved(at(200.0)),
+            button(at(200.0), PointerButton::Primary, true),
+            // What is no event of the pointer has no pressure, and takes none.
+            Event::Text("x".to_owned()),
+            Event::PointerMoved(at(210.0)),
+            Event::PointerMoved(at(220.0)),
+            button(at(220.0), PointerButton::Primary, false),
+        ]
+    };
+    let told = pass(drag(), vec![0.0, 0.25, 0.5, 1.0, 0.75]);
+    assert_eq!(told.iter().map(|event| event.pressure).collect::<Vec<_>>(), [0.0, 0.25, 0.5, 1.0, 0.75]);
+    let told = pass(drag(), Vec::new());
+    assert!(told.len() == 5 && told.iter().all(|event| event.pressure == 1.0), "a mouse presses fully");
 }
 
 #[test]

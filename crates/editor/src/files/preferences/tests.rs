@@ -3,12 +3,24 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use impasto_editor_model::keymap::{CommandId, OwnKeys};
+
 use super::*;
 
 fn read(text: &str) -> (Loaded, tempfile::TempDir) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     fs::write(folder.path().join("editor.ron"), text).expect("written");
     (load(folder.path()), folder)
+}
+
+/// These keys of a command's own.
+fn own(name: &str, keys: &[&str]) -> OwnKeys {
+    let mut own = OwnKeys::default();
+    own.note(
+        CommandId::named(name).expect("a command"),
+        keys.iter().map(|key| key.parse().expect("a key")).collect(),
+    );
+    own
 }
 
 #[test]
@@ -25,10 +37,12 @@ fn what_is_saved_is_read_back() {
         copy_after_secs: 7,
         digits_as_numpad: true,
         foresee_strokes: false,
+        pressure: Pressure::Radius,
         reduced_motion: true,
         window_size: (1920.0, 1080.0),
         ..Preferences::default()
     };
+    kept.own_keys.set(&own("Comb", &["Ctrl K", "NumPad 1"]));
     kept.note_recent(Path::new("/scenes/a b.ron"));
     let view = LastView { eye: [0.1, 2.0, 3.0], target: [0.0; 3], roll_deg: 5.0, orthographic: true };
     kept.note_last_seen(Path::new("/scenes/a b.ron"), Mode::Paint, Some(view));
@@ -100,4 +114,36 @@ fn lists_keep_the_newest_and_each_file_once() {
     fs::write(&there, "").expect("written");
     preferences.note_recent(&there);
     assert_eq!(preferences.recent_there(), [there.as_path()]);
+}
+
+#[test]
+fn keys_that_cannot_be_read_lose_nothing_else() {
+    for (text, faulty) in [
+        ("{\"Comb\": [\"Ctrl Banana\"], \"Smooth\": [\"Ctrl K\"]}", Some("Comb: `Ctrl Banana` is no key")),
+        ("{\"Fly\": [\"F\"], \"Smooth\": \"Ctrl K\"}", Some("no command is called “Fly”")),
+        ("{\"Comb\": 7, \"Smooth\": [\"Ctrl K\"], 3: [\"K\"]}", Some("Comb")),
+        ("{\"Smooth\": [\"Ctrl K\"], \"Cancel\": [\"Q\"]}", None),
+    ] {
+        let (loaded, _folder) = read(&format!("(keys: Maya, own_keys: {text}, scale: 1.5)"));
+        assert_eq!(loaded.note, None, "{text}");
+        let Preferences { keys, own_keys, scale, .. } = loaded.preferences;
+        assert_eq!((keys, scale), (Keys::Maya, 1.5));
+        assert_eq!(own_keys.keys(), own("Smooth", &["Ctrl K"]), "{text}");
+        match faulty {
+            None => assert_eq!(own_keys.fault(), None),
+            Some(words) => {
+                assert!(own_keys.fault().expect("a fault").contains(words), "{:?}", own_keys.fault())
+            }
+        }
+        // What cannot be read stays in the file, whatever is changed meanwhile.
+        let mut changed = own_keys.clone();
+        changed.set(&own("Fill direction", &["Ctrl L"]));
+        assert_eq!(changed.keys(), own("Fill direction", &["Ctrl L"]));
+        assert_eq!(changed.fault(), own_keys.fault());
+    }
+    for text in ["5", "[]", "\"K\"", "None", "(1, 2)", "{}"] {
+        let (loaded, _folder) = read(&format!("(keys: Maya, own_keys: {text})"));
+        assert_eq!(loaded.note, None, "{text}");
+        assert_eq!(loaded.preferences, Preferences { keys: Keys::Maya, ..Preferences::default() }, "{text}");
+    }
 }

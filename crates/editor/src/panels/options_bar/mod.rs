@@ -40,7 +40,7 @@ pub fn options_bar(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
 fn bar(ui: &mut Ui, shown: &PanelInput<'_>, say: Translate) -> Option<ToolOptions> {
     let mut options = shown.session.options.clone();
     let tool = shown.session.tool();
-    let all = settings::of(tool, &options);
+    let all = settings::of(tool, &options, shown.session.has_pen);
     let wide = ui.ctx().content_rect().width() >= WIDE;
     let whole = ui.max_rect();
     within(ui, whole, row(), |ui| {
@@ -117,6 +117,12 @@ fn note(ui: &mut Ui, words: &str) {
 }
 
 fn control(ui: &mut Ui, setting: &Setting, options: &mut ToolOptions, say: Translate) {
+    let Some(why) = setting.off else { return control_on(ui, setting, options, say) };
+    let inner = ui.add_enabled_ui(false, |ui| control_on(ui, setting, options, say));
+    inner.response.on_disabled_hover_text(say(why));
+}
+
+fn control_on(ui: &mut Ui, setting: &Setting, options: &mut ToolOptions, say: Translate) {
     match &setting.control {
         Control::Choice(choice) => {
             let words: Vec<_> = choice.words.iter().map(|(words, name)| (say(words), *name)).collect();

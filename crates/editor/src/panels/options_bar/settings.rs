@@ -1,6 +1,6 @@
 //! The settings of each tool: what the options bar shows of them, and where.
 
-use impasto_editor_model::session::{Axes, FillKind, RegionBy, RegionDoes, Tool, ToolOptions};
+use impasto_editor_model::session::{Axes, FillKind, Pressure, RegionBy, RegionDoes, Tool, ToolOptions};
 use impasto_scene::document::{Amount, Color, LightKind};
 
 /// When a setting is on the bar. Otherwise, or if there is no room, it is in the menu at the bar's end.
@@ -22,6 +22,8 @@ pub(super) struct Setting {
     pub(super) control: Control,
     /// Whether a line separates it from the setting before.
     pub(super) apart: bool,
+    /// Why it can do nothing now.
+    pub(super) off: Option<&'static str>,
 }
 
 pub(super) enum Control {
@@ -52,7 +54,7 @@ pub(super) struct Number {
 }
 
 fn at(place: BarPlace, label: &'static str, control: Control) -> Setting {
-    Setting { place, label, control, apart: false }
+    Setting { place, label, control, apart: false, off: None }
 }
 
 fn apart(setting: Setting) -> Setting {
@@ -121,6 +123,18 @@ fn steady() -> Setting {
     at(BarPlace::Wide, "Steady", Control::Number(number))
 }
 
+/// What a pen's pressure changes: on the bar once there is a pen, before that in the menu, where it says why it is off.
+fn pressure(has_pen: bool) -> Setting {
+    let control = choice!(pressure: [
+        Pressure::Off => "Off", "Pressure off";
+        Pressure::Radius => "Radius", "Pressure radius";
+        Pressure::Strength => "Strength", "Pressure strength";
+    ]);
+    let place = if has_pen { BarPlace::Wide } else { BarPlace::Never };
+    let off = (!has_pen).then_some("No pen that tells its pressure was seen yet");
+    Setting { off, ..at(place, "Pressure", control) }
+}
+
 fn mirror() -> Setting {
     apart(at(BarPlace::Always, "Mirror", Control::Mirror))
 }
@@ -136,8 +150,8 @@ fn foresee() -> Setting {
     at(BarPlace::Never, "", control)
 }
 
-fn brush() -> [Setting; 4] {
-    [apart(radius()), strength(), falloff(), steady()]
+fn brush(has_pen: bool) -> [Setting; 5] {
+    [apart(radius()), strength(), falloff(), steady(), pressure(has_pen)]
 }
 
 fn axes() -> Setting {
@@ -178,8 +192,8 @@ fn angle(name: &'static str, get: fn(&mut ToolOptions) -> &mut f64, most: f64) -
     at(BarPlace::Always, "Angle", Control::Number(number))
 }
 
-/// The settings of a tool, in the order of the bar.
-pub(super) fn of(tool: Tool, options: &ToolOptions) -> Vec<Setting> {
+/// The settings of a tool, in the order of the bar. `has_pen`: a pen that tells its pressure was seen.
+pub(super) fn of(tool: Tool, options: &ToolOptions, has_pen: bool) -> Vec<Setting> {
     let mut settings = Vec::new();
     match tool {
         Tool::Select => settings.push(axes()),
@@ -197,7 +211,7 @@ pub(super) fn of(tool: Tool, options: &ToolOptions) -> Vec<Setting> {
         Tool::Comb => {
             let sense = choice!(against: [false => "Along", "Along"; true => "Against", "Against";]);
             settings.push(at(BarPlace::Always, "", sense));
-            settings.extend(brush());
+            settings.extend(brush(has_pen));
             settings.extend([mirror(), front_only(), foresee()]);
         }
         Tool::GuideCurve => {
@@ -228,19 +242,21 @@ pub(super) fn of(tool: Tool, options: &ToolOptions) -> Vec<Setting> {
         Tool::Smooth => {
             let smear = choice!(smear: [false => "Smooth", "Smooth out"; true => "Smear", "Smear";]);
             settings.push(at(BarPlace::Always, "", smear));
-            settings.extend(brush());
+            settings.extend(brush(has_pen));
             settings.extend([mirror(), front_only()]);
         }
-        Tool::Erase => settings.extend([apart(radius()), falloff(), mirror(), front_only()]),
-        Tool::Amount => settings.extend(amount()),
-        Tool::Touch => settings.extend(touch(options)),
-        Tool::Region => region(&mut settings, options),
+        Tool::Erase => {
+            settings.extend([apart(radius()), falloff(), pressure(has_pen), mirror(), front_only()]);
+        }
+        Tool::Amount => settings.extend(amount(has_pen)),
+        Tool::Touch => settings.extend(touch(options, has_pen)),
+        Tool::Region => region(&mut settings, options, has_pen),
         Tool::Pick | Tool::ShotCamera => (),
     }
     settings
 }
 
-fn amount() -> Vec<Setting> {
+fn amount(has_pen: bool) -> Vec<Setting> {
     let of = choice!(amount: [
         Amount::Width => "Width", "Paint width";
         Amount::Length => "Length", "Paint length";
@@ -254,12 +270,13 @@ fn amount() -> Vec<Setting> {
         apart(radius()),
         strength(),
         steady(),
+        pressure(has_pen),
         mirror(),
         front_only(),
     ]
 }
 
-fn touch(options: &ToolOptions) -> Vec<Setting> {
+fn touch(options: &ToolOptions, has_pen: bool) -> Vec<Setting> {
     let does = choice!(touch_erases: [false => "Lay", "Lay touches"; true => "Erase", "Erase strokes";]);
     let number = |name: &'static str, (unit, times), range, get, effect| Number {
         name,
@@ -307,11 +324,11 @@ fn touch(options: &ToolOptions) -> Vec<Setting> {
         settings.push(apart(at(BarPlace::Wide, "Opacity", Control::Number(opacity))));
         settings.push(at(BarPlace::Wide, "Taper", Control::Number(taper)));
     }
-    settings.extend([steady(), front_only()]);
+    settings.extend([steady(), pressure(has_pen), front_only()]);
     settings
 }
 
-fn region(settings: &mut Vec<Setting>, options: &ToolOptions) {
+fn region(settings: &mut Vec<Setting>, options: &ToolOptions, has_pen: bool) {
     settings.push(at(
         BarPlace::Always,
         "",
@@ -332,7 +349,9 @@ fn region(settings: &mut Vec<Setting>, options: &ToolOptions) {
         ]),
     )));
     match options.region_by {
-        RegionBy::Brush => settings.extend([apart(radius()), mirror(), front_only()]),
+        RegionBy::Brush => {
+            settings.extend([apart(radius()), pressure(has_pen), mirror(), front_only()]);
+        }
         RegionBy::Flood => {
             settings.push(apart(angle("Flood angle", |options| &mut options.flood_deg, 90.0)));
         }

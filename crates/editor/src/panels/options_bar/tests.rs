@@ -57,7 +57,7 @@ fn boxes(session: &Session, (wide, window): (f32, f32), say: Translate) -> Vec<(
         document: &document,
         session,
         painting: None,
-        keymap: Keymap::default(),
+        keymap: &Keymap::default(),
         status: "",
         numbers: Numbers::default(),
         recent: &[],

@@ -23,7 +23,7 @@ fn with_entries<R>(selected: Option<Item>, test: impl FnOnce(&[Control], Vec<Ent
         session: &session,
         time: &time,
         painting: None,
-        keymap: Keymap::default(),
+        keymap: &Keymap::default(),
         status: "",
         numbers: Numbers::default(),
         recent: &[],

@@ -4,16 +4,23 @@ use egui::{Align2, Color32, Rect, Role, Sense, TextureHandle, Ui, WidgetInfo, po
 use impasto_editor_model::render_settings::{Outcome, RenderProgress, Stage};
 
 use crate::icons;
-use crate::panels::file_name;
+use crate::panels::{file_name, row, within};
 use crate::theme::{Tokens, measure, type_face};
+use crate::widgets::Button;
 
 const HEIGHT: f32 = 172.0;
 const PICTURE: egui::Vec2 = egui::Vec2::new(240.0, 135.0);
 const BAR: f32 = 8.0;
 const LINE: f32 = 20.0;
 
-/// Shows the progress as a card under the settings.
-pub(super) fn card(ui: &mut Ui, progress: &RenderProgress, picture: Option<&TextureHandle>) {
+/// Shows the progress as a card under the settings. Returns whether the frames are to be viewed; the button for that is
+/// there if they are `viewable`.
+pub(super) fn card(
+    ui: &mut Ui,
+    progress: &RenderProgress,
+    picture: Option<&TextureHandle>,
+    viewable: bool,
+) -> bool {
     let tokens = Tokens::of(ui);
     let (card, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());
     ui.painter().rect_filled(card, measure::GROUP_CORNER, tokens.alt);
@@ -43,6 +50,10 @@ pub(super) fn card(ui: &mut Ui, progress: &RenderProgress, picture: Option<&Text
         }
     }
     state(ui, at + vec2(0.0, 4.0), words.right(), progress);
+    let low =
+        Rect::from_min_max(pos2(place.left(), place.bottom() - 36.0), place.max).shrink2(vec2(8.0, 4.0));
+    let button = || Button::new("View frames").icon(icons::PLAY);
+    viewable && within(ui, low, row(), |ui| button().show(ui).clicked())
 }
 
 fn bar(ui: &Ui, words: Rect, progress: &RenderProgress) {

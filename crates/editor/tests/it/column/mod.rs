@@ -91,7 +91,7 @@ impl Column {
             document: &self.document,
             session: &self.session,
             painting: None,
-            keymap: Keymap::default(),
+            keymap: &Keymap::default(),
             status: "",
             numbers: Numbers { strokes_of: &self.strokes_of, ..Numbers::default() },
             recent: &[],
@@ -162,6 +162,8 @@ impl Column {
             | Ask::Open(_)
             | Ask::Copy(_)
             | Ask::Welcome
+            | Ask::KeySheet
+            | Ask::OwnKeys(_)
             | Ask::Mend(_)
             | Ask::SaveCopy
             | Ask::BringFile(_)

@@ -117,7 +117,7 @@ impl Page {
             document: &self.document,
             session: &self.session,
             painting: None,
-            keymap: self.keymap,
+            keymap: &self.keymap,
             status: &self.status,
             numbers: Numbers {
                 strokes: 5774,
@@ -140,7 +140,7 @@ impl Page {
         let ctx = ui.ctx().clone();
         let closed = match self.shows {
             Shows::Bars => false,
-            Shows::Keys => shortcuts::shortcuts(&ctx, &shown),
+            Shows::Keys => shortcuts::shortcuts(&ctx, &shown, &mut asks),
             Shows::Palette => palette::palette(&ctx, &shown, &mut asks),
             Shows::Welcome => {
                 let left = welcome::welcome(&ctx, &mut self.choices);

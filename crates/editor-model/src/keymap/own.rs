@@ -1,0 +1,157 @@
+//! Keys that the user chose: only what differs from the preset. A key of one's own wins over a key of the preset, so
+//! that a change stands with either preset, and taking it back gives the other command its key again.
+
+use std::collections::BTreeMap;
+
+use super::table::BINDINGS;
+use super::{Action, Chord, Key, Keymap, Scope, Where};
+
+/// A command of the list of keys: an action, in the places where one row of the table holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct CommandId(usize);
+
+/// A command with its keys.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CommandKeys {
+    /// Which.
+    pub id: CommandId,
+    /// Its keys now.
+    pub chords: Vec<Chord>,
+    /// Whether these are not the preset's.
+    pub is_changed: bool,
+}
+
+/// The keys that the user chose, by command. An empty list: the command has no key.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct OwnKeys(BTreeMap<CommandId, Vec<Chord>>);
+
+impl CommandId {
+    /// The command of this name, as [`Self::name`] gives it.
+    pub fn named(name: &str) -> Option<Self> {
+        (0..BINDINGS.len()).map(Self).find(|id| id.name() == name)
+    }
+
+    /// What its keys do.
+    pub fn action(self) -> Action {
+        BINDINGS[self.0].action
+    }
+
+    /// Its name, which no other command has: with its place, where an action has more than one row.
+    pub fn name(self) -> String {
+        let Self(index) = self;
+        let name = BINDINGS[index].name;
+        let is_alone = BINDINGS.iter().filter(|other| other.name == name).count() == 1;
+        match self.place() {
+            Some(place) if !is_alone => format!("{name} ({place})"),
+            _ => name.to_owned(),
+        }
+    }
+
+    /// Where its keys hold, in words; `None` for everywhere.
+    pub fn place(self) -> Option<&'static str> {
+        let holds = BINDINGS[self.0].holds;
+        if holds.contains(&Where::Everywhere) {
+            return None;
+        }
+        holds.first().map(|place| match place {
+            Where::Everywhere => "Everywhere",
+            Where::In(Scope::Arrange | Scope::Animate) => "Arrange and Animate",
+            Where::In(Scope::Paint) => "Paint",
+            Where::In(Scope::Lane) => "keys on a lane",
+            Where::In(Scope::Transform | Scope::Drawing) => "while moving or drawing",
+            Where::In(Scope::Typing) => "in a field",
+        })
+    }
+
+    /// Whether its keys may be changed. `Esc` always cancels.
+    pub fn is_free(self) -> bool {
+        self.action() != Action::Cancel
+    }
+
+    /// Whether one key cannot belong to both: they hold in one place, or one holds everywhere and the other in a mode.
+    /// (What is modal, a field or a lane may take a key that holds elsewhere.)
+    fn meets(self, other: Self) -> bool {
+        let is_mode = |place: &Where| {
+            matches!(place, Where::In(Scope::Arrange | Scope::Paint | Scope::Animate) | Where::Everywhere)
+        };
+        let [own, others] = [self, other].map(|id| BINDINGS[id.0].holds);
+        let covers =
+            |one: &[Where], two: &[Where]| one.contains(&Where::Everywhere) && two.iter().any(is_mode);
+        self != other
+            && (own.iter().any(|place| others.contains(place)) || covers(own, others) || covers(others, own))
+    }
+}
+
+impl OwnKeys {
+    /// Whether nothing differs from the preset.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The commands whose keys were chosen, with these.
+    pub fn iter(&self) -> impl Iterator<Item = (CommandId, &[Chord])> {
+        self.0.iter().map(|(id, chords)| (*id, chords.as_slice()))
+    }
+
+    /// Notes keys as they were read from a file. `Esc` stays what cancels.
+    pub fn note(&mut self, id: CommandId, mut chords: Vec<Chord>) {
+        chords.retain(|chord| chord.key != Key::Escape);
+        if id.is_free() {
+            self.0.insert(id, chords);
+        }
+    }
+
+    pub(super) fn of(&self, index: usize) -> Option<&[Chord]> {
+        self.0.get(&CommandId(index)).map(Vec::as_slice)
+    }
+
+    /// Whether a key of the user's own took this key from a command.
+    pub(super) fn takes(&self, index: usize, chord: Chord) -> bool {
+        self.0.iter().any(|(id, chords)| chords.contains(&chord) && id.meets(CommandId(index)))
+    }
+}
+
+impl Keymap {
+    /// Every command with its keys, in the order of the menus.
+    pub fn commands(&self) -> impl Iterator<Item = CommandKeys> {
+        self.bindings().enumerate().map(|(index, (binding, chords))| {
+            let is_changed = chords != self.preset_chords(binding);
+            CommandKeys { id: CommandId(index), chords, is_changed }
+        })
+    }
+
+    /// The commands that would lose a key if a command got these keys.
+    pub fn losers(&self, id: CommandId, chords: &[Chord]) -> Vec<CommandId> {
+        let loses = |other: &CommandKeys| {
+            other.id.meets(id) && other.chords.iter().any(|chord| chords.contains(chord))
+        };
+        self.commands().filter(loses).map(|other| other.id).collect()
+    }
+
+    /// The keys that a command has by itself.
+    pub fn usual(&self, id: CommandId) -> Vec<Chord> {
+        self.preset_chords(&BINDINGS[id.0])
+    }
+
+    /// The keymap with these keys for a command; other commands lose them.
+    pub fn with(&self, id: CommandId, chords: Vec<Chord>) -> Self {
+        let mut keymap = self.clone();
+        for (other, own) in &mut keymap.own.0 {
+            if other.meets(id) {
+                own.retain(|chord| !chords.contains(chord));
+            }
+        }
+        if chords == self.usual(id) {
+            keymap.own.0.remove(&id);
+        } else {
+            keymap.own.note(id, chords);
+        }
+        // Who lost its own key to the preset's, and has none left that differs, is as the preset has it.
+        let same: Vec<CommandId> =
+            keymap.own.iter().filter(|(id, own)| *own == self.usual(*id)).map(|(id, _)| id).collect();
+        for id in same {
+            keymap.own.0.remove(&id);
+        }
+        keymap
+    }
+}

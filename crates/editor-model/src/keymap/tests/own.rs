@@ -1,0 +1,118 @@
+//! Keys of the user's own: what they take, what comes back, and their words.
+
+use super::*;
+
+fn id(name: &str) -> CommandId {
+    CommandId::named(name).unwrap_or_else(|| panic!("no command is called {name}"))
+}
+
+fn with(keymap: &Keymap, name: &str, keys: &[&str]) -> Keymap {
+    keymap.with(id(name), keys.iter().map(|key| chord(key)).collect())
+}
+
+fn keys(keymap: &Keymap, name: &str) -> Vec<String> {
+    let found = keymap.commands().find(|command| command.id == id(name));
+    found.unwrap().chords.iter().map(Chord::text).collect()
+}
+
+fn changed(keymap: &Keymap) -> Vec<String> {
+    keymap.commands().filter(|command| command.is_changed).map(|command| command.id.name()).collect()
+}
+
+#[test]
+fn every_command_has_a_name_of_its_own_and_every_key_its_words() {
+    for keymap in keymaps() {
+        for command in keymap.commands() {
+            assert_eq!(CommandId::named(&command.id.name()), Some(command.id));
+            for own in command.chords {
+                assert_eq!(own.text().parse(), Ok(own));
+            }
+        }
+    }
+    assert_eq!(chord("Ctrl k"), chord("Ctrl K"));
+    for text in ["", "Ctrl", "Ctrl Banana", "F13", "F0", "NumPad 10", "Meta K", "é", "12", "Fé"] {
+        assert!(text.parse::<Chord>().is_err(), "{text}");
+    }
+}
+
+#[test]
+fn a_key_of_ones_own_is_the_only_one_and_shows_everywhere() {
+    let own = with(&BLENDER, "Comb", &["Ctrl K"]);
+    assert_eq!(does(&own, "Ctrl K", Scope::Paint), Some(Action::Comb));
+    assert_eq!(does(&own, "C", Scope::Paint), None);
+    assert_eq!(own.shortcut_text(Action::Comb).as_deref(), Some("Ctrl K"));
+    assert!(own.listed().any(|line| line.action == Action::Comb && line.keys == "Ctrl K"));
+    assert_eq!(changed(&own), ["Comb"]);
+    // It stands with the keys of the other program, too.
+    let maya = Keymap { preset: Preset::Maya, ..own };
+    assert_eq!(does(&maya, "Ctrl K", Scope::Paint), Some(Action::Comb));
+}
+
+#[test]
+fn a_key_that_is_taken_comes_back() {
+    assert_eq!(BLENDER.losers(id("Comb"), &[chord("K")]), [id("Compare with the reference")]);
+    assert_eq!(BLENDER.losers(id("Comb"), &[chord("Ctrl K")]), []);
+    let own = with(&BLENDER, "Comb", &["K"]);
+    assert_eq!(does(&own, "K", Scope::Paint), Some(Action::Comb));
+    assert_eq!(does(&own, "K", Scope::Arrange), None, "no key does two things, wherever one is");
+    assert_eq!(changed(&own), ["Comb", "Compare with the reference"]);
+    assert_eq!(own.own.iter().count(), 1, "only what was chosen is kept");
+    assert_eq!(with(&own, "Comb", &["C"]), *BLENDER);
+    // The other way: the one that lost its key gets it back, and the taker has none.
+    let back = with(&own, "Compare with the reference", &["K"]);
+    assert_eq!(does(&back, "K", Scope::Paint), Some(Action::Compare));
+    assert_eq!(keys(&back, "Comb"), Vec::<String>::new());
+    assert_eq!(changed(&back), ["Comb"]);
+}
+
+#[test]
+fn a_swap_stays_a_swap() {
+    let own = with(&with(&BLENDER, "Comb", &["S"]), "Smooth", &["C"]);
+    assert_eq!(does(&own, "S", Scope::Paint), Some(Action::Comb));
+    assert_eq!(does(&own, "C", Scope::Paint), Some(Action::Smooth));
+    assert_eq!(does(&own, "S", Scope::Arrange), Some(Action::Scale), "another mode, another key");
+    assert_eq!(with(&with(&own, "Comb", &["C"]), "Smooth", &["S"]), *BLENDER);
+}
+
+#[test]
+fn what_is_modal_takes_no_key_from_others() {
+    assert_eq!(BLENDER.losers(id("Along X"), &[chord("K")]), []);
+    assert_eq!(BLENDER.losers(id("Along X"), &[chord("Y")]), [id("Along Y")]);
+    assert_eq!(BLENDER.losers(id("Delete (keys on a lane)"), &[chord("K")]), []);
+    let own = with(&BLENDER, "Along X", &["K"]);
+    assert_eq!(does(&own, "K", Scope::Transform), Some(Action::HoldAxis(Axis::X)));
+    assert_eq!(does(&own, "K", Scope::Arrange), Some(Action::Compare));
+}
+
+#[test]
+fn no_choice_of_keys_makes_a_key_do_two_things() {
+    // Every command in turn takes the key of another one.
+    for keymap in keymaps() {
+        let commands: Vec<CommandKeys> = keymap.commands().collect();
+        let mut own = keymap.clone();
+        for (index, command) in commands.iter().enumerate() {
+            let other = &commands[(index * 37 + 11) % commands.len()];
+            if command.id.is_free() && other.id.is_free() && !other.chords.is_empty() {
+                own = own.with(command.id, other.chords.clone());
+                assert_eq!(own.losers(command.id, &other.chords), []);
+            }
+        }
+        let all: Vec<CommandKeys> = own.commands().collect();
+        for command in &all {
+            assert_eq!(own.losers(command.id, &command.chords), [], "{}", command.id.name());
+        }
+        assert_eq!(does(&own, "Esc", Scope::Drawing), Some(Action::Cancel));
+        let back = Keymap { own: OwnKeys::default(), ..own };
+        assert_eq!(back, keymap);
+    }
+}
+
+#[test]
+fn escape_stays_what_cancels() {
+    let mut own = OwnKeys::default();
+    own.note(id("Comb"), vec![chord("Esc"), chord("K")]);
+    own.note(id("Cancel"), vec![chord("Q")]);
+    let keymap = Keymap { own, ..Keymap::default() };
+    assert_eq!(keys(&keymap, "Comb"), ["K"]);
+    assert_eq!(keys(&keymap, "Cancel"), ["Esc"]);
+}

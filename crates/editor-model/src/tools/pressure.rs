@@ -1,0 +1,49 @@
+//! What the pressure of a pen does to a gesture. A pointer without pressure presses by 1, which changes no bit.
+
+use super::{Surroundings, amounts};
+use crate::path::{PathPoint, SurfacePath};
+use crate::session::{Pressure, ToolOptions};
+
+/// The lightest touch of a pen gives this share of the radius or strength, so that no gesture is lost.
+const LEAST: f64 = 0.05;
+
+/// The factors that pressure puts on a brush.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Felt {
+    /// On the radius.
+    pub(super) radius: f64,
+    /// On the strength.
+    pub(super) strength: f64,
+}
+
+impl Felt {
+    /// The factors of a pressure.
+    pub(super) fn of(pressure: f64, options: &ToolOptions) -> Self {
+        let share = pressure.clamp(LEAST, 1.0);
+        match options.pressure {
+            Pressure::Off => Self { radius: 1.0, strength: 1.0 },
+            Pressure::Radius => Self { radius: share, strength: 1.0 },
+            Pressure::Strength => Self { radius: 1.0, strength: share },
+        }
+    }
+
+    /// The factors of a whole gesture: those of its mean pressure, to a hundredth, so that a saved number stays short.
+    pub(super) fn of_path(path: &SurfacePath, options: &ToolOptions) -> Self {
+        Self::of((path.mean_pressure() * 100.0).round() / 100.0, options)
+    }
+
+    /// The factors at a point of a gesture.
+    pub(super) fn at(point: &PathPoint, options: &ToolOptions) -> Self {
+        Self::of(point.pressure, options)
+    }
+
+    /// The strength that a gesture leaves in the scene.
+    pub(super) fn strength(self, strength: f64) -> f64 {
+        if self.strength == 1.0 { strength } else { amounts::short(strength * self.strength, 1.0) }
+    }
+
+    /// The options of a brush that is this much smaller, for its ring.
+    pub(super) fn options(self, around: &Surroundings) -> ToolOptions {
+        ToolOptions { radius_px: around.options.radius_px * self.radius, ..around.options.clone() }
+    }
+}

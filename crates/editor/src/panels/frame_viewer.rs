@@ -1,0 +1,224 @@
+//! The viewer of finished frames: a picture as large as the window, and a bar to play, step and scrub. Nothing can be
+//! edited here.
+
+use egui::{CentralPanel, Color32, Event, Frame, Panel, Rect, RichText, Role, Sense, TextureHandle, Ui};
+use egui::{WidgetInfo, pos2, vec2};
+use impasto_editor_model::finished_frames::FinishedFrames;
+use impasto_editor_model::keymap::{Action, Key, Keymap, Modifiers, Scope};
+
+use super::{divider, file_name, row, row_from_right, text_width, within};
+use crate::icons;
+use crate::theme::{Tokens, measure, type_face};
+use crate::widgets::{self, Button, Tip, key_of};
+
+const BAR: f32 = 44.0;
+/// Room for the scrubbing line that is never given up.
+const LEAST_LINE: f32 = 120.0;
+
+/// What the viewer shows.
+#[derive(Clone, Copy)]
+pub struct ViewerShown<'a> {
+    /// The frames, and the place among them.
+    pub frames: &'a FinishedFrames,
+    /// The picture that was read last; none if its file cannot be read, or none was read yet.
+    pub picture: Option<&'a TextureHandle>,
+    /// The index of the frame that is shown.
+    pub shown: Option<usize>,
+    /// Why that frame cannot be shown.
+    pub fault: Option<&'a str>,
+    /// The keys in use: those that play and step on the timeline do so here.
+    pub keymap: &'a Keymap,
+}
+
+/// What the viewer asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ViewerAsk {
+    /// Go back to work.
+    Close,
+    /// Play, or stop.
+    PlayOrStop,
+    /// Go to the frame with this index.
+    GoTo(i64),
+    /// Go this many frames on.
+    Step(i64),
+    /// Begin again at the end, or not.
+    Loop(bool),
+}
+
+/// Shows the viewer in all of `ui`. Returns what it asks for, if anything.
+pub fn frame_viewer(ui: &mut Ui, shown: &ViewerShown<'_>) -> Option<ViewerAsk> {
+    let mut ask = by_key(ui, shown);
+    let tokens = Tokens::of(ui);
+    let frame = Frame::new().fill(tokens.alt);
+    Panel::bottom("frame viewer").exact_size(BAR).resizable(false).frame(frame).show(ui, |ui| {
+        ask = bar(ui, shown).or(ask);
+    });
+    let is_dark = ui.visuals().dark_mode;
+    let ground = Frame::new().fill(if is_dark { tokens.field } else { tokens.app });
+    CentralPanel::default().frame(ground).show(ui, |ui| picture(ui, shown));
+    ask
+}
+
+fn by_key(ui: &Ui, shown: &ViewerShown<'_>) -> Option<ViewerAsk> {
+    let mut ask = None;
+    ui.input_mut(|input| {
+        input.events.retain(|event| {
+            let Event::Key { key, pressed: true, modifiers, .. } = event else { return true };
+            let Some(key) = key_of(*key) else { return true };
+            let held = Modifiers { ctrl: modifiers.command, shift: modifiers.shift, alt: modifiers.alt };
+            if key == Key::Escape {
+                ask = Some(ViewerAsk::Close);
+                return false;
+            }
+            let asked = match shown.keymap.action_for(key, held, Scope::Animate) {
+                Some(Action::Play) => ViewerAsk::PlayOrStop,
+                Some(Action::StepBack) => ViewerAsk::Step(-1),
+                Some(Action::StepOn) => ViewerAsk::Step(1),
+                Some(Action::FirstFrame) => ViewerAsk::GoTo(0),
+                Some(Action::LastFrame) => ViewerAsk::GoTo(i64::MAX),
+                _ => return true,
+            };
+            ask = Some(asked);
+            false
+        });
+    });
+    ask
+}
+
+fn picture(ui: &mut Ui, shown: &ViewerShown<'_>) {
+    let (area, tokens) = (ui.max_rect(), Tokens::of(ui));
+    let words = match (shown.picture, shown.fault) {
+        (Some(picture), _) => {
+            let size = picture.size_vec2();
+            // Small pictures are not enlarged: a pixel stays a pixel.
+            let most = 1.0 / ui.ctx().pixels_per_point();
+            let scale = (area.width() / size.x).min(area.height() / size.y).min(most);
+            let rect = Rect::from_center_size(area.center(), size * scale);
+            let uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+            ui.painter().image(picture.id(), rect, uv, Color32::WHITE);
+            ""
+        }
+        (None, Some(fault)) => fault,
+        (None, None) => "Reading\u{2026}",
+    };
+    let colour = if shown.fault.is_some() { tokens.vermilion } else { tokens.weak };
+    let galley = ui.painter().layout(words.to_owned(), type_face::body(), colour, area.width() - 80.0);
+    ui.painter().galley(area.center() - galley.size() / 2.0, galley, colour);
+    let response = ui.interact(area, ui.scope_id().with("picture"), Sense::hover());
+    let file = shown.shown.map(|index| file_name(shown.frames.frame(index).1)).unwrap_or_default();
+    response.widget_info(|| {
+        let mut info = WidgetInfo::labeled(Role::Image, true, "Finished frame");
+        info.current_text_value = Some(if words.is_empty() { file.clone() } else { words.to_owned() });
+        info
+    });
+}
+
+fn bar(ui: &mut Ui, shown: &ViewerShown<'_>) -> Option<ViewerAsk> {
+    let mut ask = None;
+    let whole = ui.max_rect();
+    let frames = shown.frames;
+    let mut left = whole.left();
+    within(ui, whole, row(), |ui| {
+        ui.spacing_mut().item_spacing.x = 1.0;
+        ui.add_space(7.0);
+        let (icon, name) =
+            if frames.is_playing() { (icons::PAUSE, "Pause") } else { (icons::PLAY, Action::Play.name()) };
+        for (icon, name, action, asks) in [
+            (icons::FIRST_FRAME, Action::FirstFrame.name(), Action::FirstFrame, ViewerAsk::GoTo(0)),
+            (icons::PREVIOUS_FRAME, Action::StepBack.name(), Action::StepBack, ViewerAsk::Step(-1)),
+            (icon, name, Action::Play, ViewerAsk::PlayOrStop),
+            (icons::NEXT_FRAME, Action::StepOn.name(), Action::StepOn, ViewerAsk::Step(1)),
+            (icons::LAST_FRAME, Action::LastFrame.name(), Action::LastFrame, ViewerAsk::GoTo(i64::MAX)),
+        ] {
+            let response = widgets::icon_button(ui, icon, name);
+            let key = shown.keymap.shortcut_text(action).unwrap_or_default();
+            if (Tip { name, key: &key, effect: "", range: "" }).on(response).clicked() {
+                ask = Some(asks);
+            }
+        }
+        let mut looped = frames.looped;
+        let response = widgets::icon_toggle(ui, icons::LOOP, "Loop", &mut looped);
+        let effect = "Playing begins again at the end.";
+        if (Tip { name: "Loop", key: "", effect, range: "" }).on(response).changed() {
+            ask = Some(ViewerAsk::Loop(looped));
+        }
+        divider(ui);
+        left = ui.cursor().left();
+    });
+    let mut right = whole.right();
+    within(ui, whole, row_from_right(), |ui| {
+        ui.spacing_mut().item_spacing.x = measure::GAP;
+        ui.add_space(4.0);
+        let back = Button::new("Back to work").show(ui);
+        let effect = "Closes the frames. Nothing was changed.";
+        if (Tip { name: "Back to work", key: "Esc", effect, range: "" }).on(back).clicked() {
+            ask = Some(ViewerAsk::Close);
+        }
+        right = ui.cursor().right() - measure::GAP;
+    });
+    let room = Rect::from_x_y_ranges(left..=right, whole.y_range());
+    let line = words(ui, room, shown);
+    scrub(ui, line, frames).map(ViewerAsk::GoTo).or(ask)
+}
+
+/// Which file is shown, at the right of `room`, as far as there is room; gives what is left for the line.
+fn words(ui: &mut Ui, room: Rect, shown: &ViewerShown<'_>) -> Rect {
+    let tokens = Tokens::of(ui);
+    let frames = shown.frames;
+    let index = shown.shown.unwrap_or_else(|| frames.at());
+    let (number, path) = frames.frame(index);
+    let dropped = match frames.dropped() {
+        0 => String::new(),
+        count => format!(", {count} dropped"),
+    };
+    let count = format!("frame {number}, {} of {}", index + 1, frames.count());
+    let rate = format!("{} fps{dropped}", frames.fps());
+    // Numbers change while it plays; the line must not.
+    let most =
+        format!("frame {}, {} of {}", frames.frame(frames.count() - 1).0, frames.count(), frames.count());
+    let most_rate = format!("{} fps, 0000 dropped", frames.fps());
+    let file = file_name(path);
+    let mut right = room.right();
+    for (words, widest, colour) in [
+        (file.as_str(), file.as_str(), tokens.text),
+        (&count, &most, tokens.weak),
+        (&rate, &most_rate, tokens.weak),
+    ] {
+        let wide =
+            text_width(ui, widest, type_face::number()).max(text_width(ui, words, type_face::number()));
+        if right - wide - measure::GAP < room.left() + LEAST_LINE {
+            continue;
+        }
+        let place = Rect::from_x_y_ranges(right - wide..=right, room.y_range());
+        within(ui, place, row_from_right(), |ui| {
+            let words = RichText::new(words).font(type_face::number()).color(colour);
+            ui.add(egui::Label::new(words).extend()).on_hover_text(path.display().to_string());
+        });
+        right -= wide + 2.0 * measure::GAP;
+    }
+    Rect::from_min_max(room.min, pos2(right, room.max.y))
+}
+
+/// The line that is dragged to go through the frames. Returns the index of the frame under the pointer.
+fn scrub(ui: &mut Ui, room: Rect, frames: &FinishedFrames) -> Option<i64> {
+    let tokens = Tokens::of(ui);
+    let area = room.shrink2(vec2(measure::GAP, 8.0));
+    let response = ui.interact(area, ui.scope_id().with("scrub"), Sense::click_and_drag());
+    let last = (frames.count() - 1).max(1) as f32;
+    let x = |index: usize| area.left() + area.width() * index as f32 / last;
+    let y = area.center().y;
+    let painter = ui.painter();
+    let line = Rect::from_min_max(pos2(area.left(), y - 2.0), pos2(area.right(), y + 2.0));
+    painter.rect_filled(line, 2.0, tokens.wid);
+    painter.rect_filled(line.with_max_x(x(frames.at())), 2.0, tokens.accent);
+    let grip = if response.hovered() || response.dragged() { 7.0 } else { 6.0 };
+    painter.circle(pos2(x(frames.at()), y), grip, tokens.text, (1.0, tokens.alt));
+    response.widget_info(|| {
+        let mut info = WidgetInfo::labeled(Role::Slider, true, "Frames");
+        info.current_text_value = Some(format!("{} of {}", frames.at() + 1, frames.count()));
+        info
+    });
+    let at = response.interact_pointer_pos().filter(|_| response.dragged() || response.clicked())?;
+    let share = ((at.x - area.left()) / area.width().max(1.0)).clamp(0.0, 1.0);
+    Some((share * (frames.count() - 1) as f32).round() as i64)
+}

@@ -1,0 +1,286 @@
+//! The sheet that changes keys: every command with its keys, a search, and the question whether a key may be taken from
+//! another command.
+
+use egui::{Event, Id, Key as EguiKey, Rect, RichText, Role, ScrollArea, TextEdit, Ui, WidgetInfo, vec2};
+use impasto_editor_model::keymap::{Chord, CommandId, CommandKeys, Key, Keymap, Modifiers, OwnKeys, Preset};
+
+use super::{Ask, PanelInput, row, row_from_right, within};
+use crate::icons;
+use crate::theme::{Tokens, measure, type_face};
+use crate::widgets::{self, Button, MenuRow, key_of, sheet};
+use crate::window::tab_pressed;
+
+const WIDTH: f32 = 560.0;
+const ROWS: f32 = 14.0;
+/// Height of the sheet without its list, with some space around the sheet.
+const AROUND_LIST: f32 = 210.0;
+/// The place of the reset icon at a row's end.
+const END: f32 = 32.0;
+
+/// What the sheet remembers while it is open.
+#[derive(Clone, Debug, Default)]
+struct Memory {
+    typed: String,
+    doing: Doing,
+}
+
+#[derive(Clone, Debug, Default, PartialEq)]
+enum Doing {
+    #[default]
+    Nothing,
+    /// The next keys are those of this command.
+    Listening(CommandId),
+    /// As before, after keys that text fields need were pressed.
+    ListeningStill(CommandId),
+    /// These keys of the command are those of others now: it asks whether to take them.
+    Asking(CommandId, Vec<Chord>, Vec<CommandId>),
+}
+
+/// Shows the sheet over everything. `numpad` are the keys of the number pad that were pressed in this pass. Returns true
+/// once it closes.
+pub fn key_sheet(
+    ctx: &egui::Context,
+    shown: &PanelInput<'_>,
+    numpad: &[(Key, Modifiers)],
+    asks: &mut Vec<Ask>,
+) -> bool {
+    let id = Id::unique("key sheet");
+    let mut memory = ctx.data(|data| data.get_temp::<Memory>(id)).unwrap_or_default();
+    let close =
+        sheet(ctx, "Change keys", WIDTH, |ui| contents(ui, &mut memory, shown.keymap, (numpad, asks)));
+    ctx.data_mut(|data| {
+        if close {
+            data.remove::<Memory>(id);
+        } else {
+            data.insert_temp(id, memory);
+        }
+    });
+    close
+}
+
+fn contents(
+    ui: &mut Ui,
+    memory: &mut Memory,
+    keymap: &Keymap,
+    (numpad, asks): (&[(Key, Modifiers)], &mut Vec<Ask>),
+) -> bool {
+    let escape = ui.input_mut(|input| input.consume_key(egui::Modifiers::NONE, EguiKey::Escape));
+    let was_doing = memory.doing != Doing::Nothing;
+    if escape {
+        memory.doing = Doing::Nothing;
+    }
+    if let Doing::Listening(id) | Doing::ListeningStill(id) = memory.doing {
+        match heard(ui, numpad) {
+            Heard::Nothing => {}
+            Heard::ForText => memory.doing = Doing::ListeningStill(id),
+            Heard::Keys(chord) => choose(keymap, id, vec![chord], &mut memory.doing, asks),
+        }
+    }
+    let close = head(ui, keymap);
+    ui.add_space(measure::GAP);
+    search(ui, memory);
+    ui.add_space(measure::GAP);
+    list(ui, keymap, memory, asks);
+    ui.add_space(12.0);
+    foot(ui, keymap, memory, asks);
+    close || escape && !was_doing
+}
+
+fn head(ui: &mut Ui, keymap: &Keymap) -> bool {
+    let tokens = Tokens::of(ui);
+    let mut close = false;
+    ui.horizontal(|ui| {
+        ui.label(RichText::new("Change keys").font(type_face::sheet_title()).color(tokens.text));
+        let like = match keymap.preset {
+            Preset::Blender => "else like Blender",
+            Preset::Maya => "else like Maya",
+        };
+        ui.label(RichText::new(like).font(type_face::body()).color(tokens.weak));
+        ui.with_layout(row_from_right(), |ui| {
+            close = widgets::icon_button(ui, icons::CLOSE, "Close the change of keys").clicked();
+        });
+    });
+    close
+}
+
+fn search(ui: &mut Ui, memory: &mut Memory) {
+    let field = TextEdit::singleline(&mut memory.typed)
+        .hint_text("Find a command or a key")
+        .desired_width(f32::INFINITY)
+        .margin(egui::Margin::symmetric(8, 7))
+        .show(ui);
+    let field = field.response.response;
+    field.widget_info(|| WidgetInfo {
+        label: Some("Find a key".to_owned()),
+        ..WidgetInfo::new(Role::TextInput)
+    });
+    // While keys are listened for, nothing else may take them.
+    match memory.doing {
+        Doing::Nothing => field.request_focus(),
+        _ => field.surrender_focus(),
+    }
+}
+
+fn list(ui: &mut Ui, keymap: &Keymap, memory: &mut Memory, asks: &mut Vec<Ask>) {
+    let typed = memory.typed.trim().to_lowercase();
+    let found: Vec<CommandKeys> =
+        keymap.commands().filter(|command| command.id.is_free() && is_meant(command, &typed)).collect();
+    // In a low window the list is shorter, so that what stands under it stays in view.
+    let room = ui.ctx().content_rect().height() - AROUND_LIST;
+    let high = (ROWS * measure::ROW).min(room).max(3.0 * measure::ROW);
+    ui.spacing_mut().item_spacing.y = 0.0;
+    let area = ScrollArea::vertical().max_height(high).min_scrolled_height(high).auto_shrink([false, false]);
+    area.show(ui, |ui| {
+        if found.is_empty() {
+            ui.add_space(6.0);
+            let words = RichText::new("No command has that name or key.").font(type_face::body());
+            ui.label(words.color(Tokens::of(ui).weak));
+        }
+        for command in &found {
+            line(ui, keymap, command, memory, asks);
+        }
+    });
+}
+
+/// Whether a command has what was typed in its name, its place or its keys.
+fn is_meant(command: &CommandKeys, typed: &str) -> bool {
+    let keys = command.chords.iter().map(|chord| chord.text().to_lowercase());
+    let words = [command.id.name().to_lowercase(), command.id.place().unwrap_or_default().to_lowercase()];
+    words.into_iter().chain(keys).any(|words| words.contains(typed))
+}
+
+fn line(ui: &mut Ui, keymap: &Keymap, command: &CommandKeys, memory: &mut Memory, asks: &mut Vec<Ask>) {
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), measure::ROW), egui::Sense::hover());
+    let listens =
+        matches!(memory.doing, Doing::Listening(id) | Doing::ListeningStill(id) if id == command.id);
+    let name = command.id.name();
+    let keys: Vec<String> = command.chords.iter().map(Chord::text).collect();
+    let keys = match (listens, keys.is_empty()) {
+        (true, _) => "Press the new keys\u{2026}".to_owned(),
+        (_, true) => "none".to_owned(),
+        _ => keys.join(", "),
+    };
+    let own = Rect::from_min_max(rect.min, rect.max - vec2(END, 0.0));
+    let clicked = within(ui, own, row(), |ui| {
+        let row = MenuRow { words: &name, keys: &keys, on: false, marked: listens };
+        let response = row.show(ui);
+        let place = command.id.place().unwrap_or("everywhere");
+        response.on_hover_text(format!("Click, then press the new keys. They hold {place}.")).clicked()
+    });
+    if clicked {
+        memory.doing = Doing::Listening(command.id);
+    }
+    if command.is_changed {
+        let end = Rect::from_min_max(rect.right_top() - vec2(END - 2.0, 0.0), rect.right_bottom());
+        let label = format!("Reset the keys of {name}");
+        let reset = within(ui, end, row(), |ui| widgets::icon_button(ui, icons::UNDO, &label));
+        if reset.clicked() {
+            choose(keymap, command.id, keymap.usual(command.id), &mut memory.doing, asks);
+        }
+    }
+}
+
+/// Gives a command its keys, or asks first if other commands would lose them.
+fn choose(keymap: &Keymap, id: CommandId, chords: Vec<Chord>, doing: &mut Doing, asks: &mut Vec<Ask>) {
+    let losers = keymap.losers(id, &chords);
+    if losers.is_empty() {
+        asks.push(Ask::OwnKeys(keymap.with(id, chords).own));
+        *doing = Doing::Nothing;
+    } else {
+        *doing = Doing::Asking(id, chords, losers);
+    }
+}
+
+/// The line under the list: a question, what to press, or the way back for all.
+fn foot(ui: &mut Ui, keymap: &Keymap, memory: &mut Memory, asks: &mut Vec<Ask>) {
+    let (rect, _) =
+        ui.allocate_exact_size(vec2(ui.available_width(), measure::SHEET_BUTTON), egui::Sense::hover());
+    let mut next = None;
+    let words = match &memory.doing {
+        Doing::Nothing => "Click a command to change its keys.".to_owned(),
+        Doing::Listening(id) => format!("{}: press the new keys, or Esc to leave it.", id.name()),
+        Doing::ListeningStill(_) => "Ctrl C, Ctrl X and Ctrl V stay with text. Press others.".to_owned(),
+        Doing::Asking(_, chords, losers) => {
+            let keys: Vec<String> = chords.iter().map(Chord::text).collect();
+            let names: Vec<String> = losers.iter().map(|id| id.name()).collect();
+            format!("{} belongs to \u{201c}{}\u{201d}.", keys.join(", "), names.join("\u{201d}, \u{201c}"))
+        }
+    };
+    within(ui, rect, row_from_right(), |ui| {
+        ui.spacing_mut().item_spacing.x = measure::GAP;
+        match &memory.doing {
+            Doing::Nothing => {
+                let any = !keymap.own.is_empty();
+                let button =
+                    |ui: &mut Ui| Button::new("Reset all").name("Reset all keys").on_sheet().show(ui);
+                let reset = ui.add_enabled_ui(any, button).inner;
+                if reset.on_disabled_hover_text("All keys are the usual ones").clicked() {
+                    asks.push(Ask::OwnKeys(OwnKeys::default()));
+                }
+            }
+            Doing::Listening(id) | Doing::ListeningStill(id) => {
+                if Button::new("Leave it").name("Leave the keys").on_sheet().show(ui).clicked() {
+                    next = Some(Doing::Nothing);
+                }
+                if Button::new("No key").on_sheet().show(ui).clicked() {
+                    asks.push(Ask::OwnKeys(keymap.with(*id, Vec::new()).own));
+                    next = Some(Doing::Nothing);
+                }
+            }
+            Doing::Asking(id, chords, _) => {
+                if Button::new("Cancel").name("Cancel the change").on_sheet().show(ui).clicked() {
+                    next = Some(Doing::Nothing);
+                }
+                if Button::new("Take it over").primary().on_sheet().show(ui).clicked() {
+                    asks.push(Ask::OwnKeys(keymap.with(*id, chords.clone()).own));
+                    next = Some(Doing::Nothing);
+                }
+            }
+        }
+        let left = Rect::from_min_max(rect.min, egui::pos2(ui.cursor().right() - measure::GAP, rect.max.y));
+        within(ui, left, row(), |ui| {
+            let tokens = Tokens::of(ui);
+            let colour = if matches!(memory.doing, Doing::Asking(..)) { tokens.ochre } else { tokens.weak };
+            ui.add(egui::Label::new(RichText::new(words).font(type_face::body()).color(colour)).wrap());
+        });
+    });
+    if let Some(next) = next {
+        memory.doing = next;
+    }
+}
+
+/// What was pressed while keys are listened for.
+enum Heard {
+    Nothing,
+    /// Keys that copy, cut or paste text: they never come as keys.
+    ForText,
+    Keys(Chord),
+}
+
+/// The keys that were pressed in this pass. All keys are taken, so that nothing else acts by them.
+fn heard(ui: &Ui, numpad: &[(Key, Modifiers)]) -> Heard {
+    let plain = |held: egui::Modifiers| Modifiers { ctrl: held.command, shift: held.shift, alt: held.alt };
+    let tab = tab_pressed(ui.ctx()).map(|held| Chord { key: Key::Tab, held: plain(held) });
+    let numpad = numpad.first().map(|&(key, held)| Chord { key, held });
+    let mut heard = tab.or(numpad);
+    let mut for_text = false;
+    ui.input_mut(|input| {
+        input.events.retain(|event| match event {
+            Event::Key { key, pressed: true, modifiers, .. } => {
+                heard = heard.or(key_of(*key).map(|key| Chord { key, held: plain(*modifiers) }));
+                false
+            }
+            Event::Copy | Event::Cut | Event::Paste(_) => {
+                for_text = true;
+                false
+            }
+            Event::Text(_) => false,
+            _ => true,
+        });
+    });
+    match heard {
+        Some(chord) => Heard::Keys(chord),
+        None if for_text => Heard::ForText,
+        None => Heard::Nothing,
+    }
+}
