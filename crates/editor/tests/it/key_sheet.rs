@@ -43,6 +43,7 @@ impl Page {
             recent: &[],
             troubles: &[],
             likely_meshes: &[],
+            presets: &[],
         };
         let numpad = std::mem::take(&mut self.numpad);
         let mut asks = Vec::new();
