@@ -107,7 +107,7 @@ fn find(harness: &mut Harness<'_, Page>, words: &str) {
 }
 
 fn does(harness: &Harness<'_, Page>, text: &str, scope: Scope) -> Option<Action> {
-    let chord: impasto_editor_model::keymap::Chord = text.parse().unwrap();
+    let chord: impasto_editor_model::keymap::Chord = text.parse().expect("a chord");
     harness.state().keymap.action_for(chord.key, chord.held, scope)
 }
 
