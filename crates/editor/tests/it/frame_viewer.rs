@@ -8,7 +8,7 @@ use egui_kittest::{Harness, SnapshotOptions, SnapshotResults};
 use impasto_editor::panels::frame_viewer::{ViewerAsk, ViewerShown, frame_viewer};
 use impasto_editor::theme::{self, Theme};
 use impasto_editor_model::finished_frames::FinishedFrames;
-use impasto_editor_model::keymap::{Keymap, Preset};
+use impasto_editor_model::keymap::{self, Action, CommandId, Keymap, Preset};
 use impasto_gl_render::context::Driver;
 
 use crate::headless::Headless;
@@ -19,6 +19,8 @@ struct Page {
     picture: Option<TextureHandle>,
     fault: Option<&'static str>,
     asked: Vec<ViewerAsk>,
+    numpad: Vec<(keymap::Key, keymap::Modifiers)>,
+    is_covered: bool,
 }
 
 impl Page {
@@ -30,6 +32,8 @@ impl Page {
             picture: None,
             fault: None,
             asked: Vec::new(),
+            numpad: Vec::new(),
+            is_covered: false,
         }
     }
 
@@ -39,12 +43,15 @@ impl Page {
             let image = ColorImage::new([160, 90], (0..160 * 90).map(pixel).collect());
             self.picture = Some(ui.ctx().load_texture("frame", image, egui::TextureOptions::LINEAR));
         }
+        let numpad = std::mem::take(&mut self.numpad);
         let shown = ViewerShown {
             frames: &self.frames,
             picture: self.picture.as_ref().filter(|_| self.fault.is_none()),
             shown: Some(self.frames.at()),
             fault: self.fault,
             keymap: &self.keymap,
+            numpad: &numpad,
+            is_covered: self.is_covered,
         };
         if let Some(ask) = frame_viewer(ui, &shown) {
             self.asked.push(ask);
