@@ -84,7 +84,7 @@ impl CommandId {
             && !chord.held.ctrl
             && !matches!(chord.key, Key::Function(_))
         {
-            Some("in a field it is text; hold Ctrl, or take F1 to F12")
+            Some("in a field it is text; hold Ctrl, or take F1 to F35")
         } else {
             None
         }

@@ -7,7 +7,6 @@ use egui::{Context, TextureHandle, TextureOptions};
 use impasto_editor_model::render_settings::{
     FileKind, Outcome, RenderPlan, RenderProgress, RenderSettings, shell_words,
 };
-use impasto_editor_model::timeline::TimelineEvent;
 use impasto_gl_render::ShaderTexts;
 
 use super::EditorApp;
@@ -224,9 +223,7 @@ impl EditorApp {
         match FrameView::open(finished, running.plan().loaded.scene.timeline.fps, self.render.waker.clone()) {
             Ok(view) => {
                 (self.frame_view, self.render.is_open) = (Some(view), false);
-                if self.editor.time().playback.is_playing() {
-                    self.editor.timeline(TimelineEvent::GoTo(self.editor.session.frame));
-                }
+                self.editor.stop_playing();
             }
             Err(words) => self.toast(words, None, true),
         }
