@@ -150,7 +150,9 @@ impl Board {
 
     /// The frame to read next: the first that is wanted and not there, as long as there is room for it.
     fn next(&self) -> Option<usize> {
-        let is_due = |index: &&usize| !self.read.contains_key(index) && !self.let_go.contains(index);
+        let is_due = |index: &&usize| {
+            **index < self.paths.len() && !self.read.contains_key(*index) && !self.let_go.contains(*index)
+        };
         let next = *self.wanted.iter().find(is_due)?;
         let largest = self.read.values().flatten().map(|picture| bytes_of(picture)).max().unwrap_or(0);
         let urgent: usize = self

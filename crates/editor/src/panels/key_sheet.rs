@@ -102,7 +102,7 @@ fn contents(
     ui.add_space(measure::GAP);
     search(ui, memory);
     ui.add_space(measure::GAP);
-    list(ui, keymap, memory, (rows.unwrap_or_default(), asks));
+    list(ui, keymap, memory, (rows.unwrap_or_default(), &mut *asks));
     ui.add_space(12.0);
     foot(ui, keymap, memory, asks);
     close || escape && !was_doing
