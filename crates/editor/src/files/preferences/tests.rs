@@ -121,7 +121,7 @@ fn keys_that_cannot_be_read_lose_nothing_else() {
     for (text, faulty) in [
         ("{\"Comb\": [\"Ctrl Banana\"], \"Smooth\": [\"Ctrl K\"]}", Some("Comb: `Ctrl Banana` is no key")),
         ("{\"Fly\": [\"F\"], \"Smooth\": \"Ctrl K\"}", Some("no command is called “Fly”")),
-        ("{\"Comb\": 7, \"Smooth\": [\"Ctrl K\"], 3: [\"K\"]}", Some("Comb")),
+        ("{\"Comb\": 7, \"Smooth\": [\"Ctrl K\"], 3: [\"K\"]}", Some("(and 1 more)")),
         ("{\"Smooth\": [\"Ctrl K\"], \"Cancel\": [\"Q\"]}", Some("Esc always cancels")),
         ("{\"Comb\": [\"Esc\"], \"Smooth\": [\"Ctrl K\"]}", Some("Comb: Esc cannot be given")),
         ("{\"Comb\": [7], \"Smooth\": [\"Ctrl K\"]}", Some("Comb: a key must be a text")),
