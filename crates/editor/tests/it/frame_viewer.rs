@@ -106,7 +106,7 @@ fn keys_play_step_and_go_back_to_work() {
         assert_eq!(asked(&mut harness), []);
     }
     // The user's own keys play, too.
-    let id = impasto_editor_model::keymap::CommandId::named("Play").expect("a command");
+    let id = CommandId::named("Play").expect("a command");
     let keymap = Keymap { preset: Preset::Maya, ..Keymap::default() };
     harness.state_mut().keymap = keymap.with(id, vec!["L".parse().expect("a key")]);
     harness.key_press(Key::L);
