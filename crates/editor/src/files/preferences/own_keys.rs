@@ -50,6 +50,13 @@ impl OwnKeysText {
             map.insert(name_of(id), Value::Seq(texts));
         }
         self.0 = Value::Map(map);
+        // What another command's keys kept out is not to come to life once that has others.
+        loop {
+            let is_extra = |id: &CommandId| own.iter().all(|(other, _)| other != *id);
+            let extra = self.keys().iter().map(|(id, _)| id).find(is_extra);
+            let (Some(id), Value::Map(map)) = (extra, &mut self.0) else { break };
+            map.remove(&name_of(id));
+        }
     }
 
     /// What can be read, and what is wrong with the rest.

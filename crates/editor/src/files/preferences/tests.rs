@@ -145,7 +145,9 @@ fn keys_that_cannot_be_read_lose_nothing_else() {
         let mut changed = own_keys.clone();
         changed.set(&own("Fill direction", &["Ctrl L"]));
         assert_eq!(changed.keys(), own("Fill direction", &["Ctrl L"]));
-        assert_eq!(changed.fault(), own_keys.fault());
+        // Except what only the keys of another command kept out: it would come to life.
+        let stays = own_keys.fault().filter(|fault| !fault.contains("has the keys of"));
+        assert_eq!(changed.fault(), stays, "{text}");
         let folder = tempfile::tempdir().expect("a temporary folder");
         let kept = Preferences { own_keys: changed, ..Preferences::default() };
         save(folder.path(), &kept).expect("saved");
