@@ -31,6 +31,16 @@ impl FinishedFrames {
         is_any.then(|| Self { frames, fps, looped: true, at: 0, playback: Playback::default() })
     }
 
+    /// Takes the frames that are finished by now. The frame that is asked for stays, and so does playing.
+    /// Returns whether any are new.
+    pub fn extend(&mut self, frames: Vec<(i64, PathBuf)>) -> bool {
+        let stays = self.frames.get(self.at).map(|(number, _)| *number);
+        let at = stays.and_then(|number| frames.iter().position(|(other, _)| *other == number));
+        let (Some(at), true) = (at, frames.len() > self.frames.len()) else { return false };
+        (self.frames, self.at) = (frames, at);
+        true
+    }
+
     /// How many frames there are, ≥ 1.
     pub fn count(&self) -> usize {
         self.frames.len()

@@ -184,7 +184,7 @@ pub enum Key {
     NumPad(u8),
     /// The number pad's point.
     NumPadPoint,
-    /// F1..F12.
+    /// F1..F35.
     Function(u8),
     /// `[ ] , . -`.
     Sign(char),

@@ -36,6 +36,8 @@ const BENT_TOLERANCE_PX: f64 = 0.1;
 /// If two steps are farther apart on the surface than this many pixels, it is checked whether the surface is connected
 /// there.
 const LEAP_PX: f64 = 4.0;
+/// A hand that holds a pen in one place moves it by up to this.
+const TREMBLE_PX: f64 = 4.0;
 /// Length of the string at full steadiness.
 const LONGEST_STRING_PX: f64 = 120.0;
 
@@ -204,15 +206,28 @@ impl SurfacePath {
     /// region).
     pub fn move_to(&mut self, at_px: DVec2, pick: &mut dyn FnMut(DVec2) -> Option<Hit>) {
         if at_px.is_finite() {
-            // Until the pointer moves, it is a press that may become harder.
-            if let [piece] = self.pieces.as_mut_slice()
-                && let [point] = piece.as_mut_slice()
-                && point.at_px == at_px
-            {
-                point.pressure = point.pressure.max(self.pressure);
+            let press_px = self.pieces[0][0].at_px;
+            if press_px.distance(at_px) <= self.string_px.max(TREMBLE_PX) {
+                self.harden(self.pressure);
             }
             let steps = self.curve.move_to(Step { at_px, pressure: self.pressure });
             self.walk(&steps, pick);
+        }
+    }
+
+    /// The pen is lifted; this is the most that it pressed since it was set down. A path that is no more than a press
+    /// is as hard as that.
+    pub fn lifted(mut self, greatest: f64) -> Self {
+        self.harden(greatest);
+        self
+    }
+
+    /// As long as the path is a press, and the string has not been pulled, it takes the greatest pressure.
+    fn harden(&mut self, pressure: f64) {
+        if let [piece] = self.pieces.as_mut_slice()
+            && let [point] = piece.as_mut_slice()
+        {
+            point.pressure = point.pressure.max(pressure);
         }
     }
 

@@ -253,13 +253,19 @@ impl RenderPlan {
         self.frames.iter().filter(is_there).count()
     }
 
-    /// The frames whose PNG file is there, each with that file; none where the kind has no PNG.
-    pub fn finished(&self) -> Vec<(i64, PathBuf)> {
+    /// The frames of which this rendering has a PNG file, each with that file, once `done` frames are finished; none
+    /// where the kind has no PNG. Frames are rendered in their order, so what is there of later ones, and is to be
+    /// replaced, is of an earlier rendering.
+    pub fn finished(&self, done: u64) -> Vec<(i64, PathBuf)> {
         if !self.kind.has_png() {
             return Vec::new();
         }
         let there = names_in(self.folder());
-        let frames = self.frames.iter().map(|frame| (frame, self.path(frame)));
+        let ours = match self.existing {
+            Existing::Replace => usize::try_from(done).unwrap_or(usize::MAX),
+            Existing::Keep => usize::MAX,
+        };
+        let frames = self.frames.iter().take(ours).map(|frame| (frame, self.path(frame)));
         frames.filter(|(_, path)| path.file_name().is_some_and(|name| there.contains(name))).collect()
     }
 

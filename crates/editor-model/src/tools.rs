@@ -118,7 +118,10 @@ pub enum ToolEvent {
         pressure: f64,
     },
     /// The button went up.
-    Release,
+    Release {
+        /// The most that a pen pressed since the press, 0..=1; 1 without a pen.
+        pressure: f64,
+    },
     /// A key that the keymap knows.
     Key(Action),
     /// Esc, a right press, or another tool: cancels.

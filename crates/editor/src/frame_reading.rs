@@ -5,18 +5,22 @@
 //! want([7, 8, 9…], size) ─▶ thread: the first that is not there ─▶ decode, reduce ─▶ picture(7)
 //! ```
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
 use egui::ColorImage;
-use impasto_frame_files::frame_reader::{self, Depth, FramePixels};
+use impasto_frame_files::frame_reader::{self, Depth, FrameInfo, FramePixels};
 
 #[cfg(test)]
 mod tests;
 
 /// The pictures that are kept take no more memory than this, unless the one that is shown takes more by itself.
 pub const MOST_BYTES: usize = 256 << 20;
+
+/// One picture takes at most one part in this many of the memory that is left.
+const MEMORY_SHARE: u64 = 4;
 
 /// Reads frames. Dropping this ends its thread after the frame that it is reading.
 pub struct FrameReading {
@@ -35,6 +39,8 @@ struct Board {
     /// Pictures are reduced while they stay larger than this.
     size_px: [usize; 2],
     read: BTreeMap<usize, Result<Arc<ColorImage>, String>>,
+    /// Those that were let go for others: they are not read again for the same needs.
+    let_go: BTreeSet<usize>,
     most_bytes: usize,
     ended: bool,
 }
@@ -58,6 +64,7 @@ impl FrameReading {
             wanted: Vec::new(),
             size_px: [usize::MAX; 2],
             read: BTreeMap::new(),
+            let_go: BTreeSet::new(),
             most_bytes,
             ended: false,
         };
@@ -73,14 +80,31 @@ impl FrameReading {
         if size_px != board.size_px {
             // Those that were reduced for a smaller window would be blurred.
             board.read.clear();
+            board.let_go.clear();
             board.size_px = size_px;
         }
         if wanted != board.wanted {
             board.wanted = wanted;
+            board.let_go.clear();
         }
         board.make_room();
         drop(board);
         self.shared.changed.notify_all();
+    }
+
+    /// Takes the files that are there by now. If frames have other places now, what was read is forgotten.
+    /// Returns whether it is.
+    pub fn replace(&self, paths: Vec<PathBuf>) -> bool {
+        let mut board = self.shared.board();
+        let moves = !paths.starts_with(&board.paths);
+        board.paths = paths;
+        if moves {
+            board.read.clear();
+            board.let_go.clear();
+        }
+        drop(board);
+        self.shared.changed.notify_all();
+        moves
     }
 
     /// The picture of a frame, or why there is none; `None` until it was read.
@@ -115,7 +139,10 @@ impl Board {
                 self.wanted.iter().position(|wanted| wanted == index).map_or(usize::MAX, |place| place)
             };
             match self.read.keys().copied().max_by_key(urgency) {
-                Some(index) if self.wanted.first() != Some(&index) => drop(self.read.remove(&index)),
+                Some(index) if self.wanted.first() != Some(&index) => {
+                    self.read.remove(&index);
+                    self.let_go.insert(index);
+                }
                 _ => return,
             }
         }
@@ -123,7 +150,10 @@ impl Board {
 
     /// The frame to read next: the first that is wanted and not there, as long as there is room for it.
     fn next(&self) -> Option<usize> {
-        let next = *self.wanted.iter().find(|index| !self.read.contains_key(index))?;
+        let is_due = |index: &&usize| {
+            **index < self.paths.len() && !self.read.contains_key(*index) && !self.let_go.contains(*index)
+        };
+        let next = *self.wanted.iter().find(is_due)?;
         let largest = self.read.values().flatten().map(|picture| bytes_of(picture)).max().unwrap_or(0);
         let urgent: usize = self
             .wanted
@@ -149,9 +179,11 @@ fn run(shared: &Shared, wake: &dyn Fn()) {
         let Some(index) = board.next().filter(|_| !board.ended) else { return };
         let (path, size_px) = (board.paths.get(index).cloned().unwrap_or_default(), board.size_px);
         drop(board);
-        let picture = read(&path, size_px).map(Arc::new);
+        let picture = catch_unwind(AssertUnwindSafe(|| read(&path, size_px)))
+            .unwrap_or_else(|_| Err(format!("{} cannot be read: decoding it broke off", path.display())))
+            .map(Arc::new);
         let mut board = shared.board();
-        if board.size_px == size_px {
+        if board.size_px == size_px && board.paths.get(index) == Some(&path) {
             board.read.insert(index, picture);
             board.make_room();
         }
@@ -161,8 +193,25 @@ fn run(shared: &Shared, wake: &dyn Fn()) {
 }
 
 fn read(path: &Path, size_px: [usize; 2]) -> Result<ColorImage, String> {
+    let info = frame_reader::info(path).map_err(|error| error.to_string())?;
+    fits(path, &info, impasto_scene::memory::available_bytes())?;
     let pixels = frame_reader::read(path).map_err(|error| error.to_string())?;
     Ok(reduced(&pixels.at_depth(Depth::Eight), size_px))
+}
+
+/// Refuses a picture that would take more than a share of the memory that is left.
+fn fits(path: &Path, info: &FrameInfo, available_bytes: Option<u64>) -> Result<(), String> {
+    let [width, height] = info.size_px;
+    let channel_bytes = if info.depth == Depth::Sixteen { 2 } else { 1 };
+    // As it is decoded, and as RGBA.
+    let needed = u64::from(width) * u64::from(height) * 4 * (channel_bytes * 2 + 1);
+    match available_bytes {
+        Some(available) if needed > available / MEMORY_SHARE => Err(format!(
+            "{} has {width} x {height} pixels: there is not enough memory to show it",
+            path.display()
+        )),
+        _ => Ok(()),
+    }
 }
 
 /// The mean of blocks of pixels, of the largest blocks that leave the picture at least as large as it is shown.

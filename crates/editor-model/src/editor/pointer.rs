@@ -275,7 +275,7 @@ impl Editor {
             }
             Busy::Painting if button == Button::Left => {
                 self.busy = Busy::Idle;
-                self.tool(ToolEvent::Release, view);
+                self.tool(ToolEvent::Release { pressure: sound(event.pressure) }, view);
                 // Shows the ring at the pointer again.
                 self.hover_again(view);
             }

@@ -126,6 +126,11 @@ impl Editor {
         true
     }
 
+    /// Stops playback, if it runs.
+    pub fn stop_playing(&mut self) {
+        self.time.playback.stop();
+    }
+
     pub(super) fn play_or_stop(&mut self) {
         if self.time.playback.is_playing() {
             return self.time.playback.stop();

@@ -70,3 +70,19 @@ fn there_is_nothing_to_see_without_a_frame() {
     assert!(FinishedFrames::new(Vec::new(), 24.0).is_none());
     assert_eq!(FinishedFrames::new(vec![(0, PathBuf::new())], f64::NAN).unwrap().fps(), 24.0);
 }
+
+#[test]
+fn frames_that_are_finished_meanwhile_are_added() {
+    let files = |count: i64| (0..count).map(|index| (10 + index, PathBuf::from(format!("f_{index}.png"))));
+    let mut film = frames(3);
+    film.go_to(2);
+    assert!(film.extend(files(5).collect()));
+    assert_eq!((film.count(), film.at(), film.frame(4).0), (5, 2, 14));
+    assert!(!film.extend(files(5).collect()), "nothing new");
+    assert!(!film.extend(Vec::new()), "what is shown stays");
+    film.play_or_stop(0.0);
+    assert!(film.extend(files(48).collect()));
+    film.tick(1.0);
+    film.tick(1.51);
+    assert_eq!((film.at(), film.is_playing()), (14, true), "it goes on from the frame that is shown");
+}

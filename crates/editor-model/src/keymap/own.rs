@@ -68,6 +68,28 @@ impl CommandId {
         self.action() != Action::Cancel
     }
 
+    /// Why it cannot have this key, in words; `None` if it can.
+    pub fn refusal(self, chord: Chord) -> Option<&'static str> {
+        let holds = BINDINGS[self.0].holds;
+        let is_plain = !chord.held.ctrl && !chord.held.alt;
+        let is_number = matches!(
+            chord.key,
+            Key::Digit(_) | Key::NumPad(_) | Key::NumPadPoint | Key::Sign('.' | ',' | '-')
+        );
+        if chord.key == Key::Escape || !self.is_free() {
+            Some("Esc always cancels")
+        } else if holds.contains(&Where::In(Scope::Transform)) && is_plain && is_number {
+            Some("numbers are typed while moving")
+        } else if holds == [Where::In(Scope::Typing)]
+            && !chord.held.ctrl
+            && !matches!(chord.key, Key::Function(_))
+        {
+            Some("in a field it is text; hold Ctrl, or take F1 to F35")
+        } else {
+            None
+        }
+    }
+
     /// Whether one key cannot belong to both: they hold in one place, or one holds everywhere and the other in a mode.
     /// (What is modal, a field or a lane may take a key that holds elsewhere.)
     fn meets(self, other: Self) -> bool {
@@ -101,6 +123,14 @@ impl OwnKeys {
         }
     }
 
+    /// A command that has one of these keys as its own, where no other command may have it.
+    pub fn owner(&self, id: CommandId, chords: &[Chord]) -> Option<CommandId> {
+        let has = |(other, own): (CommandId, &[Chord])| {
+            (other.meets(id) && own.iter().any(|chord| chords.contains(chord))).then_some(other)
+        };
+        self.iter().find_map(has)
+    }
+
     pub(super) fn of(&self, index: usize) -> Option<&[Chord]> {
         self.0.get(&CommandId(index)).map(Vec::as_slice)
     }
@@ -128,14 +158,34 @@ impl Keymap {
         self.commands().filter(loses).map(|other| other.id).collect()
     }
 
+    /// The commands that hold elsewhere too, and whose keys these would hide where this one holds.
+    pub fn hidden(&self, id: CommandId, chords: &[Chord]) -> Vec<CommandId> {
+        if BINDINGS[id.0].holds != [Where::In(Scope::Lane)] {
+            return Vec::new();
+        }
+        let holds_there = |other: &CommandKeys| {
+            let holds = BINDINGS[other.id.0].holds;
+            holds.contains(&Where::Everywhere) || holds.contains(&Where::In(Scope::Animate))
+        };
+        let hides = |other: &CommandKeys| {
+            other.id != id && holds_there(other) && other.chords.iter().any(|chord| chords.contains(chord))
+        };
+        self.commands().filter(hides).map(|other| other.id).collect()
+    }
+
     /// The keys that a command has by itself.
     pub fn usual(&self, id: CommandId) -> Vec<Chord> {
         self.preset_chords(&BINDINGS[id.0])
     }
 
     /// The keymap with these keys for a command; other commands lose them.
+    ///
+    /// Keys that the command cannot have change nothing.
     pub fn with(&self, id: CommandId, chords: Vec<Chord>) -> Self {
         let mut keymap = self.clone();
+        if chords.iter().any(|chord| id.refusal(*chord).is_some()) && chords != self.usual(id) {
+            return keymap;
+        }
         for (other, own) in &mut keymap.own.0 {
             if other.meets(id) {
                 own.retain(|chord| !chords.contains(chord));
@@ -145,12 +195,6 @@ impl Keymap {
             keymap.own.0.remove(&id);
         } else {
             keymap.own.note(id, chords);
-        }
-        // Who lost its own key to the preset's, and has none left that differs, is as the preset has it.
-        let same: Vec<CommandId> =
-            keymap.own.iter().filter(|(id, own)| *own == self.usual(*id)).map(|(id, _)| id).collect();
-        for id in same {
-            keymap.own.0.remove(&id);
         }
         keymap
     }

@@ -50,7 +50,7 @@ impl Key {
             (digit, "") if digit.is_ascii_digit() => digit.to_digit(10).map(|digit| Self::Digit(digit as u8)),
             (sign, "") if "[],.-".contains(sign) => Some(Self::Sign(sign)),
             ('F', number) => {
-                number.parse().ok().filter(|number| (1..=12).contains(number)).map(Self::Function)
+                number.parse().ok().filter(|number| (1..=35).contains(number)).map(Self::Function)
             }
             _ => None,
         }

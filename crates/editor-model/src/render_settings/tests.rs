@@ -283,3 +283,26 @@ fn a_movie_is_one_file_of_all_frames() {
     settings.choose_kind(FileKind::Png8);
     assert_eq!(settings.output, "films/my film.png");
 }
+
+#[test]
+fn frames_of_an_earlier_rendering_are_not_finished() {
+    let folder = tempfile::tempdir().unwrap();
+    let document = Document::empty(folder.path());
+    let settings = RenderSettings {
+        which: Which::Listed,
+        list: "0-9".to_owned(),
+        output: "f_##.png".to_owned(),
+        ..RenderSettings::of(document.scene())
+    };
+    for name in ["f_00.png", "f_01.png", "f_02.png", "f_07.png"] {
+        std::fs::write(folder.path().join(name), "x").unwrap();
+    }
+    let plan = settings.plan(&document, 0.0).unwrap();
+    let numbers = |plan: &RenderPlan, done: u64| -> Vec<i64> {
+        plan.finished(done).into_iter().map(|(frame, _)| frame).collect()
+    };
+    assert_eq!(numbers(&plan, 0), Vec::<i64>::new());
+    assert_eq!(numbers(&plan, 2), [0, 1]);
+    assert_eq!(numbers(&plan, 10), [0, 1, 2, 7]);
+    assert_eq!(numbers(&plan.keeping(), 2), [0, 1, 2, 7], "what is kept is part of it");
+}

@@ -83,12 +83,12 @@ impl Brush {
                 let preview = stroke.command(around);
                 ToolOutput { preview, ..self.under_way(around) }
             }
-            ToolEvent::Release => {
-                let stroke = self.stroke.take();
-                let commit = stroke.as_ref().and_then(|stroke| stroke.command(around));
+            ToolEvent::Release { pressure } => {
+                let stroke = self.stroke.take().map(|on| Stroke { path: on.path.lifted(pressure), ..on });
+                let commit = stroke.as_ref().and_then(|on| on.command(around));
                 // The region that was painted on is selected, even if the stroke was too short to leave anything.
-                let on = stroke.and_then(|stroke| stroke.on.region.map(|_| stroke.on.name));
-                let select = on.filter(|_| commit.is_none()).map(Item::Region);
+                let on = stroke.filter(|on| on.on.region.is_some() && commit.is_none());
+                let select = on.map(|on| Item::Region(on.on.name));
                 ToolOutput { commit, select, ..ToolOutput::saying(words(tool, around)) }
             }
             ToolEvent::Cancel | ToolEvent::FocusLost | ToolEvent::Key(Action::Cancel) => {

@@ -106,7 +106,7 @@ impl Curve {
                 }
                 self.shown(around)
             }
-            ToolEvent::Release => match std::mem::take(&mut self.state) {
+            ToolEvent::Release { .. } => match std::mem::take(&mut self.state) {
                 State::Dragging(dragging) => {
                     let select = Item::Guide(dragging.grip.guide.0.clone(), dragging.grip.guide.1);
                     ToolOutput {

@@ -52,7 +52,7 @@ impl Fill {
                 }
                 self.under_way(around)
             }
-            ToolEvent::Release => {
+            ToolEvent::Release { .. } => {
                 let commit = self.filling.take().map(|filling| filling.command(around));
                 ToolOutput { commit, ..ToolOutput::default() }
             }

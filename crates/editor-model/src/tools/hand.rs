@@ -90,7 +90,7 @@ impl Hand {
         }
         if self.ignores_release {
             match event {
-                ToolEvent::Release => {
+                ToolEvent::Release { .. } => {
                     self.ignores_release = false;
                     return ToolOutput::default();
                 }

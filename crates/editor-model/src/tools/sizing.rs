@@ -61,7 +61,7 @@ impl Sizing {
                 self.value = self.from.clone();
                 false
             }
-            ToolEvent::Release | ToolEvent::Key(_) => true,
+            ToolEvent::Release { .. } | ToolEvent::Key(_) => true,
         };
         let words = match self.what {
             What::Radius => format!("Radius {:.0} px", self.value.radius_px),

@@ -191,7 +191,7 @@ impl World {
     }
 
     fn release(&mut self, tool: Tool) -> ToolOutput {
-        self.take(tool, ToolEvent::Release)
+        self.take(tool, ToolEvent::Release { pressure: self.pressure })
     }
 
     /// A press and its release, well after the last one.

@@ -63,8 +63,9 @@ impl TouchTool {
                 drag.path.move_to(at_px, &mut |at_px| around.hit(at_px).filter(|hit| hit.object == object));
                 self.under_way(around)
             }
-            ToolEvent::Release => {
-                let commit = self.drag.take().and_then(|drag| drag.command(around));
+            ToolEvent::Release { pressure } => {
+                let lifted = |drag: Drag| Drag { path: drag.path.lifted(pressure), ..drag };
+                let commit = self.drag.take().and_then(|drag| lifted(drag).command(around));
                 ToolOutput { commit, ..ToolOutput::saying(waiting_words(around.options)) }
             }
             ToolEvent::Cancel | ToolEvent::FocusLost | ToolEvent::Key(Action::Cancel) => {

@@ -53,7 +53,7 @@ impl Turn {
                 }
                 self.under_way()
             }
-            ToolEvent::Release => {
+            ToolEvent::Release { .. } => {
                 let commit = self.turning.take().and_then(|turning| turning.command());
                 ToolOutput { commit, ..ToolOutput::default() }
             }

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use egui::{ColorImage, TextureHandle, TextureOptions, Ui};
 use impasto_editor_model::finished_frames::FinishedFrames;
+use impasto_editor_model::keymap::{Key, Modifiers};
 
 use super::EditorApp;
 use crate::frame_reading::FrameReading;
@@ -16,6 +17,8 @@ use crate::window::Waker;
 pub(super) struct FrameView {
     frames: FinishedFrames,
     reading: FrameReading,
+    /// How many frames the rendering had finished when they were listed.
+    done: u64,
     /// What is shown, with its index.
     shown: Option<(usize, Shown)>,
 }
@@ -31,11 +34,23 @@ impl FrameView {
     ///
     /// # Errors
     /// When there is none, or the system gives no thread.
-    pub(super) fn open(frames: Vec<(i64, PathBuf)>, fps: f64, waker: Waker) -> Result<Self, String> {
+    pub(super) fn open(
+        (done, frames): (u64, Vec<(i64, PathBuf)>),
+        fps: f64,
+        waker: Waker,
+    ) -> Result<Self, String> {
         let frames = FinishedFrames::new(frames, fps).ok_or("No finished frame is there any more")?;
         let reading = FrameReading::start(frames.paths(), move || waker.wake());
         let reading = reading.map_err(|error| format!("No thread to read the frames with: {error}"))?;
-        Ok(Self { frames, reading, shown: None })
+        Ok(Self { frames, reading, done, shown: None })
+    }
+
+    /// Takes the frames that are finished by now.
+    fn extend(&mut self, (done, frames): (u64, Vec<(i64, PathBuf)>)) {
+        self.done = done;
+        if self.frames.extend(frames) && self.reading.replace(self.frames.paths()) {
+            self.shown = None;
+        }
     }
 
     /// Takes the newest picture that was read: that of the frame which is due, else of one before it that is later than
@@ -75,8 +90,12 @@ impl FrameView {
 
 impl EditorApp {
     /// Shows the finished frames, and carries out what the user asks there.
-    pub(super) fn show_frames(&mut self, ui: &mut Ui) {
+    pub(super) fn show_frames(&mut self, ui: &mut Ui, numpad: &[(Key, Modifiers)]) {
+        let is_covered = self.has_sheet();
         let Some(view) = &mut self.frame_view else { return };
+        if let Some(finished) = self.render.finished_since(view.done) {
+            view.extend(finished);
+        }
         let now = ui.input(|input| input.time);
         view.frames.tick(now);
         view.follow(ui, now);
@@ -94,12 +113,17 @@ impl EditorApp {
                 _ => None,
             },
             keymap: &self.editor.keymap,
+            numpad,
+            is_covered,
         };
         let asked = frame_viewer::frame_viewer(ui, &shown);
         let frames = &mut view.frames;
         match asked {
             None => {}
-            Some(ViewerAsk::Close) => return self.frame_view = None,
+            Some(ViewerAsk::Close) => {
+                self.frame_view = None;
+                return self.render.unfold();
+            }
             Some(ViewerAsk::PlayOrStop) => frames.play_or_stop(now),
             Some(ViewerAsk::GoTo(index)) => frames.go_to(index),
             Some(ViewerAsk::Step(by)) => frames.step(by),

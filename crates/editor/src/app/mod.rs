@@ -256,16 +256,14 @@ impl EditorApp {
     }
 
     fn is_modal(&self) -> bool {
+        self.has_sheet() || self.frame_view.is_some()
+    }
+
+    /// Whether a sheet or a question is open over the page, or over the viewer of frames.
+    fn has_sheet(&self) -> bool {
         let Sheets { welcome, palette, shortcuts, keys, recapture, take_faces, problems: _ } = &self.sheets;
         let asks = self.files.is_asking() || self.safe.is_asking() || self.render.is_modal();
-        *welcome
-            || *palette
-            || *shortcuts
-            || *keys
-            || self.frame_view.is_some()
-            || recapture.is_some()
-            || take_faces.is_some()
-            || asks
+        *welcome || *palette || *shortcuts || *keys || recapture.is_some() || take_faces.is_some() || asks
     }
 
     fn page(&mut self, ui: &mut Ui, numpad: &[(Key, Modifiers)]) {
@@ -407,7 +405,7 @@ impl window::App for EditorApp {
             keys::hand_on(ui, &mut self.editor, &view, &numpad);
         }
         match self.frame_view.is_some() {
-            true => self.show_frames(ui),
+            true => self.show_frames(ui, &numpad),
             false => self.page(ui, &numpad),
         }
         let now = ui.input(|input| input.time);

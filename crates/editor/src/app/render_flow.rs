@@ -1,6 +1,6 @@
 //! Rendering to files from the window: the render sheet, its thread, and its questions.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use egui::{Context, TextureHandle, TextureOptions};
@@ -87,6 +87,18 @@ impl RenderFlow {
             Some(Outcome::Failed(_)) => format!("Rendering broke off at {}", progress.count()),
         };
         Some(Work { words, share: Some(progress.share() as f32), kind: WorkKind::Rendering })
+    }
+
+    /// Shows the sheet of a rendering again.
+    pub(super) fn unfold(&mut self) {
+        self.is_open = true;
+    }
+
+    /// How many frames are finished, with the files of those that can be viewed; `None` if there were as many before.
+    pub(super) fn finished_since(&self, before: u64) -> Option<(u64, Vec<(i64, PathBuf)>)> {
+        let running = self.running.as_ref()?;
+        let done = running.progress().done();
+        (done != before).then(|| (done, running.plan().finished(done)))
     }
 
     fn begin(&mut self, plan: RenderPlan, shaders: ShaderTexts) -> Result<(), String> {
@@ -206,10 +218,13 @@ impl EditorApp {
 
     /// Shows the finished frames of the rendering in place of the page; the sheet closes, and rendering goes on.
     fn view_frames(&mut self) {
-        let Some(plan) = self.render.running.as_ref().map(Rendering::plan) else { return };
-        let (frames, fps) = (plan.finished(), plan.loaded.scene.timeline.fps);
-        match FrameView::open(frames, fps, self.render.waker.clone()) {
-            Ok(view) => (self.frame_view, self.render.is_open) = (Some(view), false),
+        let Some(running) = &self.render.running else { return };
+        let finished = self.render.finished_since(0).unwrap_or_default();
+        match FrameView::open(finished, running.plan().loaded.scene.timeline.fps, self.render.waker.clone()) {
+            Ok(view) => {
+                (self.frame_view, self.render.is_open) = (Some(view), false);
+                self.editor.stop_playing();
+            }
             Err(words) => self.toast(words, None, true),
         }
     }

@@ -106,3 +106,50 @@ fn a_file_that_cannot_be_read_says_why() {
     assert!(reading.picture(1).expect("told").expect_err("missing").contains("gone.png is not there"));
     assert!(reading.picture(2).expect("told").expect_err("broken").contains("no.png is no whole PNG"));
 }
+
+#[test]
+fn a_frame_that_found_no_room_is_not_read_again_and_again() {
+    let (mut paths, _folder) = files(3, 16);
+    let (large, _other) = files(1, 64);
+    paths[1].clone_from(&large[0]);
+    let small_bytes = 16 * 8 * 4;
+    let (reading, next) = reading(paths, 3 * small_bytes);
+    reading.want(vec![0, 1, 2], [64, 64]);
+    for _ in 0..3 {
+        next();
+    }
+    assert_eq!(kept(&reading, 3), [0, 2], "the large one is let go, and the next is read");
+    assert_eq!(reading.shared.board().next(), None);
+    // Once it is the most urgent, it is read.
+    reading.want(vec![1, 2], [64, 64]);
+    while reading.picture(1).is_none() {
+        next();
+    }
+    assert_eq!(kept(&reading, 3), [1]);
+}
+
+#[test]
+fn files_that_come_later_are_read_too() {
+    let (paths, _folder) = files(3, 8);
+    let (reading, next) = reading(paths[..2].to_vec(), MOST_BYTES);
+    reading.want(vec![0], [8, 8]);
+    next();
+    assert!(!reading.replace(paths.clone()), "what was read stays");
+    assert_eq!(kept(&reading, 3), [0]);
+    reading.want(vec![2], [8, 8]);
+    next();
+    assert!(reading.picture(2).expect("read").is_ok());
+    assert!(reading.replace(paths[1..].to_vec()), "frames have other places");
+    assert_eq!(kept(&reading, 3), Vec::<usize>::new());
+}
+
+#[test]
+fn a_picture_larger_than_the_memory_is_refused() {
+    let info = FrameInfo { size_px: [1000, 1000], depth: Depth::Eight, has_alpha: true };
+    let path = Path::new("f.png");
+    assert!(fits(path, &info, None).is_ok());
+    assert!(fits(path, &info, Some(48_000_000)).is_ok());
+    assert!(fits(path, &info, Some(47_999_999)).unwrap_err().contains("1000 x 1000"));
+    let deep = FrameInfo { depth: Depth::Sixteen, ..info };
+    assert!(fits(path, &deep, Some(48_000_000)).is_err());
+}

@@ -10,6 +10,7 @@ use super::{divider, file_name, row, row_from_right, text_width, within};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Button, Tip, key_of};
+use crate::window::tab_pressed;
 
 const BAR: f32 = 44.0;
 /// Room for the scrubbing line that is never given up.
@@ -28,6 +29,10 @@ pub struct ViewerShown<'a> {
     pub fault: Option<&'a str>,
     /// The keys in use: those that play and step on the timeline do so here.
     pub keymap: &'a Keymap,
+    /// The keys of the number pad that were pressed in this pass.
+    pub numpad: &'a [(Key, Modifiers)],
+    /// Whether a question is open over the viewer: keys belong to it.
+    pub is_covered: bool,
 }
 
 /// What the viewer asks for.
@@ -60,26 +65,30 @@ pub fn frame_viewer(ui: &mut Ui, shown: &ViewerShown<'_>) -> Option<ViewerAsk> {
 }
 
 fn by_key(ui: &Ui, shown: &ViewerShown<'_>) -> Option<ViewerAsk> {
-    let mut ask = None;
+    if shown.is_covered {
+        return None;
+    }
+    let plain = |held: egui::Modifiers| Modifiers { ctrl: held.command, shift: held.shift, alt: held.alt };
+    let asked = |key: Key, held: Modifiers| {
+        Some(match shown.keymap.action_for(key, held, Scope::Animate) {
+            _ if key == Key::Escape => ViewerAsk::Close,
+            Some(Action::Play) => ViewerAsk::PlayOrStop,
+            Some(Action::StepBack) => ViewerAsk::Step(-1),
+            Some(Action::StepOn) => ViewerAsk::Step(1),
+            Some(Action::FirstFrame) => ViewerAsk::GoTo(0),
+            Some(Action::LastFrame) => ViewerAsk::GoTo(i64::MAX),
+            _ => return None,
+        })
+    };
+    let numpad = shown.numpad.iter().copied();
+    let mut ask = tab_pressed(ui.ctx()).map(|held| (Key::Tab, plain(held))).into_iter().chain(numpad);
+    let mut ask = ask.find_map(|(key, held)| asked(key, held));
     ui.input_mut(|input| {
         input.events.retain(|event| {
             let Event::Key { key, pressed: true, modifiers, .. } = event else { return true };
-            let Some(key) = key_of(*key) else { return true };
-            let held = Modifiers { ctrl: modifiers.command, shift: modifiers.shift, alt: modifiers.alt };
-            if key == Key::Escape {
-                ask = Some(ViewerAsk::Close);
-                return false;
-            }
-            let asked = match shown.keymap.action_for(key, held, Scope::Animate) {
-                Some(Action::Play) => ViewerAsk::PlayOrStop,
-                Some(Action::StepBack) => ViewerAsk::Step(-1),
-                Some(Action::StepOn) => ViewerAsk::Step(1),
-                Some(Action::FirstFrame) => ViewerAsk::GoTo(0),
-                Some(Action::LastFrame) => ViewerAsk::GoTo(i64::MAX),
-                _ => return true,
-            };
-            ask = Some(asked);
-            false
+            let by_this = key_of(*key).and_then(|key| asked(key, plain(*modifiers)));
+            ask = by_this.or(ask);
+            by_this.is_none()
         });
     });
     ask

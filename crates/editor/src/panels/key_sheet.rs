@@ -21,6 +21,8 @@ const END: f32 = 32.0;
 #[derive(Clone, Debug, Default)]
 struct Memory {
     typed: String,
+    /// The row that Enter takes.
+    marked: usize,
     doing: Doing,
 }
 
@@ -30,10 +32,14 @@ enum Doing {
     Nothing,
     /// The next keys are those of this command.
     Listening(CommandId),
-    /// As before, after keys that text fields need were pressed.
-    ListeningStill(CommandId),
+    /// As before, after keys that it cannot have: why, in words.
+    ListeningStill(CommandId, String),
     /// These keys of the command are those of others now: it asks whether to take them.
     Asking(CommandId, Vec<Chord>, Vec<CommandId>),
+    /// On a lane, these keys of the command would hide what others do there: it asks whether they may.
+    AskingToHide(CommandId, Vec<Chord>, Vec<CommandId>),
+    /// It asks whether all keys are to be the usual ones again.
+    AskingReset,
 }
 
 /// Shows the sheet over everything. `numpad` are the keys of the number pad that were pressed in this pass. Returns true
@@ -69,18 +75,34 @@ fn contents(
     if escape {
         memory.doing = Doing::Nothing;
     }
-    if let Doing::Listening(id) | Doing::ListeningStill(id) = memory.doing {
+    if let Doing::Listening(id) | Doing::ListeningStill(id, _) = memory.doing {
+        let still = |words: String| Doing::ListeningStill(id, words);
         match heard(ui, numpad) {
             Heard::Nothing => {}
-            Heard::ForText => memory.doing = Doing::ListeningStill(id),
-            Heard::Keys(chord) => choose(keymap, id, vec![chord], &mut memory.doing, asks),
+            Heard::Leave => memory.doing = Doing::Nothing,
+            Heard::ForText => {
+                memory.doing = still("Ctrl C, Ctrl X and Ctrl V stay with text. Press others.".to_owned());
+            }
+            Heard::Unknown => memory.doing = still("This key cannot be given. Press others.".to_owned()),
+            Heard::Keys(chord) => match id.refusal(chord) {
+                Some(reason) => {
+                    memory.doing = still(format!("{} cannot be given: {reason}.", chord.text()));
+                }
+                None => choose(keymap, id, vec![chord], &mut memory.doing, asks),
+            },
         }
     }
+    let rows = (memory.doing == Doing::Nothing).then(|| {
+        ui.input_mut(|input| {
+            [EguiKey::ArrowUp, EguiKey::ArrowDown, EguiKey::Enter]
+                .map(|key| input.consume_key(egui::Modifiers::NONE, key))
+        })
+    });
     let close = head(ui, keymap);
     ui.add_space(measure::GAP);
     search(ui, memory);
     ui.add_space(measure::GAP);
-    list(ui, keymap, memory, asks);
+    list(ui, keymap, memory, (rows.unwrap_or_default(), &mut *asks));
     ui.add_space(12.0);
     foot(ui, keymap, memory, asks);
     close || escape && !was_doing
@@ -114,6 +136,9 @@ fn search(ui: &mut Ui, memory: &mut Memory) {
         label: Some("Find a key".to_owned()),
         ..WidgetInfo::new(Role::TextInput)
     });
+    if field.changed() {
+        memory.marked = 0;
+    }
     // While keys are listened for, nothing else may take them.
     match memory.doing {
         Doing::Nothing => field.request_focus(),
@@ -121,10 +146,24 @@ fn search(ui: &mut Ui, memory: &mut Memory) {
     }
 }
 
-fn list(ui: &mut Ui, keymap: &Keymap, memory: &mut Memory, asks: &mut Vec<Ask>) {
+/// `up`, `down` and `enter` are the keys that choose a row, if they were pressed.
+fn list(
+    ui: &mut Ui,
+    keymap: &Keymap,
+    memory: &mut Memory,
+    ([up, down, enter], asks): ([bool; 3], &mut Vec<Ask>),
+) {
     let typed = memory.typed.trim().to_lowercase();
     let found: Vec<CommandKeys> =
         keymap.commands().filter(|command| command.id.is_free() && is_meant(command, &typed)).collect();
+    memory.marked = match (up, down) {
+        (true, _) => memory.marked.saturating_sub(1),
+        (_, true) => memory.marked + 1,
+        _ => memory.marked,
+    };
+    memory.marked = memory.marked.min(found.len().saturating_sub(1));
+    // Before the lines are shown: one of them may begin something.
+    let marked = (memory.doing == Doing::Nothing).then_some(memory.marked);
     // In a low window the list is shorter, so that what stands under it stays in view.
     let room = ui.ctx().content_rect().height() - AROUND_LIST;
     let high = (ROWS * measure::ROW).min(room).max(3.0 * measure::ROW);
@@ -136,8 +175,15 @@ fn list(ui: &mut Ui, keymap: &Keymap, memory: &mut Memory, asks: &mut Vec<Ask>) 
             let words = RichText::new("No command has that name or key.").font(type_face::body());
             ui.label(words.color(Tokens::of(ui).weak));
         }
-        for command in &found {
-            line(ui, keymap, command, memory, asks);
+        for (index, command) in found.iter().enumerate() {
+            let is_marked = marked == Some(index);
+            let row = line(ui, keymap, (command, is_marked), memory, asks);
+            if is_marked && (up || down) {
+                row.scroll_to_me(None);
+            }
+            if is_marked && enter {
+                memory.doing = Doing::Listening(command.id);
+            }
         }
     });
 }
@@ -149,10 +195,17 @@ fn is_meant(command: &CommandKeys, typed: &str) -> bool {
     words.into_iter().chain(keys).any(|words| words.contains(typed))
 }
 
-fn line(ui: &mut Ui, keymap: &Keymap, command: &CommandKeys, memory: &mut Memory, asks: &mut Vec<Ask>) {
-    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), measure::ROW), egui::Sense::hover());
+fn line(
+    ui: &mut Ui,
+    keymap: &Keymap,
+    (command, is_marked): (&CommandKeys, bool),
+    memory: &mut Memory,
+    asks: &mut Vec<Ask>,
+) -> egui::Response {
+    let (rect, whole) =
+        ui.allocate_exact_size(vec2(ui.available_width(), measure::ROW), egui::Sense::hover());
     let listens =
-        matches!(memory.doing, Doing::Listening(id) | Doing::ListeningStill(id) if id == command.id);
+        matches!(memory.doing, Doing::Listening(id) | Doing::ListeningStill(id, _) if id == command.id);
     let name = command.id.name();
     let keys: Vec<String> = command.chords.iter().map(Chord::text).collect();
     let keys = match (listens, keys.is_empty()) {
@@ -162,10 +215,15 @@ fn line(ui: &mut Ui, keymap: &Keymap, command: &CommandKeys, memory: &mut Memory
     };
     let own = Rect::from_min_max(rect.min, rect.max - vec2(END, 0.0));
     let clicked = within(ui, own, row(), |ui| {
-        let row = MenuRow { words: &name, keys: &keys, on: false, marked: listens };
+        let row = MenuRow { words: &name, keys: &keys, on: false, marked: listens || is_marked };
         let response = row.show(ui);
-        let place = command.id.place().unwrap_or("everywhere");
-        response.on_hover_text(format!("Click, then press the new keys. They hold {place}.")).clicked()
+        let place = match command.id.place() {
+            None => "everywhere".to_owned(),
+            Some("keys on a lane") => "for keys on a lane".to_owned(),
+            Some(words) if words.contains("while ") || words.contains("in a ") => words.to_owned(),
+            Some(mode) => format!("in {mode}"),
+        };
+        response.on_hover_text(format!("Click, then press the new keys. They work {place}.")).clicked()
     });
     if clicked {
         memory.doing = Doing::Listening(command.id);
@@ -178,16 +236,20 @@ fn line(ui: &mut Ui, keymap: &Keymap, command: &CommandKeys, memory: &mut Memory
             choose(keymap, command.id, keymap.usual(command.id), &mut memory.doing, asks);
         }
     }
+    whole
 }
 
 /// Gives a command its keys, or asks first if other commands would lose them.
 fn choose(keymap: &Keymap, id: CommandId, chords: Vec<Chord>, doing: &mut Doing, asks: &mut Vec<Ask>) {
     let losers = keymap.losers(id, &chords);
-    if losers.is_empty() {
+    let hidden = if chords == keymap.usual(id) { Vec::new() } else { keymap.hidden(id, &chords) };
+    if !losers.is_empty() {
+        *doing = Doing::Asking(id, chords, losers);
+    } else if !hidden.is_empty() {
+        *doing = Doing::AskingToHide(id, chords, hidden);
+    } else {
         asks.push(Ask::OwnKeys(keymap.with(id, chords).own));
         *doing = Doing::Nothing;
-    } else {
-        *doing = Doing::Asking(id, chords, losers);
     }
 }
 
@@ -199,12 +261,12 @@ fn foot(ui: &mut Ui, keymap: &Keymap, memory: &mut Memory, asks: &mut Vec<Ask>) 
     let words = match &memory.doing {
         Doing::Nothing => "Click a command to change its keys.".to_owned(),
         Doing::Listening(id) => format!("{}: press the new keys, or Esc to leave it.", id.name()),
-        Doing::ListeningStill(_) => "Ctrl C, Ctrl X and Ctrl V stay with text. Press others.".to_owned(),
-        Doing::Asking(_, chords, losers) => {
-            let keys: Vec<String> = chords.iter().map(Chord::text).collect();
-            let names: Vec<String> = losers.iter().map(|id| id.name()).collect();
-            format!("{} belongs to \u{201c}{}\u{201d}.", keys.join(", "), names.join("\u{201d}, \u{201c}"))
+        Doing::ListeningStill(_, words) => words.clone(),
+        Doing::Asking(_, chords, losers) => format!("{} belongs to {}.", keys_of(chords), names_of(losers)),
+        Doing::AskingToHide(_, chords, hidden) => {
+            format!("With a key selected, {} would no longer do {}.", keys_of(chords), names_of(hidden))
         }
+        Doing::AskingReset => "All keys that you changed become the usual ones.".to_owned(),
     };
     within(ui, rect, row_from_right(), |ui| {
         ui.spacing_mut().item_spacing.x = measure::GAP;
@@ -215,10 +277,19 @@ fn foot(ui: &mut Ui, keymap: &Keymap, memory: &mut Memory, asks: &mut Vec<Ask>) 
                     |ui: &mut Ui| Button::new("Reset all").name("Reset all keys").on_sheet().show(ui);
                 let reset = ui.add_enabled_ui(any, button).inner;
                 if reset.on_disabled_hover_text("All keys are the usual ones").clicked() {
-                    asks.push(Ask::OwnKeys(OwnKeys::default()));
+                    next = Some(Doing::AskingReset);
                 }
             }
-            Doing::Listening(id) | Doing::ListeningStill(id) => {
+            Doing::AskingReset => {
+                if Button::new("Cancel").name("Cancel the change").on_sheet().show(ui).clicked() {
+                    next = Some(Doing::Nothing);
+                }
+                if Button::new("Reset them").primary().on_sheet().show(ui).clicked() {
+                    asks.push(Ask::OwnKeys(OwnKeys::default()));
+                    next = Some(Doing::Nothing);
+                }
+            }
+            Doing::Listening(id) | Doing::ListeningStill(id, _) => {
                 if Button::new("Leave it").name("Leave the keys").on_sheet().show(ui).clicked() {
                     next = Some(Doing::Nothing);
                 }
@@ -227,7 +298,7 @@ fn foot(ui: &mut Ui, keymap: &Keymap, memory: &mut Memory, asks: &mut Vec<Ask>) 
                     next = Some(Doing::Nothing);
                 }
             }
-            Doing::Asking(id, chords, _) => {
+            Doing::Asking(id, chords, _) | Doing::AskingToHide(id, chords, _) => {
                 if Button::new("Cancel").name("Cancel the change").on_sheet().show(ui).clicked() {
                     next = Some(Doing::Nothing);
                 }
@@ -240,7 +311,10 @@ fn foot(ui: &mut Ui, keymap: &Keymap, memory: &mut Memory, asks: &mut Vec<Ask>) 
         let left = Rect::from_min_max(rect.min, egui::pos2(ui.cursor().right() - measure::GAP, rect.max.y));
         within(ui, left, row(), |ui| {
             let tokens = Tokens::of(ui);
-            let colour = if matches!(memory.doing, Doing::Asking(..)) { tokens.ochre } else { tokens.weak };
+            let colour = match memory.doing {
+                Doing::Nothing | Doing::Listening(_) => tokens.weak,
+                _ => tokens.ochre,
+            };
             ui.add(egui::Label::new(RichText::new(words).font(type_face::body()).color(colour)).wrap());
         });
     });
@@ -249,9 +323,22 @@ fn foot(ui: &mut Ui, keymap: &Keymap, memory: &mut Memory, asks: &mut Vec<Ask>) 
     }
 }
 
+fn keys_of(chords: &[Chord]) -> String {
+    chords.iter().map(Chord::text).collect::<Vec<_>>().join(", ")
+}
+
+fn names_of(commands: &[CommandId]) -> String {
+    let names: Vec<String> = commands.iter().map(|id| format!("\u{201c}{}\u{201d}", id.name())).collect();
+    names.join(", ")
+}
+
 /// What was pressed while keys are listened for.
 enum Heard {
     Nothing,
+    /// Esc, whatever is held with it.
+    Leave,
+    /// A key that the keymap does not know.
+    Unknown,
     /// Keys that copy, cut or paste text: they never come as keys.
     ForText,
     Keys(Chord),
@@ -263,11 +350,13 @@ fn heard(ui: &Ui, numpad: &[(Key, Modifiers)]) -> Heard {
     let tab = tab_pressed(ui.ctx()).map(|held| Chord { key: Key::Tab, held: plain(held) });
     let numpad = numpad.first().map(|&(key, held)| Chord { key, held });
     let mut heard = tab.or(numpad);
-    let mut for_text = false;
+    let (mut for_text, mut unknown) = (false, false);
     ui.input_mut(|input| {
         input.events.retain(|event| match event {
             Event::Key { key, pressed: true, modifiers, .. } => {
-                heard = heard.or(key_of(*key).map(|key| Chord { key, held: plain(*modifiers) }));
+                let known = key_of(*key).map(|key| Chord { key, held: plain(*modifiers) });
+                unknown |= known.is_none();
+                heard = heard.or(known);
                 false
             }
             Event::Copy | Event::Cut | Event::Paste(_) => {
@@ -279,8 +368,10 @@ fn heard(ui: &Ui, numpad: &[(Key, Modifiers)]) -> Heard {
         });
     });
     match heard {
+        Some(Chord { key: Key::Escape, .. }) => Heard::Leave,
         Some(chord) => Heard::Keys(chord),
         None if for_text => Heard::ForText,
+        None if unknown => Heard::Unknown,
         None => Heard::Nothing,
     }
 }

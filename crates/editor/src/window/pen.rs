@@ -7,7 +7,7 @@
 //! ```
 
 use egui::{Context, Event, Id, RawInput};
-use winit::event::{ElementState, WindowEvent};
+use winit::event::{ElementState, TouchPhase, WindowEvent};
 
 #[cfg(target_os = "linux")]
 mod x11;
@@ -32,8 +32,12 @@ pub struct Pens {
     find: Box<dyn FnMut() -> Option<PressureAxis>>,
     /// Whether any device has told of an axis that is no place. Without one the system is never asked.
     has_axes: bool,
+    /// Whether it has since the last press.
+    has_told: bool,
     axis: Option<PressureAxis>,
     pressure: f64,
+    /// The most since the press; `None` while nothing is pressed.
+    greatest: Option<f64>,
     /// One for each pointer event since the last pass.
     samples: Vec<f64>,
     /// Whether the last event moved the pointer: X11 tells the axes of a movement after it.
@@ -46,6 +50,8 @@ impl Pens {
         Self {
             find: Box::new(find),
             has_axes: false,
+            has_told: false,
+            greatest: None,
             axis: None,
             pressure: 1.0,
             samples: Vec::new(),
@@ -76,6 +82,7 @@ impl Pens {
         match event {
             WindowEvent::Touch(touch) => self.pressure = touch.force.map_or(1.0, |force| force.normalized()),
             WindowEvent::AxisMotion { axis, value, .. } if *axis >= FIRST_OTHER_AXIS => {
+                self.has_told = true;
                 if !std::mem::replace(&mut self.has_axes, true) {
                     self.look();
                 }
@@ -87,8 +94,23 @@ impl Pens {
                 }
             }
             // A mouse may have taken the place of the pen, or the other way round.
-            WindowEvent::MouseInput { state: ElementState::Pressed, .. } if self.has_axes => self.look(),
+            WindowEvent::MouseInput { state: ElementState::Pressed, .. } if self.has_axes => {
+                match std::mem::take(&mut self.has_told) {
+                    true => self.look(),
+                    // A pen would have told: it presses harder and softer all the time.
+                    false => self.pressure = 1.0,
+                }
+            }
             _ => {}
+        }
+        match event {
+            WindowEvent::MouseInput { state: ElementState::Pressed, .. } => {
+                self.greatest = Some(self.pressure);
+            }
+            WindowEvent::Touch(touch) if touch.phase == TouchPhase::Started => {
+                self.greatest = Some(self.pressure);
+            }
+            _ => self.greatest = self.greatest.map(|greatest| greatest.max(self.pressure)),
         }
         self.moved = match event {
             WindowEvent::CursorMoved { .. } => true,
@@ -101,10 +123,12 @@ impl Pens {
     /// pass.
     pub fn after(&mut self, event: &WindowEvent, input: &RawInput) {
         let count = input.events.iter().filter(|event| is_of_pointer(event)).count();
-        self.samples.resize(count.max(self.samples.len()), self.pressure);
-        let ends =
-            |phase| matches!(phase, winit::event::TouchPhase::Ended | winit::event::TouchPhase::Cancelled);
-        if matches!(event, WindowEvent::Touch(touch) if ends(touch.phase)) {
+        let lifts = matches!(event, WindowEvent::Touch(touch) if ends(touch.phase));
+        let releases = matches!(event, WindowEvent::MouseInput { state: ElementState::Released, .. });
+        // A pen presses less and less before it is lifted; what counts is how hard it pressed.
+        let greatest = if lifts || releases { self.greatest.take() } else { None };
+        self.samples.resize(count.max(self.samples.len()), greatest.unwrap_or(self.pressure));
+        if lifts {
             self.pressure = 1.0;
         }
     }
@@ -136,6 +160,10 @@ impl PressureAxis {
     }
 }
 
+fn ends(phase: TouchPhase) -> bool {
+    matches!(phase, TouchPhase::Ended | TouchPhase::Cancelled)
+}
+
 fn is_of_pointer(event: &Event) -> bool {
     matches!(event, Event::PointerMoved(_) | Event::PointerButton { .. })
 }
@@ -164,7 +192,7 @@ mod tests {
 
     use egui::pos2;
     use winit::dpi::PhysicalPosition;
-    use winit::event::{DeviceId, Force, MouseButton, Touch, TouchPhase};
+    use winit::event::{DeviceId, Force, MouseButton, Touch};
 
     use super::*;
 
@@ -176,9 +204,16 @@ mod tests {
         WindowEvent::AxisMotion { device_id: DeviceId::dummy(), axis, value }
     }
 
+    fn button(state: ElementState) -> WindowEvent {
+        WindowEvent::MouseInput { device_id: DeviceId::dummy(), state, button: MouseButton::Left }
+    }
+
     fn pressed() -> WindowEvent {
-        let (state, button) = (ElementState::Pressed, MouseButton::Left);
-        WindowEvent::MouseInput { device_id: DeviceId::dummy(), state, button }
+        button(ElementState::Pressed)
+    }
+
+    fn released() -> WindowEvent {
+        button(ElementState::Released)
     }
 
     fn touch(phase: TouchPhase, force: Option<Force>) -> WindowEvent {
@@ -254,6 +289,76 @@ mod tests {
         assert_eq!(told(&mut pens, &[moved(), axis(2, 0.0), pressed()]), [0.0, 0.3]);
         is_pen.set(false);
         assert_eq!(told(&mut pens, &[pressed(), moved()]), [1.0, 1.0]);
+    }
+
+    #[test]
+    fn the_system_is_asked_only_after_a_pen_told_something() {
+        let asked = Rc::new(Cell::new(0));
+        let count = Rc::clone(&asked);
+        let mut pens = Pens::new(move || {
+            count.set(count.get() + 1);
+            tablet(600.0)
+        });
+        assert_eq!(told(&mut pens, &[moved(), axis(2, 0.0), pressed(), released()]), [0.0, 0.3, 0.3]);
+        assert_eq!(asked.get(), 2);
+        let clicks = [pressed(), released(), moved(), axis(0, 4.0), pressed(), released()];
+        assert_eq!(told(&mut pens, &clicks), [1.0; 5], "a mouse");
+        assert_eq!(asked.get(), 2);
+        assert_eq!(told(&mut pens, &[axis(2, 100.0), pressed()]), [0.3]);
+        assert_eq!(asked.get(), 3);
+    }
+
+    #[test]
+    fn the_greatest_pressure_goes_with_the_release() {
+        let mut pens = Pens::new(|| tablet(20.0));
+        // It is set down, pressed and lifted in one place.
+        let events = [moved(), axis(2, 0.0), pressed(), axis(2, 1200.0), axis(2, 40.0), released()];
+        assert_eq!(told(&mut pens, &events), [0.0, 0.01, 0.6]);
+        // Under the string of a steady brush, this is as hard as it got.
+        assert!((felt(0.2, &[0.01, 0.6]) - 0.6).abs() < 1e-9);
+        let events = [axis(2, 30.0), pressed(), moved(), axis(2, 1600.0), axis(2, 10.0), released()];
+        let told = told(&mut pens, &events);
+        assert_eq!(told, [0.01, 0.005, 0.8]);
+        assert!((felt(0.2, &told) - 0.8).abs() < 1e-9);
+    }
+
+    /// The mean pressure of a path that trembles in one place: a press, moves, and a release.
+    fn felt(steady: f64, pressures: &[f64]) -> f64 {
+        use glam::{DAffine3, DVec2, DVec3};
+        use impasto_editor_model::path::{Faces, PathSettings, SurfacePath};
+        use impasto_editor_model::picking::{Hit, View};
+        use impasto_scene::document::Lens;
+        use impasto_scene::motion::CameraPose;
+        let hit = Hit {
+            object: 0,
+            triangle: 0,
+            barycentric: [1.0, 0.0, 0.0],
+            position_in_model: DVec3::ZERO,
+            normal_in_model: DVec3::Z,
+            face_normal_in_model: DVec3::Z,
+            position_in_world: DVec3::ZERO,
+            distance: 10.0,
+            front: true,
+            flipped: false,
+        };
+        let camera = CameraPose {
+            eye: DVec3::new(0.0, 0.0, 10.0),
+            target: DVec3::ZERO,
+            roll_rad: 0.0,
+            shift: DVec2::ZERO,
+            lens: Lens::Perspective { fov_y_deg: 35.0, near: 0.05, far: 100.0 },
+        };
+        let view = View { camera, size_px: DVec2::new(640.0, 360.0) };
+        let settings = PathSettings { radius_px: 10.0, steady, faces: Faces::Front };
+        let at = DVec2::new(100.0, 100.0);
+        let path = SurfacePath::press(at, &hit, &view, DAffine3::IDENTITY, &settings);
+        let mut path = path.pressed(pressures[0]);
+        let (last, moves) = pressures[1..].split_last().expect("a release");
+        for (step, pressure) in moves.iter().enumerate() {
+            path.press_by(*pressure);
+            path.move_to(at + DVec2::new(step as f64 + 1.0, 0.0), &mut |_| Some(hit));
+        }
+        path.lifted(*last).finished(&mut |_| Some(hit)).mean_pressure()
     }
 
     #[test]

@@ -7,8 +7,9 @@ use egui_kittest::kittest::Queryable as _;
 use egui_kittest::{Harness, SnapshotOptions, SnapshotResults};
 use impasto_editor::panels::frame_viewer::{ViewerAsk, ViewerShown, frame_viewer};
 use impasto_editor::theme::{self, Theme};
+use impasto_editor::window::FocusRules;
 use impasto_editor_model::finished_frames::FinishedFrames;
-use impasto_editor_model::keymap::{Keymap, Preset};
+use impasto_editor_model::keymap::{self, Action, CommandId, Keymap, Preset};
 use impasto_gl_render::context::Driver;
 
 use crate::headless::Headless;
@@ -19,6 +20,8 @@ struct Page {
     picture: Option<TextureHandle>,
     fault: Option<&'static str>,
     asked: Vec<ViewerAsk>,
+    numpad: Vec<(keymap::Key, keymap::Modifiers)>,
+    is_covered: bool,
 }
 
 impl Page {
@@ -30,6 +33,8 @@ impl Page {
             picture: None,
             fault: None,
             asked: Vec::new(),
+            numpad: Vec::new(),
+            is_covered: false,
         }
     }
 
@@ -39,12 +44,15 @@ impl Page {
             let image = ColorImage::new([160, 90], (0..160 * 90).map(pixel).collect());
             self.picture = Some(ui.ctx().load_texture("frame", image, egui::TextureOptions::LINEAR));
         }
+        let numpad = std::mem::take(&mut self.numpad);
         let shown = ViewerShown {
             frames: &self.frames,
             picture: self.picture.as_ref().filter(|_| self.fault.is_none()),
             shown: Some(self.frames.at()),
             fault: self.fault,
             keymap: &self.keymap,
+            numpad: &numpad,
+            is_covered: self.is_covered,
         };
         if let Some(ask) = frame_viewer(ui, &shown) {
             self.asked.push(ask);
@@ -63,7 +71,10 @@ fn harness(page: Page, theme: Theme, wide: f32) -> Harness<'static, Page> {
         .with_size(vec2(wide, 240.0))
         .with_theme(if theme == Theme::Dark { egui::Theme::Dark } else { egui::Theme::Light })
         .with_render_cursor(false)
-        .with_context_setup(move |ctx| theme::apply(ctx, theme, 1.0))
+        .with_context_setup(move |ctx| {
+            theme::apply(ctx, theme, 1.0);
+            ctx.add_plugin(FocusRules);
+        })
         .renderer(Headless::open(Driver::Auto))
         .build_ui_state(|ui, page: &mut Page| page.ui(ui), page);
     harness.run();
@@ -95,7 +106,7 @@ fn keys_play_step_and_go_back_to_work() {
         assert_eq!(asked(&mut harness), []);
     }
     // The user's own keys play, too.
-    let id = impasto_editor_model::keymap::CommandId::named("Play").expect("a command");
+    let id = CommandId::named("Play").expect("a command");
     let keymap = Keymap { preset: Preset::Maya, ..Keymap::default() };
     harness.state_mut().keymap = keymap.with(id, vec!["L".parse().expect("a key")]);
     harness.key_press(Key::L);
@@ -157,4 +168,22 @@ fn how_it_looks() {
         harness.snapshot_options(name, &SnapshotOptions::new().threshold(0.6));
         results.extend_harness(&mut harness);
     }
+}
+
+#[test]
+fn a_question_over_it_has_the_keys_and_any_key_can_play() {
+    let mut harness = harness(Page::new(), Theme::Dark, 1000.0);
+    harness.state_mut().is_covered = true;
+    harness.key_press(Key::Escape);
+    harness.key_press(Key::Space);
+    assert_eq!(asked(&mut harness), []);
+    let page = harness.state_mut();
+    page.is_covered = false;
+    let play = CommandId::named(Action::Play.name()).expect("a command");
+    let chords = vec!["Tab".parse().expect("a key"), "NumPad 9".parse().expect("a key")];
+    page.keymap = page.keymap.with(play, chords);
+    page.numpad.push((keymap::Key::NumPad(9), keymap::Modifiers::default()));
+    assert_eq!(asked(&mut harness), [ViewerAsk::PlayOrStop]);
+    harness.key_press(Key::Tab);
+    assert_eq!(asked(&mut harness), [ViewerAsk::PlayOrStop]);
 }

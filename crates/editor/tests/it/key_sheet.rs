@@ -120,7 +120,7 @@ fn a_click_and_new_keys_change_a_command() {
     assert_eq!(does(&harness, "Ctrl L", Scope::Paint), Some(Action::Comb));
     assert_eq!(does(&harness, "C", Scope::Paint), None);
     assert!(harness.query_by_label("Take it over").is_none());
-    // The list of keys and the search show it.
+    // The list of keys shows it.
     harness.state_mut().open = Open::List;
     harness.run();
     assert_eq!(harness.query_all_by_label("Ctrl L").count(), 1, "the list of keys shows the new keys");
@@ -148,7 +148,64 @@ fn a_conflict_names_the_other_command_and_is_taken_over_or_left() {
     assert_eq!(does(&harness, "K", Scope::Arrange), None);
     // Back to all.
     click(&mut harness, "Reset all keys");
+    assert_ne!(harness.state().keymap, Keymap::default(), "it asks first");
+    click(&mut harness, "Cancel the change");
+    assert_eq!(does(&harness, "K", Scope::Paint), Some(Action::Comb));
+    click(&mut harness, "Reset all keys");
+    click(&mut harness, "Reset them");
     assert_eq!(harness.state().keymap, Keymap::default());
+}
+
+#[test]
+fn arrows_and_enter_choose_a_command() {
+    let mut harness = harness();
+    find(&mut harness, "import a");
+    press(&mut harness, Modifiers::NONE, egui::Key::Enter);
+    press(&mut harness, Modifiers::COMMAND, egui::Key::L);
+    assert_eq!(does(&harness, "Ctrl L", Scope::Paint), Some(Action::ImportMesh));
+    let mut harness = self::harness();
+    find(&mut harness, "along");
+    press(&mut harness, Modifiers::NONE, egui::Key::ArrowDown);
+    press(&mut harness, Modifiers::NONE, egui::Key::Enter);
+    harness.get_by_label_contains("Along Y: press the new keys");
+}
+
+#[test]
+fn keys_that_cannot_work_are_refused_with_words() {
+    for (search, name, key, words) in [
+        ("along x", "Along X", egui::Key::Num7, "7 cannot be given: numbers are typed while moving"),
+        ("read the", "Read the source again", egui::Key::K, "K cannot be given: in a field it is text"),
+        ("along x", "Along X", egui::Key::Plus, "This key cannot be given"),
+    ] {
+        let mut harness = harness();
+        find(&mut harness, search);
+        click(&mut harness, name);
+        press(&mut harness, Modifiers::NONE, key);
+        harness.get_by_label_contains(words);
+        assert_eq!(harness.state().keymap, Keymap::default());
+        // It still listens.
+        press(&mut harness, Modifiers::NONE, egui::Key::F9);
+        assert_ne!(harness.state().keymap, Keymap::default(), "{name}");
+    }
+    // Esc leaves it, whatever is held with it.
+    let mut harness = harness();
+    find(&mut harness, "comb");
+    click(&mut harness, "Comb");
+    press(&mut harness, Modifiers::COMMAND, egui::Key::Escape);
+    harness.get_by_label("Click a command to change its keys.");
+    assert!(harness.state().keymap == Keymap::default() && harness.state().open == Open::Keys);
+}
+
+#[test]
+fn a_lane_key_says_what_it_hides() {
+    let mut harness = harness();
+    find(&mut harness, "delete (keys");
+    click(&mut harness, "Delete (keys on a lane)");
+    press(&mut harness, Modifiers::NONE, egui::Key::K);
+    harness.get_by_label_contains("K would no longer do \u{201c}Compare with the reference\u{201d}");
+    click(&mut harness, "Take it over");
+    assert_eq!(does(&harness, "K", Scope::Lane), Some(Action::Delete));
+    assert_eq!(does(&harness, "K", Scope::Animate), Some(Action::Compare));
 }
 
 #[test]

@@ -30,7 +30,8 @@ fn every_command_has_a_name_of_its_own_and_every_key_its_words() {
         }
     }
     assert_eq!(chord("Ctrl k"), chord("Ctrl K"));
-    for text in ["", "Ctrl", "Ctrl Banana", "F13", "F0", "NumPad 10", "Meta K", "é", "12", "Fé"] {
+    assert_eq!(chord("Shift F35").key, Key::Function(35));
+    for text in ["", "Ctrl", "Ctrl Banana", "F36", "F0", "NumPad 10", "Meta K", "é", "12", "Fé"] {
         assert!(text.parse::<Chord>().is_err(), "{text}");
     }
 }
@@ -92,7 +93,8 @@ fn no_choice_of_keys_makes_a_key_do_two_things() {
         let mut own = keymap.clone();
         for (index, command) in commands.iter().enumerate() {
             let other = &commands[(index * 37 + 11) % commands.len()];
-            if command.id.is_free() && other.id.is_free() && !other.chords.is_empty() {
+            let works = other.chords.iter().all(|chord| command.id.refusal(*chord).is_none());
+            if works && command.id.is_free() && other.id.is_free() && !other.chords.is_empty() {
                 own = own.with(command.id, other.chords.clone());
                 assert_eq!(own.losers(command.id, &other.chords), []);
             }
@@ -115,4 +117,55 @@ fn escape_stays_what_cancels() {
     let keymap = Keymap { own, ..Keymap::default() };
     assert_eq!(keys(&keymap, "Comb"), ["K"]);
     assert_eq!(keys(&keymap, "Cancel"), ["Esc"]);
+}
+
+#[test]
+fn a_choice_outlasts_a_preset_that_has_the_same_keys() {
+    // Brush radius is on B in Maya's keys, so that this choice differs from Blender's only.
+    let own = with(&BLENDER, "Brush radius", &["B"]);
+    let maya = Keymap { preset: Preset::Maya, ..own.clone() };
+    let own = Keymap { preset: Preset::Blender, ..with(&maya, "Comb", &["Ctrl K"]) };
+    assert_eq!(keys(&own, "Brush radius"), ["B"], "a change of another command takes nothing away");
+    assert_eq!(keys(&own, "Comb"), ["Ctrl K"]);
+    let own = with(&own, "Comb", &["C"]);
+    assert_eq!(own.own.iter().map(|(id, _)| id.name()).collect::<Vec<_>>(), ["Brush radius"]);
+}
+
+#[test]
+fn keys_that_cannot_work_are_refused() {
+    for (name, key, works) in [
+        ("Along X", "7", false),
+        ("Along X", "NumPad 7", false),
+        ("Along X", "Shift -", false),
+        ("Along X", ".", false),
+        ("Along X", "Ctrl 7", true),
+        ("Keep", ",", false),
+        ("Keep", "K", true),
+        ("Read the source again", "K", false),
+        ("Read the source again", "Alt K", false),
+        ("Read the source again", "F7", true),
+        ("Read the source again", "Ctrl K", true),
+        ("Comb", "7", true),
+        ("Comb", "Shift Esc", false),
+        ("Cancel", "K", false),
+    ] {
+        assert_eq!(id(name).refusal(chord(key)).is_none(), works, "{name} {key}");
+        let own = with(&BLENDER, name, &[key]);
+        assert_eq!(keys(&own, name) == [key], works, "{name} {key}");
+        assert!(works || own == *BLENDER, "{name} {key}");
+    }
+    // By themselves, commands have none of these.
+    for keymap in keymaps() {
+        for command in keymap.commands().filter(|command| command.id.is_free()) {
+            assert!(command.chords.iter().all(|chord| command.id.refusal(*chord).is_none()));
+        }
+    }
+}
+
+#[test]
+fn a_key_on_a_lane_hides_what_it_does_elsewhere() {
+    let delete = id("Delete (keys on a lane)");
+    assert_eq!(BLENDER.hidden(delete, &[chord("K")]), [id("Compare with the reference")]);
+    assert_eq!(BLENDER.hidden(delete, &[chord("C")]), [], "Comb is of Paint");
+    assert_eq!(BLENDER.hidden(id("Along X"), &[chord("K")]), []);
 }

@@ -144,3 +144,44 @@ fn the_ring_shows_what_is_painted() {
     let during = wide(&world.drag_to(Tool::Comb, LINE[1], NONE));
     assert!((during / before - 0.5).abs() < 0.05, "{during} of {before}");
 }
+
+#[test]
+fn a_press_under_the_string_is_as_hard_as_the_pen_got() {
+    let mut world = World::new();
+    world.options.pressure = Pressure::Radius;
+    world.options.steady = 0.2;
+    // A hand trembles; the string, 24 pixels long, is not pulled.
+    for (step, (x, pressure)) in
+        [(320.0, 0.02), (322.0, 0.4), (319.0, 0.3), (323.0, 0.1)].into_iter().enumerate()
+    {
+        world.pressure = pressure;
+        match step {
+            0 => world.press(Tool::Touch, [x, 185.0], NONE),
+            _ => world.drag_to(Tool::Touch, [x, 185.0], NONE),
+        };
+    }
+    // What came without a movement comes with the release.
+    world.pressure = 0.6;
+    world.release(Tool::Touch);
+    let soft = touch(&world).width_px;
+    let mut world = World::new();
+    world.click(Tool::Touch, [320.0, 185.0], NONE);
+    assert!((soft / touch(&world).width_px - 0.6).abs() < 0.02, "{soft}");
+}
+
+#[test]
+fn the_release_of_a_drag_makes_it_no_harder() {
+    let radius = |released: f64| {
+        let mut world = World::new();
+        world.options.pressure = Pressure::Radius;
+        world.pressure = 0.5;
+        world.press(Tool::Comb, LINE[0], NONE);
+        for at in &LINE[1..] {
+            world.drag_to(Tool::Comb, *at, NONE);
+        }
+        world.pressure = released;
+        world.release(Tool::Comb);
+        world.guides(0)[0].radius
+    };
+    assert_eq!(radius(1.0), radius(0.5));
+}

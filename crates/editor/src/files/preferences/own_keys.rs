@@ -1,40 +1,32 @@
 //! Keys of the user's own as the file has them: commands and keys in words. Whatever cannot be read is left out, told,
-//! and stays in the file: a newer Impasto may have written it.
-
-use std::collections::BTreeMap;
+//! and stays in the file as it is: a newer Impasto may have written it.
 
 use impasto_editor_model::keymap::{Chord, CommandId, OwnKeys};
-use serde::{Deserialize, Deserializer, Serialize};
+use ron::Value;
+use serde::{Deserialize, Serialize};
 
 /// For each command by its name, its keys: `{"Comb": ["Ctrl K"]}`.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
-pub struct OwnKeysText(BTreeMap<String, Vec<String>>);
+pub struct OwnKeysText(Value);
+
+impl Default for OwnKeysText {
+    fn default() -> Self {
+        Self(Value::Map(ron::Map::new()))
+    }
+}
 
 impl OwnKeysText {
     /// What can be read of it.
     pub fn keys(&self) -> OwnKeys {
-        let mut own = OwnKeys::default();
-        for (name, texts) in &self.0 {
-            let chords: Result<Vec<Chord>, _> = texts.iter().map(|text| text.parse()).collect();
-            if let (Some(id), Ok(chords)) = (CommandId::named(name), chords) {
-                own.note(id, chords);
-            }
-        }
-        own
+        self.read().0
     }
 
     /// What cannot be read of it, in words; `None` if all can.
     pub fn fault(&self) -> Option<String> {
-        let fault = |(name, texts): (&String, &Vec<String>)| {
-            if CommandId::named(name).is_none() {
-                return Some(format!("no command is called “{name}”"));
-            }
-            texts.iter().find_map(|text| text.parse::<Chord>().err()).map(|fault| format!("{name}: {fault}"))
-        };
-        let mut faults = self.0.iter().filter_map(fault);
-        let first = faults.next()?;
-        let more = match faults.count() {
+        let (_, faults) = self.read();
+        let first = faults.first()?;
+        let more = match faults.len() - 1 {
             0 => String::new(),
             count => format!(" (and {count} more)"),
         };
@@ -44,33 +36,71 @@ impl OwnKeysText {
     /// Takes these keys in place of those that can be read.
     pub fn set(&mut self, own: &OwnKeys) {
         let read = self.keys();
+        let mut map = match std::mem::replace(&mut self.0, Value::Unit) {
+            Value::Map(map) => map,
+            // It stays beside the keys, under a name that no command has.
+            other => std::iter::once((Value::Unit, other)).collect(),
+        };
+        let name_of = |id: CommandId| Value::String(id.name());
         for (id, _) in read.iter() {
-            self.0.remove(&id.name());
+            map.remove(&name_of(id));
         }
         for (id, chords) in own.iter() {
-            self.0.insert(id.name(), chords.iter().map(Chord::text).collect());
+            let texts = chords.iter().map(|chord| Value::String(chord.text())).collect();
+            map.insert(name_of(id), Value::Seq(texts));
         }
+        self.0 = Value::Map(map);
+        // What another command's keys kept out is not to come to life once that has others.
+        loop {
+            let is_extra = |id: &CommandId| own.iter().all(|(other, _)| other != *id);
+            let extra = self.keys().iter().map(|(id, _)| id).find(is_extra);
+            let (Some(id), Value::Map(map)) = (extra, &mut self.0) else { break };
+            map.remove(&name_of(id));
+        }
+    }
+
+    /// What can be read, and what is wrong with the rest.
+    fn read(&self) -> (OwnKeys, Vec<String>) {
+        let (mut own, mut faults) = (OwnKeys::default(), Vec::new());
+        let Value::Map(map) = &self.0 else {
+            return (own, vec!["they are no list of commands with their keys".to_owned()]);
+        };
+        for (name, keys) in map.iter() {
+            let entry = entry(name, keys).and_then(|(id, chords)| match own.owner(id, &chords) {
+                Some(owner) => Err(format!("“{}” has the keys of “{}”", id.name(), owner.name())),
+                None => Ok((id, chords)),
+            });
+            match entry {
+                Ok((id, chords)) => own.note(id, chords),
+                Err(fault) => faults.push(fault),
+            }
+        }
+        (own, faults)
     }
 }
 
-impl<'de> Deserialize<'de> for OwnKeysText {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let mut read = BTreeMap::new();
-        // Anything may stand here; what is no map of names to lists of words has no keys.
-        if let ron::Value::Map(map) = ron::Value::deserialize(from)? {
-            for (name, keys) in map {
-                let ron::Value::String(name) = name else { continue };
-                let word = |value: ron::Value| match value {
-                    ron::Value::String(text) => text,
-                    other => format!("{other:?}"),
-                };
-                let texts = match keys {
-                    ron::Value::Seq(texts) => texts.into_iter().map(word).collect(),
-                    single => vec![word(single)],
-                };
-                read.insert(name, texts);
-            }
-        }
-        Ok(Self(read))
+/// A command with its keys; in words why there is none.
+fn entry(name: &Value, keys: &Value) -> Result<(CommandId, Vec<Chord>), String> {
+    let Value::String(name) = name else {
+        return Err("the name of a command must be a text".to_owned());
+    };
+    let id = CommandId::named(name).ok_or_else(|| format!("no command is called “{name}”"))?;
+    if !id.is_free() {
+        return Err(format!("{name}: Esc always cancels"));
     }
+    let texts = match keys {
+        Value::Seq(texts) => texts.as_slice(),
+        single => std::slice::from_ref(single),
+    };
+    let chord = |text: &Value| {
+        let Value::String(text) = text else {
+            return Err(format!("{name}: a key must be a text"));
+        };
+        let chord: Chord = text.parse().map_err(|fault| format!("{name}: {fault}"))?;
+        match id.refusal(chord) {
+            Some(reason) => Err(format!("{name}: {text} cannot be given: {reason}")),
+            None => Ok(chord),
+        }
+    };
+    Ok((id, texts.iter().map(chord).collect::<Result<_, _>>()?))
 }
