@@ -71,7 +71,7 @@ fn a_region_shows_all_that_can_be_set() {
             "Layer length",
             "Layer width",
             "Layer coverage",
-            "Layer thickness",
+            "Thickness",
             "Layer dryness",
             "Layer pickup",
             "Seed",

@@ -75,11 +75,11 @@ fn a_region_opens_the_eye_that_the_scene_has_shut() {
 fn numbers_and_brushes_of_the_selected_layer_are_set_and_reset() {
     let mut harness = open();
     click(&mut harness, "Layer form");
-    let before = value(&harness, "Layer thickness");
-    type_in(&mut harness, "Layer thickness", "0.2");
+    let before = value(&harness, "Thickness");
+    type_in(&mut harness, "Thickness", "0.2");
     assert_eq!(of_lemon(&harness, "form").thickness, Some(0.2));
-    click(&mut harness, "Reset Layer thickness");
-    assert_eq!(value(&harness, "Layer thickness"), before);
+    click(&mut harness, "Reset Thickness");
+    assert_eq!(value(&harness, "Thickness"), before);
     type_in(&mut harness, "Layer length", "50");
     assert_eq!(of_lemon(&harness, "form").length_px, Some(50.0));
     click(&mut harness, "Brush knife of form");
