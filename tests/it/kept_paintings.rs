@@ -280,7 +280,7 @@ fn strokes(folder: &Path, more: &[&str]) -> Output {
 fn strokes_with(folder: &Path, more: &[&str], variable: &str) -> Output {
     let mut command = Command::new(impasto());
     command.env("IMPASTO_CACHE", variable);
-    command.arg("strokes").arg(root().join("scenes/still_life.ron")).args(SMALL).args(more);
+    command.arg("strokes").arg(root().join("scenes/touching_cubes.ron")).args(SMALL).args(more);
     command.current_dir(folder).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
     let output = command.output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));

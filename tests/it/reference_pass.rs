@@ -10,7 +10,6 @@ use impasto_scene::document::{
     Color, Lens, Light, LightKind, MaterialOverride, Object, ObjectKey, Scale, Scene, Style,
 };
 use impasto_scene::loaded::LoadedScene;
-use impasto_scene::mesh_file::{MeshFile, Texture};
 use impasto_tests::pictures::{Grey, renderer};
 use impasto_tests::shapes;
 
@@ -64,18 +63,10 @@ fn the_back_of_a_sheet_is_lit_as_its_front() {
 fn a_hole_ends_where_alpha_is_the_cutoff() {
     const TEXELS: u32 = 256;
     let mut renderer = renderer(Driver::Egl);
-    let row: Vec<[u8; 4]> = (0..TEXELS).map(|alpha| [255, 255, 255, alpha as u8]).collect();
-    let texture = Arc::new(Texture { size_px: [TEXELS, 1], rgba8: row });
     for cutoff in [0.2, 0.5, 0.9] {
         let scene = plain(shapes::object("sheet", 100), [0.0, 0.0, -1.0]);
-        let mut loaded = LoadedScene::clone(&shapes::loaded(scene, [shapes::sheet(1)]));
-        for file in loaded.meshes.values_mut() {
-            let mut cut = MeshFile::clone(file);
-            cut.materials[0].texture = Some(Arc::clone(&texture));
-            cut.materials[0].cutoff = Some(cutoff as f32);
-            *file = cut.into();
-        }
-        drawn(&mut renderer, loaded.into());
+        let loaded = shapes::loaded(scene, [shapes::sheet(1)]);
+        drawn(&mut renderer, shapes::with_holes(&loaded, cutoff as f32));
         let ids = renderer.read_reference().body_id;
         // A texel has its own alpha at its centre. Between two centres alpha is interpolated linearly.
         let share = (cutoff * f64::from(TEXELS - 1) + 0.5) / f64::from(TEXELS);

@@ -1,6 +1,7 @@
 //! Tests of ink on paper. First the source's five passes are compared with a version on the CPU that shares no code
 //! with them, then what our own rule adds is tested.
 
+mod holes;
 mod laid_ink;
 
 use glam::{DVec3, Vec3};

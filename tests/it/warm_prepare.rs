@@ -20,7 +20,7 @@ fn start() -> Arc<LoadedScene> {
     let mut scene = shapes::scene(vec![shapes::object("apple", 1500), shapes::object("ball", 900)]);
     scene.style = Style::default();
     scene.strokes = Default::default();
-    (scene.strokes.length_px, scene.strokes.width_px) = (Some(26.0), Some(9.0));
+    (scene.strokes.length_px, scene.strokes.width_px) = (Some(40.0), Some(14.0));
     // All particle counts follow from the view, that of the body layer too.
     scene.objects.iter_mut().for_each(|object| object.particles = None);
     scene.size = (480, 320);
@@ -75,8 +75,8 @@ fn edits() -> Vec<Edit> {
         edit("angle of the combed", |scene| scene.regions[0].direction = Direction::Angle(-50.0)),
         edit("crossing", |scene| scene.regions[1].direction = Direction::Crossing(-58.0, 4.0)),
         edit("bend", |scene| scene.regions[1].direction = Direction::Curvature(Bend::Max)),
-        edit("shorter", |scene| scene.regions[0].strokes.length_px = Some(19.0)),
-        edit("longer", |scene| scene.regions[0].strokes.length_px = Some(31.0)),
+        edit("shorter", |scene| scene.regions[0].strokes.length_px = Some(29.0)),
+        edit("longer", |scene| scene.regions[0].strokes.length_px = Some(48.0)),
         edit("jitter", |scene| scene.regions[0].strokes.angle_jitter_deg = Some(15.0)),
         edit("flatness", |scene| scene.regions[0].strokes.flatness = Some(0.4)),
         edit("offset", |scene| scene.regions[1].strokes.offset = Some(0.02)),
@@ -135,7 +135,7 @@ fn edits() -> Vec<Edit> {
                 settings.solver = Solver::Horn;
             }
         }),
-        edit("shorter by horn", |scene| scene.strokes.length_px = Some(22.0)),
+        edit("shorter by horn", |scene| scene.strokes.length_px = Some(34.0)),
         edit("object removed", |scene| {
             scene.objects.remove(1);
             scene.regions.retain(|region| region.on.object() != Some("ball"));

@@ -207,6 +207,22 @@ pub fn loaded(scene: Scene, meshes: impl IntoIterator<Item = TriangleMesh>) -> A
     })
 }
 
+/// The scene with holes in its objects: a texture whose alpha rises from 0 at the left to 1 at the right, drawn where
+/// alpha is at least `cutoff`.
+pub fn with_holes(loaded: &LoadedScene, cutoff: f32) -> Arc<LoadedScene> {
+    const TEXELS: u32 = 256;
+    let row: Vec<[u8; 4]> = (0..TEXELS).map(|alpha| [255, 255, 255, alpha as u8]).collect();
+    let texture = Arc::new(Texture { size_px: [TEXELS, 1], rgba8: row });
+    let mut loaded = loaded.clone();
+    for file in loaded.meshes.values_mut() {
+        let mut cut = MeshFile::clone(file);
+        cut.materials[0].texture = Some(Arc::clone(&texture));
+        cut.materials[0].cutoff = Some(cutoff);
+        *file = cut.into();
+    }
+    loaded.into()
+}
+
 /// A mesh with its vertices moved by `by`, and with normals computed from its faces.
 pub fn moved(mesh: &TriangleMesh, by: impl Fn(DVec3) -> DVec3) -> TriangleMesh {
     let positions: Vec<Vec3> = mesh.positions.iter().map(|at| by(at.as_dvec3()).as_vec3()).collect();

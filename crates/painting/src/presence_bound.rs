@@ -44,7 +44,7 @@ impl Painting {
         let bound = |(index, strokes): (usize, &Cow<'_, ResolvedStrokes>)| {
             let layer = strokes.layer_of(coat.kind);
             let is_hidden = body.hidden || regions.get(index).is_some_and(|region| region.hidden);
-            if is_hidden || layer.coverage <= 0.0 {
+            if is_hidden || layer.hidden || layer.coverage <= 0.0 {
                 return None;
             }
             let ([longer_painted, wider_painted], more_painted) = coat.amounts.most(index);

@@ -36,8 +36,9 @@ impl StrokesFile {
         Self { version: Scene::VERSION, height_px: scene.size.1, strokes }
     }
 
-    /// The settings for a scene of this height, in place of `own`, which keep what a preset does not state. Those of a
-    /// region have no ground and no order of layers.
+    /// The settings for a scene of this height, in place of `own`. What belongs to that scene stays: its changes over time,
+    /// which region lies over which and, where the preset states none, its ground and its order of layers. A region has
+    /// neither of the last two.
     pub fn applied_to(&self, own: &StrokeSettings, height_px: u32, is_region: bool) -> StrokeSettings {
         let mut strokes = self.strokes.clone();
         scale(&mut strokes, f64::from(height_px) / f64::from(self.height_px.max(1)));
@@ -46,6 +47,13 @@ impl StrokesFile {
         if is_region {
             strokes.order.clear();
             strokes.layers.retain(|layer| layer.name != GROUND);
+            return strokes;
+        }
+        if strokes.order.is_empty() {
+            strokes.order.clone_from(&own.order);
+        }
+        if strokes.layers.iter().all(|layer| layer.name != GROUND) {
+            strokes.layers.extend(own.layers.iter().filter(|layer| layer.name == GROUND).cloned());
         }
         strokes
     }
@@ -77,7 +85,7 @@ fn scale(strokes: &mut StrokeSettings, factor: f64) {
     if factor == 1.0 {
         return;
     }
-    let scaled = |px: f64| tidy((px * factor).clamp(0.001, MAX_STROKE_PX));
+    let scaled = |px: f64| size_px(px * factor);
     strokes.length_px = strokes.length_px.map(scaled);
     strokes.width_px = strokes.width_px.map(scaled);
     for layer in &mut strokes.layers {
@@ -93,6 +101,11 @@ fn tidy(value: f64) -> f64 {
     (value * 1e6).round() / 1e6
 }
 
+/// A length or width that a file may state.
+fn size_px(px: f64) -> f64 {
+    tidy(px.clamp(0.001, MAX_STROKE_PX))
+}
+
 /// A region's settings with those that it takes from the scene. A region with a preset takes nothing.
 fn with_what_it_takes(scene: &Scene, own: &StrokeSettings) -> StrokeSettings {
     if own.preset.is_some() {
@@ -105,17 +118,26 @@ fn with_what_it_takes(scene: &Scene, own: &StrokeSettings) -> StrokeSettings {
         *(row.number.of)(&mut all) = stated;
     }
     // Sizes follow from each other, so they are stated as they come out.
-    if all.length_px.or(all.width_px).or(all.scale).is_some() {
-        all.length_px = Some(tidy(f64::from(resolved.body().length_px)));
-        all.width_px = Some(tidy(f64::from(resolved.body().width_px)));
+    let states_sizes = all.length_px.or(all.width_px).or(all.scale).is_some();
+    if states_sizes {
+        all.length_px = Some(size_px(f64::from(resolved.body().length_px)));
+        all.width_px = Some(size_px(f64::from(resolved.body().width_px)));
         all.scale = None;
     }
+    all.order.clear();
     all.brush = own.brush.clone().or(all.brush);
     all.edges = own.edges.or(all.edges);
     all.palette = own.palette.clone().or(all.palette);
-    for layer in &own.layers {
-        if all.layers.iter().all(|other| other.name != layer.name) {
-            all.layers.push(LayerSettings { name: layer.name.clone(), ..LayerSettings::default() });
+    let is_sized_body = |layer: &LayerSettings| {
+        layer.name == LayerKind::Body.name() && layer.length_px.or(layer.width_px).is_some()
+    };
+    // Those of the other layers follow from the body's, unless the layer `body` states its own: then each is stated.
+    let states_each = states_sizes && all.layers.iter().chain(&own.layers).any(is_sized_body);
+    let each = LayerKind::ALL.map(LayerKind::name).into_iter().filter(|_| states_each);
+    let of_region: Vec<String> = own.layers.iter().map(|layer| layer.name.clone()).collect();
+    for name in of_region.iter().map(String::as_str).chain(each) {
+        if all.layers.iter().all(|other| other.name != name) {
+            all.layers.push(LayerSettings { name: name.to_owned(), ..LayerSettings::default() });
         }
     }
     all.layers.retain(|layer| layer.name != GROUND);
@@ -131,9 +153,10 @@ fn with_what_it_takes(scene: &Scene, own: &StrokeSettings) -> StrokeSettings {
         }
         for row in LayerSettings::NUMBERS {
             let stated = |layer: &LayerSettings| (row.number.get)(layer).is_some();
-            if stated(layer) || of_region.is_some_and(stated) {
+            let is_size = matches!(row.number.field, "length_px" | "width_px");
+            if stated(layer) || of_region.is_some_and(stated) || is_size && states_each {
                 let value = f64::from(*(row.resolved)(&mut found.clone()));
-                *(row.number.of)(layer) = Some(tidy(value));
+                *(row.number.of)(layer) = Some(if is_size { size_px(value) } else { tidy(value) });
             }
         }
     }
@@ -180,10 +203,17 @@ mod tests {
 
     #[test]
     fn what_is_saved_of_a_region_looks_as_it_does_there_in_any_other_scene() {
-        let scene = scene();
-        let preset = StrokesFile::of(&scene, Some(0));
+        for body in [None, Some(LayerSettings { length_px: Some(100.0), ..layer("body") })] {
+            let mut scene = scene();
+            scene.strokes.layers.extend(body);
+            looks_as_it_does_there(&scene);
+        }
+    }
+
+    fn looks_as_it_does_there(scene: &Scene) {
+        let preset = StrokesFile::of(scene, Some(0));
         assert!(preset.strokes.keys.is_empty() && preset.strokes.layer.is_none());
-        let wanted = presets::resolve(&scene, Some(0));
+        let wanted = presets::resolve(scene, Some(0));
         let mut other = new_scene::empty();
         other.size = scene.size;
         other.strokes.preset = Some("impressionist".to_owned());
@@ -202,6 +232,19 @@ mod tests {
             assert_eq!(same(found), same(wanted));
         }
         assert_eq!((found.taper, found.edges, found.layer), (wanted.taper, wanted.edges, -1));
+    }
+
+    #[test]
+    fn the_preset_of_a_region_leaves_a_scene_its_ground_and_its_order() {
+        let mut from = scene();
+        from.strokes.order = LayerKind::ALL.map(|kind| kind.name().to_owned()).into_iter().rev().collect();
+        let preset = StrokesFile::of(&from, Some(0));
+        let order: Vec<String> = LayerKind::ALL.map(|kind| kind.name().to_owned()).into();
+        let ground = LayerSettings { opacity: Some(0.9), ..layer("ground") };
+        let own = StrokeSettings { order: order.clone(), layers: vec![ground.clone()], ..Default::default() };
+        let applied = preset.applied_to(&own, 720, false);
+        assert_eq!(applied.order, order);
+        assert!(applied.layers.contains(&ground) && applied.layers.len() > 1);
     }
 
     #[test]

@@ -233,6 +233,9 @@ fn paint_layer(settings: &mut StrokeSettings, layer: &LayerSettings) -> String {
     match layer.hidden {
         hidden if hidden == was_hidden => format!("Paint: {name}"),
         Some(true) => format!("Hide layer {name}"),
-        _ => format!("Show layer {name}"),
+        Some(false) => format!("Show layer {name}"),
+        // A region takes over again what the scene says.
+        None if was_hidden == Some(false) => format!("Hide layer {name}"),
+        None => format!("Show layer {name}"),
     }
 }

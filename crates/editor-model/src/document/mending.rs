@@ -11,7 +11,7 @@ use impasto_scene::load::salvage::{self, Loss};
 use impasto_scene::problem::Problem;
 
 use super::{Document, Step};
-use crate::change::{SceneChange, head};
+use crate::change::SceneChange;
 use crate::command::{Command, Directions};
 use crate::refusal::Refusal;
 use crate::source::Source;
@@ -246,34 +246,40 @@ fn guide_in(field_path: &str) -> Option<(usize, usize)> {
 
 /// Three-way merge of two versions, `left` and `right`, of the scene `from`. Refused where both changed the same thing.
 fn merged_scene(from: &Scene, left: &Scene, right: &Scene) -> Result<Scene, Refusal> {
-    let mut scene = Scene {
-        size: merged_value(&from.size, &left.size, &right.size, "size")?,
-        seed: merged_value(&from.seed, &left.seed, &right.seed, "seed")?,
-        background: merged_value(&from.background, &left.background, &right.background, "background")?,
-        background_keys: merged_value(
-            &from.background_keys,
-            &left.background_keys,
-            &right.background_keys,
-            "background's keys",
-        )?,
-        exposure: merged_value(&from.exposure, &left.exposure, &right.exposure, "exposure")?,
-        timeline: merged_value(&from.timeline, &left.timeline, &right.timeline, "timeline")?,
-        reference: merged_value(&from.reference, &left.reference, &right.reference, "reference")?,
-        further_references: merged_value(
-            &from.further_references,
-            &left.further_references,
-            &right.further_references,
-            "references",
-        )?,
-        camera: merged_value(&from.camera, &left.camera, &right.camera, "shot camera")?,
-        strokes: merged_value(&from.strokes, &left.strokes, &right.strokes, "strokes")?,
-        style: merged_value(&from.style, &left.style, &right.style, "style")?,
-        ..head(right)
-    };
-    scene.lights = merged_list(&from.lights, &left.lights, &right.lights, |light| &light.name)?;
-    scene.objects = merged_list(&from.objects, &left.objects, &right.objects, |object| &object.name)?;
-    scene.regions = merged_list(&from.regions, &left.regions, &right.regions, |region| &region.name)?;
-    Ok(scene)
+    /// The merged value of one field.
+    macro_rules! merged {
+        ($field:ident, $words:literal) => {
+            merged_value(&from.$field, &left.$field, &right.$field, $words)?
+        };
+    }
+    /// The merged list of one field, whose items have unique names.
+    macro_rules! merged_by_name {
+        ($field:ident) => {
+            merged_list(&from.$field, &left.$field, &right.$field, |item| &item.name)?
+        };
+    }
+    // Every field is named, so that a new one cannot be forgotten.
+    Ok(Scene {
+        version: right.version,
+        size: merged!(size, "size"),
+        seed: merged!(seed, "seed"),
+        background: merged!(background, "background"),
+        background_keys: merged!(background_keys, "background's keys"),
+        shot: merged!(shot, "shot"),
+        stage: if left.shot == from.shot { right.stage.clone() } else { left.stage.clone() },
+        timeline: merged!(timeline, "timeline"),
+        reference: merged!(reference, "reference"),
+        further_references: merged!(further_references, "references"),
+        camera: merged!(camera, "shot camera"),
+        exposure: merged!(exposure, "exposure"),
+        lights: merged_by_name!(lights),
+        objects: merged_by_name!(objects),
+        strokes: merged!(strokes, "strokes"),
+        regions: merged_by_name!(regions),
+        touches: merged_by_name!(touches),
+        style: merged!(style, "style"),
+        aovs: merged!(aovs, "AOVs"),
+    })
 }
 
 fn merged_value<T: Clone + PartialEq>(from: &T, left: &T, right: &T, what: &str) -> Result<T, Refusal> {

@@ -102,6 +102,24 @@ fn fixes_and_edits_both_hold_where_they_are_of_different_things() {
 }
 
 #[test]
+fn a_fix_keeps_touches_and_brings_those_that_the_text_adds() {
+    let touch =
+        |name| format!("(name: \"{name}\", on: \"leaf\", points: [(at: (0.5, 0.5, 0), normal: (0, 0, 1))])");
+    let more = format!("  touches: [{}],\n  strokes: (widht_px: 9),\n  seed: \"x\",\n", touch("glint"));
+    let folder = Folder::with(&scene("meshes/leaf.obj", &more));
+    let mut document = folder.open();
+    document.apply(&Command::Scene(SceneEdit::SetSize(640, 480))).expect("done");
+    document.fix_certain().expect("fixed");
+    assert_eq!(document.scene().touches.len(), 1, "a fix beside an edit");
+    let text = &document.source().expect("one problem is left").text;
+    let text = text.replace("\"x\"", "7").replace("touches: [", &format!("touches: [{}, ", touch("rim")));
+    document.read_text(&text).expect("read");
+    assert_eq!((document.scene().size, document.scene().seed), ((640, 480), 7));
+    let names: Vec<_> = document.scene().touches.iter().map(|touch| touch.name.as_str()).collect();
+    assert_eq!(names, ["rim", "glint"]);
+}
+
+#[test]
 fn choosing_another_mesh_replaces_a_missing_one_and_undo_brings_the_box_back() {
     let folder = Folder::with(&scene("lost.obj", ""));
     let mut document = folder.open();

@@ -107,9 +107,11 @@ impl Editor {
                 let scene = self.document.scene();
                 let objects = scene.objects.iter().filter(|object| object.hidden);
                 let regions = scene.regions.iter().filter(|region| region.hidden);
+                let touches = scene.touches.iter().filter(|touch| touch.hidden);
                 let hidden: Vec<Item> = objects
                     .map(|object| Item::Object(object.name.clone()))
                     .chain(regions.map(|region| Item::Region(region.name.clone())))
+                    .chain(touches.map(|touch| Item::Touch(touch.name.clone())))
                     .collect();
                 if !hidden.is_empty() {
                     self.run(&Command::Edit(Edit::SetHidden(hidden, false)));
@@ -267,24 +269,35 @@ impl Editor {
         }
     }
 
+    /// Hides or shows, locks or unlocks what is selected, all of it as the last one turns.
     fn hide_or_lock(&mut self, action: Action) {
-        let items = self.document.selection().items().iter();
-        let items: Vec<Item> =
-            items.filter(|item| matches!(item, Item::Object(_) | Item::Region(_))).cloned().collect();
+        let hides = action == Action::Hide;
+        let can = |item: &&Item| match item {
+            Item::Object(_) | Item::Region(_) => true,
+            Item::Touch(_) => hides,
+            _ => false,
+        };
+        let items: Vec<Item> = self.document.selection().items().iter().filter(can).cloned().collect();
         let Some(active) = items.last() else {
-            return self.refuse(&Refusal::new("Select an object or a region first"));
+            let what = if hides {
+                "Select an object, a region or a touch first"
+            } else {
+                "Select an object or a region first"
+            };
+            return self.refuse(&Refusal::new(what));
         };
         let scene = self.document.scene();
-        let (hidden, locked) = match active {
-            Item::Object(name) => {
-                let object = scene.objects.iter().find(|object| object.name == *name);
-                object.map_or((false, false), |object| (object.hidden, object.locked))
+        let name = active.name();
+        let state = match active {
+            Item::Object(_) => {
+                scene.objects.iter().find(|object| object.name == name).map(|it| (it.hidden, it.locked))
             }
-            _ => {
-                let region = scene.regions.iter().find(|region| region.name == active.name());
-                region.map_or((false, false), |region| (region.hidden, region.locked))
+            Item::Touch(_) => {
+                scene.touches.iter().find(|touch| touch.name == name).map(|it| (it.hidden, false))
             }
+            _ => scene.regions.iter().find(|region| region.name == name).map(|it| (it.hidden, it.locked)),
         };
+        let (hidden, locked) = state.unwrap_or_default();
         self.run(&Command::Edit(match action {
             Action::Hide => Edit::SetHidden(items, !hidden),
             _ => Edit::SetLocked(items, !locked),

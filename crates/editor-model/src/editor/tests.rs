@@ -1,6 +1,7 @@
 //! Tests of the editor through plain events: drags, cancelling, typed numbers, stroke previews.
 
 use std::path::Path;
+use std::sync::OnceLock;
 
 use glam::DVec2;
 use impasto_painting::prepare;
@@ -18,12 +19,14 @@ mod time;
 
 const SIZE_PX: DVec2 = DVec2::new(960.0, 540.0);
 
-/// An editor with `apple.ron`, prepared.
+/// An editor with `apple.ron`, prepared. All share one painting of it, since preparing is the slow part.
 fn with_apple() -> Editor {
+    static PAINTING: OnceLock<Painting> = OnceLock::new();
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/apple.ron");
     let document = Document::open(&path, &LoadOptions::default()).expect("a shipped scene opens");
     let mut editor = Editor::new(document);
-    prepared(&mut editor);
+    let painting = PAINTING.get_or_init(|| prepare(Arc::clone(editor.shown().0)).expect("it prepares"));
+    editor.prepared(painting.clone());
     editor
 }
 

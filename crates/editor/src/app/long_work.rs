@@ -69,9 +69,9 @@ impl LongWork {
         self.queue.clear();
     }
 
-    /// Drops the pictures that wait: they were to be brushes for a mesh that was not read.
+    /// Drops the pictures and presets that wait: they were for a mesh that was not read.
     fn drop_brushes(&mut self) {
-        self.queue.retain(|step| !matches!(step, Step::Picture(_)));
+        self.queue.retain(|step| !matches!(step, Step::Picture(_) | Step::Preset(_)));
     }
 
     /// The entry in the status line; none while reading has taken less than [`SHOWN_AFTER`].

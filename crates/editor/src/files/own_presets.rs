@@ -29,9 +29,9 @@ pub fn presets_folder() -> Option<PathBuf> {
 pub fn presets_in(folder: &Path) -> Vec<OwnPreset> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
     let paths = entries.flatten().map(|entry| entry.path()).filter(|path| is_preset(path) && path.is_file());
-    let mut found: Vec<OwnPreset> =
-        paths.take(MOST).map(|path| OwnPreset { name: name_of(&path), path }).collect();
+    let mut found: Vec<OwnPreset> = paths.map(|path| OwnPreset { name: name_of(&path), path }).collect();
     found.sort_by(|a, b| (&a.name, &a.path).cmp(&(&b.name, &b.path)));
+    found.truncate(MOST);
     found
 }
 

@@ -85,6 +85,8 @@ impl SumiE {
             Some(targets) => targets,
             None => SourceTargets::new(&self.gpu, frame.size_px)?,
         });
+        programs.silhouette.prepare(frame)?;
+        programs.interior.prepare(frame)?;
         let gpu = &self.gpu;
         let tones = ramp(gpu, settings)?;
         // The light moves with the eye, so that the highlight keeps its place in the picture.
@@ -214,7 +216,10 @@ impl SumiE {
 
 impl StyleRenderer for SumiE {
     fn ready_all(&mut self) -> Result<(), GlError> {
-        self.source = Some(SourcePrograms::new(&self.gpu)?);
+        let mut source = SourcePrograms::new(&self.gpu)?;
+        source.silhouette.ready_all()?;
+        source.interior.ready_all()?;
+        self.source = Some(source);
         self.painter = Some(PainterPrograms::new(&self.gpu)?);
         Ok(())
     }

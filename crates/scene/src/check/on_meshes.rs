@@ -167,9 +167,15 @@ impl<'a> Reached<'a> {
         self.group.is_none_or(|group| own == group)
     }
 
-    fn distance(&self, at: DVec3, triangle: usize) -> f64 {
+    /// How far away a triangle is, if that is less than `least`. Its box is compared first, which is cheaper.
+    fn distance_below(&self, least: f64, at: DVec3, triangle: usize) -> Option<f64> {
         let corners = self.file.mesh.corners(triangle).map(|corner| self.model_from_file * corner.as_dvec3());
-        (at - nearest_point(at, corners)).length()
+        let [low, high] = [DVec3::min, DVec3::max].map(|end| end(end(corners[0], corners[1]), corners[2]));
+        let to_box = at - at.clamp(low, high);
+        if to_box.length_squared() >= least * least {
+            return None;
+        }
+        Some((at - nearest_point(at, corners)).length()).filter(|&distance| distance < least)
     }
 
     /// Whether a triangle that is shown lies within `radius` of `at`. One corner of each triangle is compared first,
@@ -184,7 +190,7 @@ impl<'a> Reached<'a> {
             || (self.last..mesh.triangles.len()).chain(0..self.last).filter(|&triangle| self.shows(triangle));
         let found = from_last()
             .find(|&triangle| by_corner(triangle))
-            .or_else(|| from_last().find(|&triangle| self.distance(at, triangle) < radius));
+            .or_else(|| from_last().find(|&triangle| self.distance_below(radius, at, triangle).is_some()));
         self.last = found.unwrap_or(self.last);
         found.is_some()
     }
@@ -192,7 +198,7 @@ impl<'a> Reached<'a> {
     /// How far away the nearest triangle is.
     fn least_distance(&self, at: DVec3) -> f64 {
         let shown = (0..self.file.mesh.triangles.len()).filter(|&triangle| self.shows(triangle));
-        shown.map(|triangle| self.distance(at, triangle)).fold(f64::INFINITY, f64::min)
+        shown.fold(f64::INFINITY, |least, triangle| self.distance_below(least, at, triangle).unwrap_or(least))
     }
 }
 

@@ -195,6 +195,10 @@ fn check_order(strokes_path: &str, order: &[String], findings: &mut Findings) {
         return findings.error(order_path, "a region has no order of its own", mend);
     }
     let known = LayerKind::ALL.map(LayerKind::name);
+    if order.len() > known.len() {
+        let message = format!("the order names {} layers; there are {}", order.len(), known.len());
+        return findings.error(order_path, message, "name each layer once, from the lowest to the highest");
+    }
     let mut has_others = false;
     for (index, name) in order.iter().enumerate() {
         let item_path = format!("{order_path}[{index}]");

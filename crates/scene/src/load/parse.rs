@@ -430,8 +430,8 @@ fn what_goes_into(field: &str) -> Option<&'static str> {
         "tones" => "four tones from dark to light, as in (0.15, 0.45, 0.7, 0.95)",
         "solver" => "Tangent, Horn or HornExact",
         "ease" => "Step, Linear or Smooth",
-        "kind" => "Sun, Point or Ambient",
-        "up" => "Y or Z",
+        "kind" => "Sun, Point, Spot or Ambient",
+        "up" => "Y, Z, X, NegX, NegY or NegZ",
         "on" => {
             "Everything, Object(\"apple\"), Collection(\"fruit\"), EachMaterial(\"wood\"), Group(\"apple\", \"leaf\"), Material(\"apple\", \"wood\"), Dabs(\"apple\", [(at: …, normal: …, radius: 0.1)]), Flood(\"apple\", (at: …, normal: …), 30) or Several(\"apple\", [Whole, Group(\"leaf\"), Dabs(…)])"
         }
