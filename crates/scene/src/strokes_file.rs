@@ -68,6 +68,19 @@ impl StrokesFile {
         pictures
     }
 
+    /// The same without the brushes that are pictures. A mix of nothing else is left out.
+    pub fn without_pictures(&self) -> Self {
+        let mut bare = self.clone();
+        let strokes = &mut bare.strokes;
+        for brush in strokes.layers.iter_mut().map(|layer| &mut layer.brush).chain([&mut strokes.brush]) {
+            if let Some(BrushMix(names)) = brush {
+                names.retain(|name| !presets::is_picture(name));
+            }
+            brush.take_if(|BrushMix(names)| names.is_empty());
+        }
+        bare
+    }
+
     /// Gives brushes other names.
     pub fn rename_brushes(&mut self, renamed: impl Fn(&str) -> Option<String>) {
         let strokes = &mut self.strokes;
@@ -133,8 +146,8 @@ fn with_what_it_takes(scene: &Scene, own: &StrokeSettings) -> StrokeSettings {
     };
     // Those of the other layers follow from the body's, unless the layer `body` states its own: then each is stated.
     let states_each = states_sizes && all.layers.iter().chain(&own.layers).any(is_sized_body);
-    let each = LayerKind::ALL.map(LayerKind::name).into_iter().filter(|_| states_each);
     let of_region: Vec<String> = own.layers.iter().map(|layer| layer.name.clone()).collect();
+    let each = LayerKind::ALL.map(LayerKind::name).into_iter().filter(|_| states_each);
     for name in of_region.iter().map(String::as_str).chain(each) {
         if all.layers.iter().all(|other| other.name != name) {
             all.layers.push(LayerSettings { name: name.to_owned(), ..LayerSettings::default() });
@@ -271,5 +284,7 @@ mod tests {
         assert_eq!(preset.brush_pictures(), ["a.png", "b.png", "c.png"]);
         preset.rename_brushes(|name| (name == "b.png").then(|| "brushes/b.png".to_owned()));
         assert_eq!(preset.strokes.brush, mix(&["round", "brushes/b.png", "a.png", "brushes/b.png"]));
+        let bare = preset.without_pictures();
+        assert_eq!((bare.strokes.brush, &bare.strokes.layers[0].brush), (mix(&["round"]), &None));
     }
 }
