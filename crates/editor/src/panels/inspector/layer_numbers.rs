@@ -93,7 +93,7 @@ impl EditedLayer {
         });
         let values = [0, 1].map(|which| self.value(of, &place.resolved[which], place.own[which]));
         let limits = Some(of.number.limits.clone());
-        let number = Number { default, limits, scene_decides: false, ..number };
+        let number = Number { of: self.name(), default, limits, scene_decides: false, ..number };
         asker.number(ui, &number, values, |to| self.with(place, of, to));
         is_own
     }
