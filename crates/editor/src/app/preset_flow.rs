@@ -1,18 +1,17 @@
 //! Presets of the user's own: saves them, lists them, and applies them.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use egui::Context;
-use impasto_editor_model::command::{Command, Regions, StrokesOf};
+use impasto_editor_model::command::StrokesOf;
 use impasto_editor_model::editor::Offer;
 use impasto_scene::load::strokes_file::{self, ENDING};
 use impasto_scene::strokes_file::StrokesFile;
 use impasto_scene::whole_file::failure_in_words;
-use impasto_scene::{assets, save};
 
 use super::EditorApp;
 use crate::files::file_ask::FileAsk;
-use crate::files::own_presets::{OwnPreset, presets_folder, presets_in, take_brushes_along};
+use crate::files::own_presets::{OwnPreset, preset_command, presets_folder, presets_in, save_preset};
 use crate::panels::problems::TroubleOf;
 
 /// The user's presets.
@@ -63,15 +62,8 @@ impl EditorApp {
                 index
             }
         };
-        let mut preset = StrokesFile::of(scene, index);
-        let folder = path.parent().unwrap_or(Path::new(".")).to_owned();
-        let taken = take_brushes_along(&mut preset, |name| document.file_at_hand(name), &folder);
-        let written = taken.map_err(|error| error.to_string()).and_then(|()| {
-            save::write_preset(path, &preset).map_err(|error| {
-                format!("the preset could not be saved to {}: {}", path.display(), failure_in_words(&error))
-            })
-        });
-        match written {
+        let preset = StrokesFile::of(scene, index);
+        match save_preset(preset, |name| document.file_at_hand(name), path) {
             Ok(()) => {
                 self.toast(format!("Saved the preset {}", strokes_file::name_of(path)), None, false);
                 self.list_presets();
@@ -99,36 +91,17 @@ impl EditorApp {
     pub(super) fn use_preset(&mut self, of: StrokesOf, path: &Path) {
         let trouble = TroubleOf::Preset(of.clone(), path.to_owned());
         self.settled(&trouble);
-        match self.preset_for_scene(path) {
+        match preset_command(self.editor.document(), &of, path) {
             Err(words) => self.trouble(trouble, words),
-            Ok(preset) => {
-                let name = strokes_file::name_of(path);
-                let preset = Box::new(preset);
-                let command = Command::Regions(Regions::ApplyPreset { of, preset, name: name.clone() });
+            Ok(command) => {
                 if let Some(refusal) = self.editor.document().would_refuse(&command) {
                     return self.trouble(trouble, refusal.to_string());
                 }
                 if self.editor.run(&command) {
+                    let name = strokes_file::name_of(path);
                     self.toast(format!("Preset {name}"), Some(Offer::Undo), false);
                 }
             }
         }
-    }
-
-    fn preset_for_scene(&self, path: &Path) -> Result<StrokesFile, String> {
-        let mut preset = strokes_file::load(path).map_err(|report| {
-            let words: Vec<String> = report.0.iter().take(3).map(ToString::to_string).collect();
-            words.join("; ")
-        })?;
-        let beside: PathBuf = path.to_owned();
-        let file_of = |name: &str| {
-            let root = beside.parent().filter(|folder| !folder.as_os_str().is_empty());
-            let root = root.unwrap_or(Path::new("."));
-            let request = assets::AssetRequest { beside: &beside, root, name, max_bytes: u64::MAX };
-            assets::AssetFolders::default().find(&request).ok()
-        };
-        take_brushes_along(&mut preset, file_of, self.editor.document().folder())
-            .map_err(|error| error.to_string())?;
-        Ok(preset)
     }
 }

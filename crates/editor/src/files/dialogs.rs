@@ -113,7 +113,16 @@ impl FileDialogs {
                 Picked::Cancelled => None,
             },
             ShownAs::Desktop(answers) => match (answers.try_recv(), open.since.elapsed()) {
-                (Ok(Some(path)), _) => Some(ask.completed(path)),
+                (Ok(Some(path)), _) => {
+                    let completed = ask.completed(path.clone());
+                    // The desktop has asked only about the name that was typed.
+                    if completed != path && completed.symlink_metadata().is_ok() {
+                        open.shown = ShownAs::Sheet(PathSheet::asking_to_replace(ask, &completed));
+                        ctx.request_repaint();
+                        return None;
+                    }
+                    Some(completed)
+                }
                 (Ok(None), waited) if waited > FASTEST_CANCEL => None,
                 (Ok(None) | Err(TryRecvError::Disconnected), _) => {
                     // There is no dialog here: do not try it again.

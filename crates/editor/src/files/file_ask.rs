@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use impasto_scene::load::strokes_file::{ENDING, is_preset};
+
 use super::incoming::{Kind, name_of, refusal};
 
 /// The purpose of a file that the user is asked for.
@@ -66,7 +68,7 @@ impl FileAsk {
     pub(super) fn completed(self, path: PathBuf) -> PathBuf {
         match self {
             Self::SaveAs | Self::SaveCopy => self.as_file(path, "ron"),
-            Self::SavePreset => self.as_file(path, "strokes.ron"),
+            Self::SavePreset => as_preset(path),
             Self::RenderOutput { ending } => self.as_file(path, ending),
             Self::Open
             | Self::ImportMesh
@@ -104,4 +106,19 @@ impl FileAsk {
         name.push(ending);
         PathBuf::from(name)
     }
+}
+
+/// The path with the whole ending of a preset; what is typed may have a part of it.
+fn as_preset(mut path: PathBuf) -> PathBuf {
+    if is_preset(&path) {
+        return path;
+    }
+    for part in ["ron", "strokes"] {
+        if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(part)) {
+            path.set_extension("");
+        }
+    }
+    let mut name = path.into_os_string();
+    name.push(ENDING);
+    PathBuf::from(name)
 }

@@ -11,6 +11,7 @@ use egui::{
     vec2,
 };
 
+use impasto_scene::load::strokes_file;
 use impasto_scene::whole_file::failure_in_words;
 
 use super::file_ask::FileAsk;
@@ -68,6 +69,12 @@ impl PathSheet {
             selects_name: is_file,
             new_folder: None,
         }
+    }
+
+    /// A sheet that asks first whether the file `path` may be replaced.
+    pub fn asking_to_replace(ask: FileAsk, path: &Path) -> Self {
+        let replaces = (!path.is_dir()).then(|| path.to_owned());
+        Self { replaces, ..Self::new(ask, path) }
     }
 
     /// Shows the sheet and returns the answer, once there is one.
@@ -183,8 +190,12 @@ impl PathSheet {
             response.request_focus();
         }
         if std::mem::take(&mut self.selects_name) {
-            let stem =
-                Path::new(&self.typed).file_stem().map_or(0, |stem| stem.to_string_lossy().chars().count());
+            let typed = Path::new(&self.typed);
+            let stem = match self.ask {
+                FileAsk::SavePreset => strokes_file::name_of(typed),
+                _ => typed.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+            };
+            let stem = stem.chars().count();
             let [from, to] = [0, stem].map(|at| egui::text::CCursor::new(egui::text::CharIndex(at)));
             let mut state = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
             state.cursor.set_char_range(Some(egui::text::CCursorRange::two(from, to)));

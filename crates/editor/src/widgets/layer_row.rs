@@ -46,7 +46,10 @@ impl LayerRow<'_> {
         let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
         let rest = if self.selected { tokens.sel } else { Color32::TRANSPARENT };
         let fill = if response.contains_pointer() && !self.selected { tokens.hov } else { rest };
-        ui.painter().rect_filled(rect, draw::corner(), fill);
+        let end = Rect::from_min_max(pos2(rect.right() - self.end, rect.top()), rect.max);
+        // The field at the end stands out from the panel, and would not from the fill of the row.
+        let filled = rect.with_max_x(end.left() - measure::GAP / 2.0);
+        ui.painter().rect_filled(filled, draw::corner(), fill);
         draw::focus_ring(ui, &response, rect.shrink(1.0), measure::CORNER);
         draw::named_state(&response, Role::ListItem, &format!("Layer {}", self.name), self.selected);
         let middle = rect.center().y;
@@ -54,7 +57,6 @@ impl LayerRow<'_> {
         let mut left = rect.left() + measure::HIT + 2.0;
         self.marks(ui, pos2(left, middle));
         left += 2.0 * PICTURE.x + 4.0;
-        let end = Rect::from_min_max(pos2(rect.right() - self.end, rect.top()), rect.max);
         let colour = if self.hidden || self.idle { tokens.weak } else { tokens.text };
         let room = end.left() - measure::GAP / 2.0 - left;
         draw::words_within(ui, pos2(left, middle), self.name, type_face::body(), colour, room);

@@ -29,8 +29,8 @@ macro_rules! layer_numbers {
             /// Brush, or a mix of brushes.
             #[serde(default, skip_serializing_if = "is_default")]
             pub brush: Option<BrushMix>,
-            /// Leaves the layer out of the picture, and keeps its numbers. In a region, `false` shows a layer that the
-            /// scene hides.
+            /// Leaves the layer out of the picture, and keeps its numbers; of `ground` only the tone, as the wash of
+            /// the body's colour stays. In a region, `false` shows a layer that the scene hides.
             #[serde(default, skip_serializing_if = "is_default")]
             pub hidden: Option<bool>,
             $($(#[doc = $effect])+ #[serde(default, skip_serializing_if = "is_default")] pub $field: Option<f64>,)+

@@ -63,6 +63,23 @@ fn what_the_desktop_answers_is_the_answer() {
 }
 
 #[test]
+fn a_name_that_gets_its_ending_replaces_no_file_unasked() {
+    let home = tempfile::tempdir().expect("a temporary folder");
+    let there = home.path().join("thick.strokes.ron");
+    fs::write(&there, "").expect("written");
+    let choose: Choose = |_, start| Some(start.with_file_name("thick"));
+    let proposed = home.path().join("new.strokes.ron");
+    let mut harness = page(Source::Desktop, choose, FileAsk::SavePreset, &proposed);
+    wait(&mut harness, |harness| harness.query_by_label("Keep it").is_some());
+    harness.run();
+    assert!(harness.state().answers.is_empty());
+    harness.get_by_label("Replace").click();
+    harness.run();
+    assert_eq!(harness.state().answers, [Answer { ask: FileAsk::SavePreset, path: Some(there) }]);
+    assert_eq!(harness.state().dialogs.source, Source::Desktop);
+}
+
+#[test]
 fn an_immediate_empty_answer_opens_the_windows_own_sheet() {
     let home = tempfile::tempdir().expect("a temporary folder");
     fs::write(home.path().join("apple.obj"), "").expect("written");

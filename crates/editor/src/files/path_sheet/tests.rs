@@ -194,6 +194,34 @@ fn the_proposed_name_is_selected_without_its_ending() {
 }
 
 #[test]
+fn the_whole_ending_of_a_preset_stays_when_its_name_is_typed() {
+    let (mut harness, home) = sheet(FileAsk::SavePreset, "still_life.strokes.ron");
+    harness.event(egui::Event::Text("pears".to_owned()));
+    harness.run();
+    assert_eq!(field(&harness), "pears.strokes.ron");
+    press(&mut harness, Key::Enter);
+    assert_eq!(harness.state().picked, Some(Picked::File(home.path().join("pears.strokes.ron"))));
+}
+
+#[test]
+fn a_preset_gets_what_its_ending_lacks_and_asks_before_it_replaces() {
+    for typed in ["thick", "thick.ron", "thick.RON", "thick.strokes", "thick.strokes.ron"] {
+        let (mut harness, home) = sheet(FileAsk::SavePreset, "");
+        type_in(&mut harness, typed);
+        press(&mut harness, Key::Enter);
+        let whole = home.path().join("thick.strokes.ron");
+        assert_eq!(harness.state().picked, Some(Picked::File(whole.clone())), "{typed}");
+
+        let (mut harness, home) = sheet(FileAsk::SavePreset, "");
+        fs::write(home.path().join("thick.strokes.ron"), "").expect("written");
+        type_in(&mut harness, typed);
+        press(&mut harness, Key::Enter);
+        harness.get_by_label("Replace");
+        assert_eq!(harness.state().picked, None, "{typed}");
+    }
+}
+
+#[test]
 fn a_folder_is_made_to_save_in() {
     let (mut harness, home) = sheet(FileAsk::SaveAs, "still_life.ron");
     harness.get_by_label("New folder").click();

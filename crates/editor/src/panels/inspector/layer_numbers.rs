@@ -93,7 +93,7 @@ impl EditedLayer {
         });
         let values = [0, 1].map(|which| self.value(of, &place.resolved[which], place.own[which]));
         let limits = Some(of.number.limits.clone());
-        let number = Number { default, limits, scene_decides: false, ..number };
+        let number = Number { of: self.name(), default, limits, scene_decides: false, ..number };
         asker.number(ui, &number, values, |to| self.with(place, of, to));
         is_own
     }
@@ -127,7 +127,7 @@ pub(super) fn shown(of: &'static LayerNumber) -> Option<Number<'static>> {
         "length_px" => px("Layer length", 1.0..=160.0),
         "width_px" => px("Layer width", 0.5..=60.0),
         "coverage" => Number { unit: "\u{d7}", range: 0.0..=8.0, step: (0.1, 2), ..share("Layer coverage") },
-        "thickness" => Number { range: 0.0..=2.0, ..share("Layer thickness") },
+        "thickness" => Number { range: 0.0..=2.0, ..share("Thickness") },
         "dryness" => share("Layer dryness"),
         "pickup" => share("Layer pickup"),
         _ => return None,

@@ -15,6 +15,8 @@ use crate::widgets::NumberField;
 pub(super) struct Number<'a> {
     /// The label, which is also the name for screen readers.
     pub(super) name: &'a str,
+    /// What it belongs to, where several things of one selection have numbers of this name.
+    pub(super) of: &'a str,
     /// What the number does, one sentence.
     pub(super) effect: &'a str,
     /// Shown after the value.
@@ -45,6 +47,7 @@ impl<'a> Number<'a> {
     pub(super) fn new(name: &'a str, effect: &'a str) -> Self {
         Self {
             name,
+            of: "",
             effect,
             unit: "",
             letter: "",
@@ -100,7 +103,7 @@ impl Asker<'_, '_> {
         } else if answer.stepped {
             if value != shown {
                 let of = self.shown.document.selection().active();
-                let key = format!("{} of {of:?}", number.name);
+                let key = format!("{} of {} of {of:?}", number.name, number.of);
                 self.asks.push(Ask::DoMerged(command(Some(value)), key));
             }
         } else if answer.ended {

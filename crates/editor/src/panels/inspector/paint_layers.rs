@@ -38,15 +38,21 @@ pub(super) fn section_of(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<
     });
 }
 
+/// Whether the scene is painted: only then do layers have an order and touches over them.
+fn is_painted(asker: &Asker<'_, '_>) -> bool {
+    matches!(asker.scene().style, Style::RotatingStrokes(_))
+}
+
 /// Whether the ground is one of the rows: a region has none of its own, and ink lies on paper.
 fn has_ground(asker: &Asker<'_, '_>, place: &EditedStrokes<'_>) -> bool {
-    place.index.is_none() && matches!(asker.scene().style, Style::RotatingStrokes(_))
+    place.index.is_none() && is_painted(asker)
 }
 
 fn list(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, order: [LayerKind; 7]) {
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
         match asker.scene().touches.len() {
+            _ if !is_painted(asker) => {}
             0 => {}
             1 => note(ui, "Over them lies 1 touch: it is in the tree."),
             count => note(ui, &format!("Over them lie {count} touches: they are in the tree.")),
@@ -58,7 +64,7 @@ fn list(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, order
         if has_ground(asker, place) {
             layer(ui, asker, place, EditedLayer::Ground);
         }
-        if place.index.is_none() {
+        if place.index.is_none() && is_painted(asker) {
             drag(ui, asker, place, &rows);
         }
     });
@@ -150,7 +156,7 @@ fn selected(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, k
     let is_twin = |field: &str| {
         kind == LayerKind::Body && matches!(field, "brush" | "length_px" | "width_px" | "coverage")
     };
-    if place.index.is_none() {
+    if place.index.is_none() && is_painted(asker) {
         order(ui, asker, place, kind);
     }
     if is_twin("brush") {

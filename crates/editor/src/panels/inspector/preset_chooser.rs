@@ -1,6 +1,6 @@
 //! The control that chooses the preset of a region or of the scene: one of the house, or one of the user's own.
 
-use egui::{Popup, Ui};
+use egui::{Popup, ScrollArea, Ui};
 use impasto_editor_model::command::StrokeChange;
 use impasto_scene::presets;
 
@@ -13,8 +13,9 @@ use crate::widgets::{self, MenuRow, Tip};
 /// What a region without a preset of its own is said to have.
 const AS_SCENE: &str = "As the scene";
 
-/// Width of the menu, points.
+/// Width of the menu, and the most height of the list of presets in it, points.
 const MENU: f32 = 168.0;
+const LIST: f32 = 320.0;
 
 pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
     let is_region = place.index.is_some();
@@ -36,6 +37,22 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes
 }
 
 fn menu(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, chosen: &str) {
+    let asks = [
+        ("Save as preset\u{2026}", Ask::SavePreset(place.of.clone())),
+        ("Load preset\u{2026}", Ask::LoadPreset(place.of.clone())),
+    ];
+    for (words, ask) in asks {
+        if (MenuRow { words, ..MenuRow::default() }).show(ui).clicked() {
+            asker.asks.push(ask);
+        }
+    }
+    ui.add_space(4.0);
+    // The user may have many.
+    let area = ScrollArea::vertical().max_height(LIST).min_scrolled_height(LIST).auto_shrink([false, true]);
+    area.show(ui, |ui| list(ui, asker, place, chosen));
+}
+
+fn list(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, chosen: &str) {
     let is_region = place.index.is_some();
     if is_region && widgets::choice_row(ui, AS_SCENE, chosen == AS_SCENE).clicked() {
         asker.ask(place.set(StrokeChange::Preset(None)));
@@ -55,16 +72,6 @@ fn menu(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, chose
         let effect = "Replaces all stroke settings here, in one step.";
         if (Tip { name: &preset.name, effect, ..Tip::default() }).on(row).clicked() {
             asker.asks.push(Ask::UsePreset(place.of.clone(), preset.path.clone()));
-        }
-    }
-    ui.add_space(4.0);
-    let asks = [
-        ("Save as preset\u{2026}", Ask::SavePreset(place.of.clone())),
-        ("Load preset\u{2026}", Ask::LoadPreset(place.of.clone())),
-    ];
-    for (words, ask) in asks {
-        if (MenuRow { words, ..MenuRow::default() }).show(ui).clicked() {
-            asker.asks.push(ask);
         }
     }
 }

@@ -71,7 +71,7 @@ fn a_region_shows_all_that_can_be_set() {
             "Layer length",
             "Layer width",
             "Layer coverage",
-            "Layer thickness",
+            "Thickness",
             "Layer dryness",
             "Layer pickup",
             "Seed",
@@ -87,7 +87,7 @@ fn a_region_shows_all_that_can_be_set() {
 }
 
 /// Turns the wheel over a field by `by` lines, up where positive.
-fn turn_the_wheel(harness: &mut Harness<'_, Column>, name: &str, by: f32, modifiers: Modifiers) {
+pub fn turn_the_wheel(harness: &mut Harness<'_, Column>, name: &str, by: f32, modifiers: Modifiers) {
     harness.hover_at(harness.get_by_role_and_label(Role::SpinButton, name).rect().center());
     harness.run();
     let event = egui::Event::MouseWheel {

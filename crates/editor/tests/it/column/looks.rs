@@ -4,11 +4,13 @@
 use crate::headless::Headless;
 use egui::{Vec2, vec2};
 use egui_kittest::{SnapshotOptions, SnapshotResults};
+use impasto_editor::panels::Control;
 use impasto_editor::theme::Theme;
 use impasto_editor_model::command::{Command, Edit, Regions, StrokeChange, StrokesOf};
 use impasto_editor_model::session::Mode;
 use impasto_editor_model::{Item, Selection};
 use impasto_gl_render::context::Driver;
+use impasto_scene::document::LayerSettings;
 
 use super::{Column, SIZE, build, builder, object, region, with_guides};
 
@@ -56,6 +58,20 @@ fn the_column_looks_as_it_did() {
     ));
     all.extend(picture("column_camera_dark", (of("still_life.ron", Some(Item::Camera)), Theme::Dark), SIZE));
     all.extend(picture("column_scene_dark", (of("still_life.ron", None), Theme::Dark), SIZE));
+    let mut layers = of("still_life.ron", None);
+    layers.tree_height = 40.0;
+    let hidden = |name: &str| {
+        StrokeChange::PaintLayer(Box::new(LayerSettings {
+            name: name.to_owned(),
+            hidden: Some(true),
+            opacity: Some(0.5),
+            ..LayerSettings::default()
+        }))
+    };
+    let of_scene = |change| Command::Regions(Regions::SetStroke(StrokesOf::Scene, change));
+    layers.apply(of_scene(hidden("scumble")));
+    layers.reach = Some(Control { name: "Layer form".to_owned(), section: "Paint layers".to_owned() });
+    all.extend(picture("column_layers_dark", (layers, Theme::Dark), vec2(280.0, 480.0)));
     let ink = of("sumi_e_carp.ron", None);
     all.extend(picture("column_ink_light", (ink, Theme::Light), vec2(280.0, 1240.0)));
 }

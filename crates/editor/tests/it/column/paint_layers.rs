@@ -3,9 +3,11 @@
 use egui::{Modifiers, Role};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use impasto_editor::files::own_presets::OwnPreset;
 use impasto_scene::document::{BrushMix, LayerSettings};
 use impasto_scene::presets::{self, LayerKind};
 
+use super::inspector::turn_the_wheel;
 use super::{Column, click, harness, pick, region, type_in};
 
 /// What the lemon states for a layer.
@@ -75,11 +77,11 @@ fn a_region_opens_the_eye_that_the_scene_has_shut() {
 fn numbers_and_brushes_of_the_selected_layer_are_set_and_reset() {
     let mut harness = open();
     click(&mut harness, "Layer form");
-    let before = value(&harness, "Layer thickness");
-    type_in(&mut harness, "Layer thickness", "0.2");
+    let before = value(&harness, "Thickness");
+    type_in(&mut harness, "Thickness", "0.2");
     assert_eq!(of_lemon(&harness, "form").thickness, Some(0.2));
-    click(&mut harness, "Reset Layer thickness");
-    assert_eq!(value(&harness, "Layer thickness"), before);
+    click(&mut harness, "Reset Thickness");
+    assert_eq!(value(&harness, "Thickness"), before);
     type_in(&mut harness, "Layer length", "50");
     assert_eq!(of_lemon(&harness, "form").length_px, Some(50.0));
     click(&mut harness, "Brush knife of form");
@@ -96,6 +98,49 @@ fn numbers_and_brushes_of_the_selected_layer_are_set_and_reset() {
     click(&mut harness, "Layer body");
     assert!(harness.query_by_label("Layer length").is_none());
     assert!(harness.query_by_label("Brush round of body").is_none());
+}
+
+#[test]
+fn steps_of_two_layers_are_two_entries() {
+    let mut harness = open();
+    let count = harness.state().document.undo_count();
+    for (layer, entries) in [("form", 1), ("form", 1), ("scumble", 2)] {
+        click(&mut harness, &format!("Layer {layer}"));
+        turn_the_wheel(&mut harness, "Thickness", -1.0, Modifiers::COMMAND);
+        assert!(of_lemon(&harness, layer).thickness.is_some(), "{layer}");
+        assert_eq!(harness.state().document.undo_count(), count + entries, "{layer}");
+    }
+}
+
+#[test]
+fn ink_has_no_order_of_layers() {
+    let mut harness = harness("still_life.ron", None);
+    click(&mut harness, "Layer form");
+    assert!(harness.query_by_label("Move layer up").is_some());
+    click(&mut harness, "Style ink");
+    let from = harness.get_by_label("Layer form").rect().center();
+    assert!(harness.query_by_label("Move layer up").is_none());
+    harness.drag_at(from);
+    harness.run();
+    harness.hover_at(from + egui::vec2(0.0, 70.0));
+    harness.run();
+    harness.drop_at(from + egui::vec2(0.0, 70.0));
+    harness.run();
+    assert_eq!(presets::laying_order(harness.state().document.scene()), LayerKind::ALL);
+}
+
+#[test]
+fn many_presets_leave_the_commands_within_reach() {
+    let mut harness = harness("still_life.ron", region("lemon"));
+    click(&mut harness, "Advanced");
+    let named =
+        |index| OwnPreset { name: format!("my {index}"), path: format!("/p/{index}.strokes.ron").into() };
+    harness.state_mut().own_presets = (0..200).map(named).collect();
+    click(&mut harness, "Preset");
+    let top = |name: &str| harness.get_by_label(name).rect().top();
+    assert!(top("Save as preset\u{2026}") < top("impressionist") && top("impressionist") < top("my 0"));
+    click(&mut harness, "Load preset\u{2026}");
+    assert_eq!(harness.state().asked_presets, ["load for lemon"]);
 }
 
 #[test]
