@@ -208,7 +208,7 @@ mod tests {
         let of_skin = StrokesOf::Region("skin".to_owned());
         let words = preset_command(&document, &of_skin, &path).unwrap_err();
         assert!(words.contains("skin"), "{words}");
-        assert_eq!(files_in(home), [file.clone()]);
+        assert_eq!(files_in(home), std::slice::from_ref(&file));
         let command = preset_command(&document, &StrokesOf::Scene, &path).unwrap();
         document.apply(&command).unwrap();
         let brush = BrushMix(vec!["brushes/mine/mine.png".to_owned()]);
