@@ -10,7 +10,6 @@ mod faults;
 mod fuzz;
 mod gallery;
 mod layers;
-mod lint;
 mod measure;
 mod package;
 mod packages;
@@ -47,7 +46,7 @@ cargo xtask <command>
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    match lint::in_place_of_rustc(&arguments).unwrap_or_else(|| run(&arguments)) {
+    match run(&arguments) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("xtask: {error:#}");

@@ -1,6 +1,5 @@
 //! Runs other programs for the commands of xtask, step by step, and prints how long each step took.
 
-use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
@@ -18,19 +17,8 @@ pub fn step<T>(name: &str, work: impl FnOnce() -> anyhow::Result<T>) -> anyhow::
 
 /// Runs a program in `root`, its output going where ours goes; fails unless it ends well.
 pub fn run(root: &Path, program: &str, arguments: &[&str]) -> anyhow::Result<()> {
-    run_with(root, program, arguments, &[])
-}
-
-/// Like [`run`], with these variables in the program's environment.
-pub fn run_with(
-    root: &Path,
-    program: &str,
-    arguments: &[&str],
-    environment: &[(&str, OsString)],
-) -> anyhow::Result<()> {
     let status = Command::new(program)
         .args(arguments)
-        .envs(environment.iter().map(|(name, value)| (name, value)))
         .current_dir(root)
         .status()
         .with_context(|| format!("`{program}` cannot be started"))?;
