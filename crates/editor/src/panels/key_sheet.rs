@@ -1,13 +1,13 @@
 //! The sheet that changes keys: every command with its keys, a search, and the question whether a key may be taken from
 //! another command.
 
-use egui::{Event, Id, Key as EguiKey, Rect, RichText, Role, ScrollArea, TextEdit, Ui, WidgetInfo, vec2};
+use egui::{Event, Key as EguiKey, Rect, RichText, ScrollArea, Ui, vec2};
 use impasto_editor_model::keymap::{Chord, CommandId, CommandKeys, Key, Keymap, Modifiers, OwnKeys, Preset};
 
 use super::{Ask, PanelInput, row, row_from_right, within};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
-use crate::widgets::{self, Button, MenuRow, key_of, sheet};
+use crate::widgets::{self, Button, MarkKeys, MenuRow, key_of, search_field, sheet_with};
 use crate::window::tab_pressed;
 
 const WIDTH: f32 = 560.0;
@@ -50,25 +50,15 @@ pub fn key_sheet(
     numpad: &[(Key, Modifiers)],
     asks: &mut Vec<Ask>,
 ) -> bool {
-    let id = Id::unique("key sheet");
-    let mut memory = ctx.data(|data| data.get_temp::<Memory>(id)).unwrap_or_default();
-    let close =
-        sheet(ctx, "Change keys", WIDTH, |ui| contents(ui, &mut memory, shown.keymap, (numpad, asks)));
-    ctx.data_mut(|data| {
-        if close {
-            data.remove::<Memory>(id);
-        } else {
-            data.insert_temp(id, memory);
-        }
-    });
-    close
+    sheet_with(ctx, "Change keys", WIDTH, |ui, memory| contents(ui, memory, shown.keymap, numpad, asks))
 }
 
 fn contents(
     ui: &mut Ui,
     memory: &mut Memory,
     keymap: &Keymap,
-    (numpad, asks): (&[(Key, Modifiers)], &mut Vec<Ask>),
+    numpad: &[(Key, Modifiers)],
+    asks: &mut Vec<Ask>,
 ) -> bool {
     let escape = ui.input_mut(|input| input.consume_key(egui::Modifiers::NONE, EguiKey::Escape));
     let was_doing = memory.doing != Doing::Nothing;
@@ -92,17 +82,12 @@ fn contents(
             },
         }
     }
-    let rows = (memory.doing == Doing::Nothing).then(|| {
-        ui.input_mut(|input| {
-            [EguiKey::ArrowUp, EguiKey::ArrowDown, EguiKey::Enter]
-                .map(|key| input.consume_key(egui::Modifiers::NONE, key))
-        })
-    });
+    let keys = if memory.doing == Doing::Nothing { MarkKeys::take(ui) } else { MarkKeys::default() };
     let close = head(ui, keymap);
     ui.add_space(measure::GAP);
     search(ui, memory);
     ui.add_space(measure::GAP);
-    list(ui, keymap, memory, (rows.unwrap_or_default(), &mut *asks));
+    list(ui, keymap, memory, keys, asks);
     ui.add_space(12.0);
     foot(ui, keymap, memory, asks);
     close || escape && !was_doing
@@ -126,16 +111,7 @@ fn head(ui: &mut Ui, keymap: &Keymap) -> bool {
 }
 
 fn search(ui: &mut Ui, memory: &mut Memory) {
-    let field = TextEdit::singleline(&mut memory.typed)
-        .hint_text("Find a command or a key")
-        .desired_width(f32::INFINITY)
-        .margin(egui::Margin::symmetric(8, 7))
-        .show(ui);
-    let field = field.response.response;
-    field.widget_info(|| WidgetInfo {
-        label: Some("Find a key".to_owned()),
-        ..WidgetInfo::new(Role::TextInput)
-    });
+    let field = search_field(ui, &mut memory.typed, "Find a command or a key", "Find a key");
     if field.changed() {
         memory.marked = 0;
     }
@@ -146,22 +122,11 @@ fn search(ui: &mut Ui, memory: &mut Memory) {
     }
 }
 
-/// `up`, `down` and `enter` are the keys that choose a row, if they were pressed.
-fn list(
-    ui: &mut Ui,
-    keymap: &Keymap,
-    memory: &mut Memory,
-    ([up, down, enter], asks): ([bool; 3], &mut Vec<Ask>),
-) {
+fn list(ui: &mut Ui, keymap: &Keymap, memory: &mut Memory, keys: MarkKeys, asks: &mut Vec<Ask>) {
     let typed = memory.typed.trim().to_lowercase();
     let found: Vec<CommandKeys> =
         keymap.commands().filter(|command| command.id.is_free() && is_meant(command, &typed)).collect();
-    memory.marked = match (up, down) {
-        (true, _) => memory.marked.saturating_sub(1),
-        (_, true) => memory.marked + 1,
-        _ => memory.marked,
-    };
-    memory.marked = memory.marked.min(found.len().saturating_sub(1));
+    memory.marked = keys.mark(memory.marked, found.len());
     // Before the lines are shown: one of them may begin something.
     let marked = (memory.doing == Doing::Nothing).then_some(memory.marked);
     // In a low window the list is shorter, so that what stands under it stays in view.
@@ -177,11 +142,11 @@ fn list(
         }
         for (index, command) in found.iter().enumerate() {
             let is_marked = marked == Some(index);
-            let row = line(ui, keymap, (command, is_marked), memory, asks);
-            if is_marked && (up || down) {
+            let row = line(ui, keymap, command, is_marked, memory, asks);
+            if is_marked && keys.moves() {
                 row.scroll_to_me(None);
             }
-            if is_marked && enter {
+            if is_marked && keys.enter {
                 memory.doing = Doing::Listening(command.id);
             }
         }
@@ -198,7 +163,8 @@ fn is_meant(command: &CommandKeys, typed: &str) -> bool {
 fn line(
     ui: &mut Ui,
     keymap: &Keymap,
-    (command, is_marked): (&CommandKeys, bool),
+    command: &CommandKeys,
+    is_marked: bool,
     memory: &mut Memory,
     asks: &mut Vec<Ask>,
 ) -> egui::Response {

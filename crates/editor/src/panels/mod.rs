@@ -80,7 +80,24 @@ pub struct PanelInput<'a> {
     pub presets: &'a [OwnPreset],
 }
 
-impl PanelInput<'_> {
+impl<'a> PanelInput<'a> {
+    /// What panels show of a document while there is nothing else to show: no painting, no recent file, no trouble.
+    pub fn of(document: &'a Document, session: &'a Session, time: &'a TimeHand, keymap: &'a Keymap) -> Self {
+        Self {
+            document,
+            session,
+            time,
+            painting: None,
+            keymap,
+            status: "",
+            numbers: Numbers::default(),
+            recent: &[],
+            troubles: &[],
+            likely_meshes: &[],
+            presets: &[],
+        }
+    }
+
     /// The keys of an action, empty if it has none.
     pub fn keys_of(&self, action: Action) -> String {
         self.keymap.shortcut_text(action).unwrap_or_default()

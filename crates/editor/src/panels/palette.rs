@@ -4,12 +4,12 @@ mod entries;
 
 use std::sync::Arc;
 
-use egui::{Id, Key, RichText, Role, ScrollArea, TextEdit, WidgetInfo};
+use egui::{Key, RichText, ScrollArea};
 
 use self::entries::{Entry, entries};
 use super::{Ask, Control, PanelInput, controls};
 use crate::theme::{Tokens, measure, type_face};
-use crate::widgets::{MenuRow, sheet};
+use crate::widgets::{MarkKeys, MenuRow, search_field, sheet_with};
 
 const WIDTH: f32 = 480.0;
 const ROWS: f32 = 11.0;
@@ -25,37 +25,13 @@ struct Memory {
 
 /// Shows the search over everything. Returns true once it closes: a command was run, or `Esc` was pressed.
 pub fn palette(ctx: &egui::Context, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) -> bool {
-    let id = Id::unique("command search");
-    let mut memory = ctx.data(|data| data.get_temp::<Memory>(id)).unwrap_or_default();
-    let close = sheet(ctx, "Find a command", WIDTH, |ui| contents(ui, &mut memory, shown, asks));
-    ctx.data_mut(|data| {
-        if close {
-            data.remove::<Memory>(id);
-        } else {
-            data.insert_temp(id, memory);
-        }
-    });
-    close
+    sheet_with(ctx, "Find a command", WIDTH, |ui, memory| contents(ui, memory, shown, asks))
 }
 
 fn contents(ui: &mut egui::Ui, memory: &mut Memory, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) -> bool {
-    let (up, down, enter, escape) = ui.input_mut(|input| {
-        let none = egui::Modifiers::NONE;
-        (
-            input.consume_key(none, Key::ArrowUp),
-            input.consume_key(none, Key::ArrowDown),
-            input.consume_key(none, Key::Enter),
-            input.consume_key(none, Key::Escape),
-        )
-    });
-    let field = TextEdit::singleline(&mut memory.typed)
-        .hint_text("What do you want to do?")
-        .desired_width(f32::INFINITY)
-        .margin(egui::Margin::symmetric(8, 7))
-        .show(ui);
-    let field = field.response.response;
-    field
-        .widget_info(|| WidgetInfo { label: Some("Command".to_owned()), ..WidgetInfo::new(Role::TextInput) });
+    let pressed = MarkKeys::take(ui);
+    let escape = ui.input_mut(|input| input.consume_key(egui::Modifiers::NONE, Key::Escape));
+    let field = search_field(ui, &mut memory.typed, "What do you want to do?", "Command");
     if field.changed() {
         memory.marked = 0;
     }
@@ -63,13 +39,7 @@ fn contents(ui: &mut egui::Ui, memory: &mut Memory, shown: &PanelInput<'_>, asks
     ui.add_space(measure::GAP);
     let controls = memory.controls.get_or_insert_with(|| Arc::new(controls(ui.ctx(), shown)));
     let found = found(&memory.typed, entries(ui.ctx(), shown, controls));
-    let last = found.len().saturating_sub(1);
-    memory.marked = match (up, down) {
-        (true, _) => memory.marked.saturating_sub(1),
-        (_, true) => memory.marked + 1,
-        _ => memory.marked,
-    };
-    memory.marked = memory.marked.min(last);
+    memory.marked = pressed.mark(memory.marked, found.len());
     let mut run = None;
     ui.spacing_mut().item_spacing.y = 0.0;
     let high = ROWS * measure::ROW;
@@ -86,12 +56,12 @@ fn contents(ui: &mut egui::Ui, memory: &mut Memory, shown: &PanelInput<'_>, asks
                 let marked = index == memory.marked;
                 let row = MenuRow { words: &words, keys: &keys, on, marked };
                 let mut response = ui.add_enabled_ui(ask.is_ok(), |ui| row.show(ui)).inner;
-                if marked && (up || down || field.changed()) {
+                if marked && (pressed.moves() || field.changed()) {
                     response.scroll_to_me(None);
                 }
                 match ask {
                     Err(reason) => response = response.on_disabled_hover_text(reason),
-                    Ok(ask) if response.clicked() || marked && enter => run = Some(ask),
+                    Ok(ask) if response.clicked() || marked && pressed.enter => run = Some(ask),
                     Ok(_) => {}
                 }
                 drop(response);

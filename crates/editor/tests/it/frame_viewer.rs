@@ -6,13 +6,11 @@ use egui::{Color32, ColorImage, Event, Key, Modifiers, PointerButton, TextureHan
 use egui_kittest::kittest::Queryable as _;
 use egui_kittest::{Harness, SnapshotOptions, SnapshotResults};
 use impasto_editor::panels::frame_viewer::{ViewerAsk, ViewerShown, frame_viewer};
-use impasto_editor::theme::{self, Theme};
-use impasto_editor::window::FocusRules;
+use impasto_editor::theme::Theme;
 use impasto_editor_model::finished_frames::FinishedFrames;
 use impasto_editor_model::keymap::{self, Action, CommandId, Keymap, Preset};
-use impasto_gl_render::context::Driver;
 
-use crate::headless::Headless;
+use crate::headless;
 
 struct Page {
     frames: FinishedFrames,
@@ -67,18 +65,7 @@ impl Page {
 }
 
 fn harness(page: Page, theme: Theme, wide: f32) -> Harness<'static, Page> {
-    let mut harness = Harness::builder()
-        .with_size(vec2(wide, 240.0))
-        .with_theme(if theme == Theme::Dark { egui::Theme::Dark } else { egui::Theme::Light })
-        .with_render_cursor(false)
-        .with_context_setup(move |ctx| {
-            theme::apply(ctx, theme, 1.0);
-            ctx.add_plugin(FocusRules);
-        })
-        .renderer(Headless::open(Driver::Auto))
-        .build_ui_state(|ui, page: &mut Page| page.ui(ui), page);
-    harness.run();
-    harness
+    headless::harness(vec2(wide, 240.0), theme, page, |ui, page| page.ui(ui))
 }
 
 fn asked(harness: &mut Harness<'_, Page>) -> Vec<ViewerAsk> {

@@ -4,14 +4,12 @@ use egui::{Event, Modifiers, Role, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, SnapshotOptions, SnapshotResults};
 use impasto_editor::panels::key_sheet::key_sheet;
-use impasto_editor::panels::{Ask, Numbers, PanelInput, shortcuts};
-use impasto_editor::theme::{self, Theme};
-use impasto_editor::window::FocusRules;
+use impasto_editor::panels::{Ask, PanelInput, shortcuts};
+use impasto_editor::theme::Theme;
 use impasto_editor_model::keymap::{Action, Key, Keymap, Modifiers as Held, Preset, Scope};
 use impasto_editor_model::{Document, Session};
-use impasto_gl_render::context::Driver;
 
-use crate::headless::Headless;
+use crate::headless;
 
 /// Which sheet is open.
 #[derive(Clone, Copy, PartialEq)]
@@ -32,19 +30,7 @@ impl Page {
     fn ui(&mut self, ui: &mut egui::Ui) {
         let (session, time) = (Session::default(), Default::default());
         let keymap = self.keymap.clone();
-        let shown = PanelInput {
-            document: &self.document,
-            session: &session,
-            time: &time,
-            painting: None,
-            keymap: &keymap,
-            status: "",
-            numbers: Numbers::default(),
-            recent: &[],
-            troubles: &[],
-            likely_meshes: &[],
-            presets: &[],
-        };
+        let shown = PanelInput::of(&self.document, &session, &time, &keymap);
         let numpad = std::mem::take(&mut self.numpad);
         let mut asks = Vec::new();
         let closed = match self.open {
@@ -72,18 +58,7 @@ fn harness_in(theme: Theme, preset: Preset) -> Harness<'static, Page> {
         document: Document::empty(std::path::Path::new(".")),
         numpad: Vec::new(),
     };
-    let mut harness = Harness::builder()
-        .with_size(vec2(800.0, 640.0))
-        .with_theme(if theme == Theme::Dark { egui::Theme::Dark } else { egui::Theme::Light })
-        .with_render_cursor(false)
-        .with_context_setup(move |ctx| {
-            theme::apply(ctx, theme, 1.0);
-            ctx.add_plugin(FocusRules);
-        })
-        .renderer(Headless::open(Driver::Auto))
-        .build_ui_state(|ui, page: &mut Page| page.ui(ui), page);
-    harness.run();
-    harness
+    headless::harness(vec2(800.0, 640.0), theme, page, |ui, page: &mut Page| page.ui(ui))
 }
 
 fn harness() -> Harness<'static, Page> {

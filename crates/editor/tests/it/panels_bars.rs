@@ -3,19 +3,18 @@
 mod page;
 mod timeline;
 
-use crate::headless::Headless;
+use crate::headless;
 use egui::accesskit::Role;
 use egui::{Key, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, SnapshotOptions, SnapshotResults};
 use impasto_editor::panels::ask_close::{Answer, Question};
 use impasto_editor::panels::{Ask, welcome};
-use impasto_editor::theme::{self, Theme};
+use impasto_editor::theme::Theme;
 use impasto_editor_model::command::SceneEdit;
 use impasto_editor_model::keymap::{Action, Digits, Preset};
 use impasto_editor_model::session::{Mode, RegionBy, Tool};
 use impasto_editor_model::{Command, Item, Selection};
-use impasto_gl_render::context::Driver;
 use impasto_scene::document::LightKind;
 use page::{Page, Shows};
 
@@ -23,22 +22,7 @@ const NARROW: (f32, f32) = (1280.0, 500.0);
 const WIDE: (f32, f32) = (1920.0, 500.0);
 
 fn harness(page: Page, theme: Theme, (wide, high): (f32, f32)) -> Harness<'static, Page> {
-    let mut harness = Harness::builder()
-        .with_size(vec2(wide, high))
-        .with_theme(egui_theme(theme))
-        .with_render_cursor(false)
-        .with_context_setup(move |ctx| theme::apply(ctx, theme, 1.0))
-        .renderer(Headless::open(Driver::Auto))
-        .build_ui_state(|ui, page: &mut Page| page.ui(ui), page);
-    harness.run();
-    harness
-}
-
-fn egui_theme(theme: Theme) -> egui::Theme {
-    match theme {
-        Theme::Dark => egui::Theme::Dark,
-        Theme::Light => egui::Theme::Light,
-    }
+    headless::harness(vec2(wide, high), theme, page, |ui, page| page.ui(ui))
 }
 
 fn paint() -> Harness<'static, Page> {

@@ -2,18 +2,17 @@
 
 use std::path::PathBuf;
 
-use crate::headless::Headless;
+use crate::headless;
 use egui::{CentralPanel, Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, SnapshotOptions};
 use impasto_editor::panels::problems::{Settle, Trouble, TroubleOf};
-use impasto_editor::panels::{Ask, Numbers, PanelInput, problems, status_line, top_bar};
+use impasto_editor::panels::{Ask, PanelInput, problems, status_line, top_bar};
 use impasto_editor::theme::{self, Theme, Tokens};
 use impasto_editor_model::editor::{Editor, Mend, Request};
 use impasto_editor_model::keymap::{self, Keymap};
 use impasto_editor_model::picking::View;
 use impasto_editor_model::{Document, Session};
-use impasto_gl_render::context::Driver;
 
 const TEXT: &str = r#"(
     version: 1,
@@ -76,19 +75,10 @@ impl Page {
         let ui = &mut ui.new_child(egui::UiBuilder::new().max_rect(whole));
         ui.set_clip_rect(whole);
         let mut asks = Vec::new();
-        let session = Session::default();
+        let (session, keymap) = (Session::default(), Keymap::default());
         let shown = PanelInput {
-            document: self.editor.document(),
-            session: &session,
-            time: self.editor.time(),
-            painting: None,
-            keymap: &Keymap::default(),
-            status: "",
-            numbers: Numbers::default(),
-            recent: &[],
             troubles: &self.troubles,
-            likely_meshes: &[],
-            presets: &[],
+            ..PanelInput::of(self.editor.document(), &session, self.editor.time(), &keymap)
         };
         if self.has_bars {
             top_bar::top_bar(ui, &shown, &mut asks);
@@ -123,15 +113,7 @@ impl Page {
 }
 
 fn harness() -> Harness<'static, Page> {
-    let mut harness = Harness::builder()
-        .with_size(vec2(1000.0, 300.0))
-        .with_theme(egui::Theme::Dark)
-        .with_render_cursor(false)
-        .with_context_setup(|ctx| theme::apply(ctx, Theme::Dark, 1.0))
-        .renderer(Headless::open(Driver::Auto))
-        .build_ui_state(|ui, page: &mut Page| page.ui(ui), Page::new());
-    harness.run();
-    harness
+    headless::harness(vec2(1000.0, 300.0), Theme::Dark, Page::new(), |ui, page| page.ui(ui))
 }
 
 fn click(harness: &mut Harness<'_, Page>, name: &str) {

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::headless::Headless;
+use crate::headless;
 use egui::accesskit::Toggled;
 use egui::{Color32, ColorImage, Key, Modifiers, TextureHandle, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -18,7 +18,6 @@ use impasto_editor_model::render_settings::{
 };
 use impasto_editor_model::timeline::TimeHand;
 use impasto_editor_model::{Document, Session};
-use impasto_gl_render::context::Driver;
 use impasto_scene::aovs::AovSet;
 use impasto_scene::document::Style;
 
@@ -80,15 +79,7 @@ impl Page {
 }
 
 fn harness(page: Page) -> Harness<'static, Page> {
-    let mut harness = Harness::builder()
-        .with_size(vec2(1280.0, 560.0))
-        .with_theme(egui::Theme::Dark)
-        .with_render_cursor(false)
-        .with_context_setup(|ctx| theme::apply(ctx, Theme::Dark, 1.0))
-        .renderer(Headless::open(Driver::Auto))
-        .build_ui_state(|ui, page: &mut Page| page.ui(ui), page);
-    harness.run();
-    harness
+    headless::harness(vec2(1280.0, 560.0), Theme::Dark, page, |ui, page| page.ui(ui))
 }
 
 fn click(harness: &mut Harness<'_, Page>, name: &str) {
@@ -275,18 +266,11 @@ fn long_work_is_shown_in_the_status_line_and_can_be_stopped() {
         asked: Vec::new(),
     };
     let page = |ui: &mut egui::Ui, line: &mut Line| {
+        let (session, time, keymap) = (Session::default(), TimeHand::default(), Keymap::default());
         let shown = PanelInput {
-            document: &line.document,
-            session: &Session::default(),
-            time: &TimeHand::default(),
-            painting: None,
-            keymap: &Keymap::default(),
             status: "[Drag] comb",
             numbers: Numbers { strokes: 5774, works: &line.works, ..Numbers::default() },
-            recent: &[],
-            troubles: &[],
-            likely_meshes: &[],
-            presets: &[],
+            ..PanelInput::of(&line.document, &session, &time, &keymap)
         };
         status_line::status_line(ui, &shown, &mut line.asked);
     };

@@ -1,6 +1,6 @@
 //! Tests of the viewport on a page of its own: pointer events, what chips ask for, and how overlays look.
 
-use crate::headless::Headless;
+use crate::headless;
 use egui::{Event, Modifiers, PointerButton, Rect, Role, pos2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, SnapshotOptions};
@@ -17,7 +17,6 @@ use impasto_editor_model::editor::{PointerEvent, PointerKind};
 use impasto_editor_model::keymap::{Action, Button};
 use impasto_editor_model::session::{Overlays, Shading};
 use impasto_editor_model::tools::{Needle, Ring};
-use impasto_gl_render::context::Driver;
 use impasto_scene::document::Lens;
 use impasto_scene::motion::CameraPose;
 
@@ -105,15 +104,8 @@ impl Page {
 }
 
 fn harness(page: Page) -> Harness<'static, Page> {
-    let mut harness = Harness::builder()
-        .with_size(vec2(600.0, 420.0))
-        .with_render_cursor(false)
-        .with_context_setup(|ctx| theme::apply(ctx, Theme::Dark, 1.0))
-        .renderer(Headless::open(Driver::Auto))
-        .build_ui_state(|ui, page: &mut Page| page.ui(ui), page);
     // Chips know their size from the second pass on.
-    harness.run();
-    harness
+    headless::harness(vec2(600.0, 420.0), Theme::Dark, page, |ui, page| page.ui(ui))
 }
 
 fn button(at: egui::Pos2, button: PointerButton, pressed: bool) -> Event {

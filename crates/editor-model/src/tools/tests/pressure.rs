@@ -112,22 +112,31 @@ fn a_touch_is_as_wide_or_as_opaque_as_it_is_pressed() {
     assert_eq!(touched(Pressure::Strength, [0.5; 5]), (full.0, full.1 * 0.5));
 }
 
-#[test]
-fn a_pen_that_is_set_down_slowly_presses_as_hard_as_it_got() {
+/// The width of a touch that was laid by these places along a line and pressures, and was as hard as `released` when the
+/// pen was lifted, over its width at full pressure.
+fn touched_width(steady: f64, path: &[(f64, f64)], released: f64) -> f64 {
     let mut world = World::new();
-    world.options.pressure = Pressure::Radius;
-    for (step, pressure) in [0.02, 0.3, 0.6].into_iter().enumerate() {
+    (world.options.pressure, world.options.steady) = (Pressure::Radius, steady);
+    for (step, &(x, pressure)) in path.iter().enumerate() {
         world.pressure = pressure;
         match step {
-            0 => world.press(Tool::Touch, [320.0, 185.0], NONE),
-            _ => world.drag_to(Tool::Touch, [320.0, 185.0], NONE),
+            0 => world.press(Tool::Touch, [x, 185.0], NONE),
+            _ => world.drag_to(Tool::Touch, [x, 185.0], NONE),
         };
     }
+    world.pressure = released;
     world.release(Tool::Touch);
     let soft = touch(&world).width_px;
     let mut world = World::new();
     world.click(Tool::Touch, [320.0, 185.0], NONE);
-    assert!((soft / touch(&world).width_px - 0.6).abs() < 0.02, "{soft}");
+    soft / touch(&world).width_px
+}
+
+#[test]
+fn a_pen_that_is_set_down_slowly_presses_as_hard_as_it_got() {
+    let steady = World::new().options.steady;
+    let width = touched_width(steady, &[(320.0, 0.02), (320.0, 0.3), (320.0, 0.6)], 0.6);
+    assert!((width - 0.6).abs() < 0.02, "{width}");
 }
 
 #[test]
@@ -147,26 +156,9 @@ fn the_ring_shows_what_is_painted() {
 
 #[test]
 fn a_press_under_the_string_is_as_hard_as_the_pen_got() {
-    let mut world = World::new();
-    world.options.pressure = Pressure::Radius;
-    world.options.steady = 0.2;
-    // A hand trembles; the string, 24 pixels long, is not pulled.
-    for (step, (x, pressure)) in
-        [(320.0, 0.02), (322.0, 0.4), (319.0, 0.3), (323.0, 0.1)].into_iter().enumerate()
-    {
-        world.pressure = pressure;
-        match step {
-            0 => world.press(Tool::Touch, [x, 185.0], NONE),
-            _ => world.drag_to(Tool::Touch, [x, 185.0], NONE),
-        };
-    }
-    // What came without a movement comes with the release.
-    world.pressure = 0.6;
-    world.release(Tool::Touch);
-    let soft = touch(&world).width_px;
-    let mut world = World::new();
-    world.click(Tool::Touch, [320.0, 185.0], NONE);
-    assert!((soft / touch(&world).width_px - 0.6).abs() < 0.02, "{soft}");
+    // A hand trembles; the string, 24 pixels long, is not pulled. What came without a movement comes with the release.
+    let width = touched_width(0.2, &[(320.0, 0.02), (322.0, 0.4), (319.0, 0.3), (323.0, 0.1)], 0.6);
+    assert!((width - 0.6).abs() < 0.02, "{width}");
 }
 
 #[test]

@@ -83,7 +83,8 @@ impl EditedLayer {
         ui: &mut Ui,
         asker: &mut Asker<'_, '_>,
         place: &EditedStrokes<'_>,
-        (of, number): (&LayerNumber, Number<'_>),
+        of: &LayerNumber,
+        number: Number<'_>,
     ) -> bool {
         let stated = self.stated(place.own[1]);
         let is_own = (of.number.get)(&stated).is_some();

@@ -107,7 +107,7 @@ fn layer(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, laye
         let Some(of) = LayerSettings::NUMBERS.iter().find(|of| of.number.field == "opacity") else { return };
         let name = format!("Opacity of {name}");
         let number = Number { unlabelled: Some(OPACITY), ..Number::share(&name, of.number.effect) };
-        if layer.number(ui, asker, place, (of, number)) && reset(ui, &name) {
+        if layer.number(ui, asker, place, of, number) && reset(ui, &name) {
             asker.ask(layer.with(place, of, None));
         }
     });
@@ -170,7 +170,7 @@ fn selected(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, k
     }
     let numbers = LayerSettings::NUMBERS.iter().filter(|of| !is_twin(of.number.field));
     for (of, number) in numbers.filter_map(|of: &'static LayerNumber| Some((of, shown(of)?))) {
-        layer.number(ui, asker, place, (of, number));
+        layer.number(ui, asker, place, of, number);
     }
 }
 

@@ -6,7 +6,6 @@ use impasto_editor_model::session::{FillKind, RegionBy};
 use impasto_editor_model::{Document, Session};
 
 use super::*;
-use crate::panels::Numbers;
 use crate::theme::{self, Theme};
 
 /// German translations: at least as long as any words that the bar may have to show.
@@ -51,20 +50,8 @@ fn boxes(session: &Session, (wide, window): (f32, f32), say: Translate) -> Vec<(
     ctx.enable_accesskit();
     theme::apply(&ctx, Theme::Dark, 1.0);
     let document = Document::empty(std::path::Path::new("."));
-    let time = Default::default();
-    let shown = PanelInput {
-        time: &time,
-        document: &document,
-        session,
-        painting: None,
-        keymap: &Keymap::default(),
-        status: "",
-        numbers: Numbers::default(),
-        recent: &[],
-        troubles: &[],
-        likely_meshes: &[],
-        presets: &[],
-    };
+    let (time, keymap) = (Default::default(), Keymap::default());
+    let shown = PanelInput::of(&document, session, &time, &keymap);
     let size = Rect::from_min_size(pos2(0.0, 0.0), vec2(window, 800.0));
     let input = || egui::RawInput { screen_rect: Some(size), ..egui::RawInput::default() };
     let mut found = Vec::new();

@@ -9,7 +9,7 @@ use impasto_editor_model::{Document, Item, Selection, Session};
 
 use super::*;
 use crate::panels::tool_names::face;
-use crate::panels::{Numbers, Preference, menus};
+use crate::panels::{Preference, menus};
 use crate::theme::{self, Theme};
 
 /// Lets `test` look at what the search knows, with this item of the apple's scene selected.
@@ -17,20 +17,8 @@ fn with_entries<R>(selected: Option<Item>, test: impl FnOnce(&[Control], Vec<Ent
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/apple.ron");
     let mut document = Document::open(&path, &Default::default()).expect("the apple opens");
     document.select(selected.into_iter().collect::<Selection>());
-    let (session, time) = (Session::default(), Default::default());
-    let shown = PanelInput {
-        document: &document,
-        session: &session,
-        time: &time,
-        painting: None,
-        keymap: &Keymap::default(),
-        status: "",
-        numbers: Numbers::default(),
-        recent: &[],
-        troubles: &[],
-        likely_meshes: &[],
-        presets: &[],
-    };
+    let (session, time, keymap) = (Session::default(), Default::default(), Keymap::default());
+    let shown = PanelInput::of(&document, &session, &time, &keymap);
     let ctx = Context::default();
     theme::apply(&ctx, Theme::Dark, 1.0);
     let controls = controls(&ctx, &shown);

@@ -85,19 +85,12 @@ impl Column {
 
     pub fn ui(&mut self, ui: &mut egui::Ui) {
         let mut asks = Vec::new();
-        let time = Default::default();
+        let (time, keymap) = (Default::default(), Keymap::default());
         let shown = PanelInput {
-            time: &time,
-            document: &self.document,
-            session: &self.session,
-            painting: None,
-            keymap: &Keymap::default(),
-            status: "",
             numbers: Numbers { strokes_of: &self.strokes_of, ..Numbers::default() },
-            recent: &[],
-            troubles: &[],
             likely_meshes: &self.likely_meshes,
             presets: &self.own_presets,
+            ..PanelInput::of(&self.document, &self.session, &time, &keymap)
         };
         // The harness has margins, the window has none.
         let whole = ui.ctx().content_rect();

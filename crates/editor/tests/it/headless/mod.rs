@@ -1,10 +1,12 @@
 //! Draws pictures of egui pages without a display, for the editor's tests: with egui's painter, in the renderer's own
 //! off-screen context.
 
-use egui::TexturesDelta;
+use egui::{TexturesDelta, Vec2};
 use egui_glow::Painter;
-use egui_kittest::TestRenderer;
+use egui_kittest::{Harness, TestRenderer};
 use glow::HasContext as _;
+use impasto_editor::theme::{self, Theme};
+use impasto_editor::window::FocusRules;
 use impasto_gl_render::context::{Context, Driver, OpenOptions, open};
 
 /// Draws a harness's page. The painter is destroyed before its context.
@@ -19,6 +21,27 @@ impl Headless {
         let painter = Painter::new(context.glow(), "", None, false).expect("egui's shaders compile");
         Self { painter, context }
     }
+}
+
+/// A harness that draws a page in this theme, after its first pass. `ui` is one pass of the page.
+pub fn harness<P: 'static>(
+    size: Vec2,
+    theme: Theme,
+    page: P,
+    ui: fn(&mut egui::Ui, &mut P),
+) -> Harness<'static, P> {
+    let mut harness = Harness::builder()
+        .with_size(size)
+        .with_theme(if theme == Theme::Dark { egui::Theme::Dark } else { egui::Theme::Light })
+        .with_render_cursor(false)
+        .with_context_setup(move |ctx| {
+            theme::apply(ctx, theme, 1.0);
+            ctx.add_plugin(FocusRules);
+        })
+        .renderer(Headless::open(Driver::Auto))
+        .build_ui_state(ui, page);
+    harness.run();
+    harness
 }
 
 impl TestRenderer for Headless {

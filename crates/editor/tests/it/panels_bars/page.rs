@@ -113,11 +113,6 @@ impl Page {
         ui.set_clip_rect(whole);
         let mut asks = Vec::new();
         let shown = PanelInput {
-            time: &self.time,
-            document: &self.document,
-            session: &self.session,
-            painting: None,
-            keymap: &self.keymap,
             status: &self.status,
             numbers: Numbers {
                 strokes: 5774,
@@ -126,9 +121,7 @@ impl Page {
                 ..Numbers::default()
             },
             recent: &self.recent,
-            troubles: &[],
-            likely_meshes: &[],
-            presets: &[],
+            ..PanelInput::of(&self.document, &self.session, &self.time, &self.keymap)
         };
         top_bar::top_bar(ui, &shown, &mut asks);
         status_line::status_line(ui, &shown, &mut asks);
