@@ -77,7 +77,7 @@ macro_rules! stroke_numbers {
             /// What differs from the preset in single layers of paint, by name.
             #[serde(skip_serializing_if = "is_default")]
             pub layers: Vec<LayerSettings>,
-            /// The layers of paint in the order in which they are laid, all seven by name; for the whole scene alone.
+            /// All seven layers of paint by name, in the order in which they are laid: the lowest first. For the whole scene alone.
             #[serde(skip_serializing_if = "is_default")]
             pub order: Vec<String>,
             /// Changes over time, frames strictly increasing; those of a region replace the scene's.
