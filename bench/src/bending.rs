@@ -86,7 +86,7 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
             }
             sum
         }),
-        // Place, number, normal and height (8) of every particle in, one number out.
+        // In, for every particle: place, number, normal and height (8 numbers). Out: one number.
         Streams::new(places.len(), 8, 1).contender(),
     ];
     let figures = race(&bench.pace(false), contenders)?;

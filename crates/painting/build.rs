@@ -41,7 +41,7 @@ impl Fnv {
         }
     }
 
-    /// All files of a folder, by their names.
+    /// Adds the names and the bytes of all files of a folder and its subfolders, sorted by name.
     fn folder(&mut self, folder: &Path) {
         let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
         let mut paths: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();

@@ -51,17 +51,17 @@ fuzz_target!(|bytes: &[u8]| {
         );
         if after != before {
             document.undo();
-            assert!(document.scene() == &before, "undo of {command:?}");
+            assert!(document.scene() == &before, "undo is not exact: {command:?}");
             document.redo();
-            assert!(document.scene() == &after, "redo of {command:?}");
+            assert!(document.scene() == &after, "redo is not exact: {command:?}");
         }
     }
     let text = save::to_ron(document.scene());
     let read =
         load::parse(Path::new("edited.ron"), &text).unwrap_or_else(|report| panic!("{report}\n{text}"));
-    assert!(&read == document.scene(), "saved and read again\n{text}");
+    assert!(&read == document.scene(), "another scene after it was saved and read:\n{text}");
     let loaded = document.loaded();
     assert!(loaded.with_scene(read, &Default::default()).is_ok(), "what commands left is not valid\n{text}");
     while document.undo().is_some() {}
-    assert!(document.scene() == &first, "all taken back");
+    assert!(document.scene() == &first, "undoing everything does not give the first scene");
 });

@@ -80,7 +80,7 @@ fn a_stroke_in_the_middle_of_a_dab_is_as_much_wider_and_those_outside_stay_to_th
             for (particle, now) in &after {
                 let r = share(&painting, *particle, at);
                 let Some(was) = before.get(particle) else {
-                    assert!(by < 1.0 && r < 1.0, "a stroke outside came to be");
+                    assert!(by < 1.0 && r < 1.0, "a new stroke with {by} at {r}");
                     continue;
                 };
                 if r >= 1.0 {
@@ -88,7 +88,7 @@ fn a_stroke_in_the_middle_of_a_dab_is_as_much_wider_and_those_outside_stay_to_th
                     continue;
                 }
                 let ([grown, kept], [side, other]) = (sides(now), sides(was));
-                assert_eq!(kept, other, "the other side stays");
+                assert_eq!(kept, other, "{of:?} by {by} changes the other side");
                 let wanted = 1.0 + (by - 1.0) * (1.0 - r * r).powi(2);
                 let factor = f64::from(grown / side);
                 assert!(
@@ -104,7 +104,7 @@ fn a_stroke_in_the_middle_of_a_dab_is_as_much_wider_and_those_outside_stay_to_th
             assert_eq!(
                 f64::from(sides(&after[&middle])[0] / sides(&before[&middle])[0]),
                 by,
-                "in the middle"
+                "the factor in the middle of the dab"
             );
             factors.sort_by(|a, b| a.0.total_cmp(&b.0));
             assert!(factors.len() > 60 && factors.windows(2).all(|pair| pair[1].1 <= pair[0].1 + 1e-5));
@@ -150,7 +150,7 @@ fn sizes_follow_the_coverage_and_less_density_is_a_part_of_more() {
     let painting = painted(scene(40_000, Vec::new()), shapes::sheet(20));
     assert!(
         none.keys().all(|&particle| share(&painting, particle, at) > 0.02),
-        "nothing is left in the middle"
+        "density 0 leaves strokes in the middle"
     );
     assert!(none.keys().any(|&particle| share(&painting, particle, at) > 1.0));
 }
@@ -174,7 +174,7 @@ fn more_density_finds_more_particles_and_keeps_the_first_ones() {
     let [before, after] = [near(&plain), near(&dense)];
     assert!(after as f64 > 3.3 * before as f64 && before > 5, "{before} and {after}");
     let thin = found(vec![(Amount::Density, dab(Vec3::ZERO, 0.0)), (Amount::Width, dab(Vec3::ZERO, 4.0))]);
-    assert_eq!(thin.particles(0).len(), few.len(), "fewer strokes need no other particles");
+    assert_eq!(thin.particles(0).len(), few.len(), "less density changed the particles");
 }
 
 #[test]
@@ -202,7 +202,7 @@ fn no_view_changes_a_painted_size_and_the_underpainting_stays() {
         for (particle, stroke) in strokes_of(&painting, LayerKind::Body, view) {
             let size = [stroke.length_px, stroke.width_px];
             again += usize::from(sizes.insert(particle, size).is_some_and(|before| {
-                assert_eq!(before, size, "M8 of stroke {particle} is not 0");
+                assert_eq!(before, size, "a view changes the size of stroke {particle}");
                 true
             }));
         }

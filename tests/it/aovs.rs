@@ -81,7 +81,7 @@ fn facing_sheet(change: impl FnOnce(&mut Scene)) -> Painting {
     prepare(shapes::loaded(scene, [shapes::sheet(1)])).unwrap()
 }
 
-/// The lens of a test's own scene.
+/// The vertical field of view of `shapes::scene`, degrees.
 const LENS_DEG: f64 = 35.0;
 
 const SMALL: FrameOptions = FrameOptions::new([320, 180]);
@@ -406,7 +406,7 @@ fn the_command_writes_what_is_asked_for_and_says_what_a_style_lacks() {
     assert_eq!(std::fs::metadata(path.join("a.exr")).unwrap().modified().unwrap(), before);
     std::fs::write(path.join("a.exr"), &whole[..whole.len() / 2]).unwrap();
     assert!(skip().status.success());
-    assert!(std::fs::read(path.join("a.exr")).unwrap() == whole, "the same bytes again");
+    assert!(std::fs::read(path.join("a.exr")).unwrap() == whole, "other bytes the second time");
 }
 
 #[test]
@@ -427,7 +427,7 @@ fn mistakes_are_told_with_the_mend() {
         assert!(!done.status.success() && said(&done).contains(words), "{arguments:?}: {}", said(&done));
         assert_eq!(said(&done).matches("error").count(), 1, "{arguments:?}: {}", said(&done));
     }
-    assert_eq!(std::fs::read_dir(path).unwrap().count(), 0, "nothing was written");
+    assert_eq!(std::fs::read_dir(path).unwrap().count(), 0, "a file was written");
 }
 
 #[test]

@@ -1,5 +1,5 @@
-//! Tests of bodies that bend: strokes turn as closed forms say, particles suffice where a body stretches, nothing
-//! depends on what was asked before, and bad skins are told.
+//! Tests of bodies that bend: strokes turn as closed forms say, there are enough particles where a body stretches, a
+//! frame does not depend on the frames computed before it, and bad skins are reported.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -169,7 +169,7 @@ fn a_stated_angle_shows_in_the_reference_whatever_the_rest() {
     }
 }
 
-/// Strokes that are raised above the surface show as stated also where the reference shows the body bent.
+/// Strokes that are raised above the surface have the stated angle, even if the body is bent in the reference.
 #[test]
 fn raised_strokes_show_as_stated_in_a_bent_reference() {
     let target = shapes::moved(&shapes::sheet(32), stretched);
@@ -201,7 +201,7 @@ fn raised_strokes_show_as_stated_in_a_bent_reference() {
         let ratio = followed[particle] / own[particle];
         assert!(
             (ratio - 1.0).abs() < 1e-6,
-            "{particle}: {ratio} times as long in the reference's own picture"
+            "{particle}: size_follow makes it {ratio} times as long, even in the reference"
         );
     }
 }
@@ -249,7 +249,7 @@ fn a_stretched_body_has_no_fewer_strokes_a_pixel() {
     assert!(rest > 100.0 && (wide / rest / 3.0 - 1.0).abs() < 0.015, "{rest} {wide}");
 }
 
-/// The bounds of shadows hold every place of a body, also between the frames of the timeline that are sampled.
+/// The bounds of shadows contain the body in every frame, also between the frames at which its motion is sampled.
 #[test]
 fn shadows_reach_as_far_as_a_morph_goes() {
     let mut scene = morphing_scene(7.0);
@@ -291,7 +291,7 @@ fn a_collapsed_or_mirrored_body_paints_numbers() {
 
 #[test]
 fn an_uneven_scale_turns_strokes_as_its_map_says() {
-    // A sheet that keys stretch is like one that is modelled stretched.
+    // A sheet that is stretched by the scale of its keys is like one whose mesh is stretched.
     let scales = [1.5, 0.6, 1.0];
     let mut keyed = morphing_scene(30.0);
     keyed.objects[0].morph = None;
@@ -372,7 +372,7 @@ fn bad_skins_are_told_and_never_hang() {
     });
     assert!(!is_read && said.contains("not finite"), "{said}");
     let (is_read, said) = changed_parade(|root, _| {
-        // A joint becomes the parent of the one above it.
+        // A joint becomes the parent of its own parent.
         let nodes = root["nodes"].as_array_mut().expect("nodes");
         let parent = nodes.iter().position(|node| node["children"].is_array()).expect("a parent");
         let child = nodes[parent]["children"][0].as_u64().expect("an index") as usize;

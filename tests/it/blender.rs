@@ -23,7 +23,7 @@ const MOST_PX: f64 = 0.01;
 /// How far a field of view may be from Blender's.
 const MOST_RAD: f64 = 1e-5;
 
-/// The furthest that a vertex may be from where Blender has it in the world, in sizes of its object.
+/// The furthest that a vertex may be from where Blender has it in the world, as a share of its object's size.
 const MOST_SHARE: f64 = 3e-6;
 
 /// Where a point is in the picture, pixels from the lower left; `None` behind the eye.
@@ -56,7 +56,7 @@ fn vertices(painting: &Painting, index: usize, frame: f64) -> Vec<DVec3> {
 }
 
 /// The largest differences from Blender over all frames and objects: of a vertex in the picture, pixels; of the field
-/// of view, radians; of a vertex in the world, in sizes of its object.
+/// of view, radians; of a vertex in the world, as a share of its object's size.
 fn differences(shot: &Path, frames: &[Value]) -> [f64; 3] {
     let loaded = load(shot, &LoadOptions::default()).unwrap_or_else(|report| panic!("{report}"));
     let painting = Preparer::default().prepare_plain(&Arc::new(loaded.clone())).unwrap();
@@ -154,8 +154,8 @@ fn what_the_extension_exports_stands_where_blender_has_it() {
     }
 }
 
-/// The Cryptomatte node finds an object by its name, which is in two scripts, and gives the coverage that the file
-/// states.
+/// The Cryptomatte node finds an object by its name, here of Latin and Japanese letters, and gives the coverage that
+/// the file states.
 #[test]
 fn the_compositor_reads_passes_and_mattes() {
     let Some(python) = std::env::var_os("IMPASTO_BPY") else {

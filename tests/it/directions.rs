@@ -69,8 +69,8 @@ fn painted(scene: Scene, mesh: TriangleMesh) -> Painting {
     prepare(shapes::loaded(scene, [mesh])).unwrap()
 }
 
-/// Views of a point at `height` from the reference, from both sides and from above. Each comes with the angle by which
-/// it is off the reference, degrees.
+/// Views of the point (0, `height`, 0): as the reference sees it, from both sides, and from above. Each comes with the
+/// angle by which it is turned from the reference's view, degrees.
 fn off_the_reference(height: f64) -> Vec<(f64, CameraPose)> {
     let eye = |yaw: f64, pitch: f64| {
         let (yaw, pitch) = (yaw.to_radians(), pitch.to_radians());
@@ -138,7 +138,7 @@ fn a_guide_baked_against_the_wrong_view_would_show() {
         .map(|seen| lines_apart(seen.angle_rad, PI / 4.0))
         .collect();
     let mean = errors.iter().sum::<f64>() / errors.len() as f64;
-    assert!(errors.len() >= 5 && mean > 2.0, "{mean} degrees: the measure must see this");
+    assert!(errors.len() >= 5 && mean > 2.0, "{mean} degrees: the wrong view is not noticed");
 }
 
 #[test]
@@ -242,7 +242,7 @@ fn step_over_a_seam(seam: Seam) -> f64 {
     let painting = painted(scene, shapes::sheet(20));
     let strokes: Vec<Seen> = seen_by(&painting, &camera([0.0, 0.0, 4.0], [0.0; 3])).into_values().collect();
     assert!(strokes.iter().any(|seen| seen.region == 1 && seen.at_px.x > 80.0));
-    assert!(strokes.iter().all(|seen| seen.region == 0 || seen.at_px.x > -14.0), "dabs stay where they are");
+    assert!(strokes.iter().all(|seen| seen.region == 0 || seen.at_px.x > -14.0), "dabs reach too far left");
     let far = |seen: &&Seen| seen.at_px.x > 100.0;
     let worst = strokes
         .iter()

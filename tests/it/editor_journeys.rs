@@ -187,7 +187,7 @@ fn a_broken_scene_is_mended() {
     editor.keys(&["ctrl+s"]);
     editor.control("Show the problem");
     editor.keep_picture("2_save_refused");
-    assert_eq!(std::fs::read_to_string(&path).unwrap(), broken, "less is never saved over it");
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), broken, "the broken file was saved over");
     editor.keys(&["Escape"]);
     editor.wait_until_gone("Show the problem");
 
@@ -265,7 +265,7 @@ fn amounts_are_painted() {
     editor.keys(&["ctrl+s"]);
     editor.wait_for_title("apple.ron - Impasto");
     assert_eq!(read(folder.path(), "apple.ron"), painted);
-    // The list is below the window's edge while the section above it is open.
+    // The list of amounts is below the window's edge while the section of strokes above it is open.
     editor.click("Strokes");
     editor.wait_until_gone("Brush flat");
     editor.click("Clear width");

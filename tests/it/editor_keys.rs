@@ -1,4 +1,4 @@
-//! Checks that `docs/editor_keys.md` is what the editor's own table of keys makes.
+//! Checks that `docs/editor_keys.md` equals the page that is made here from the editor's table of keys.
 
 use std::path::Path;
 

@@ -112,7 +112,7 @@ fn what_is_played_scrubbed_to_and_rendered_is_the_same_to_the_bit() {
         }
         assert!(asked.len() > 50, "{pacing:?}: {}", asked.len());
         assert!(asked.iter().all(|frame| frame.fract() == 0.0 && (0.0..FRAMES).contains(frame)), "{asked:?}");
-        assert!(asked.contains(&0.0) && asked.contains(&119.0), "it went over the seam");
+        assert!(asked.contains(&0.0) && asked.contains(&119.0), "it played past the end, back to the start");
         for &frame in asked.iter().step_by(9) {
             let strokes = |painting: &Painting, camera: &CameraPose, frame: f64| {
                 let frame = painting.seen_by(camera, frame, &options);
@@ -124,10 +124,10 @@ fn what_is_played_scrubbed_to_and_rendered_is_the_same_to_the_bit() {
             editor.timeline(TimelineEvent::Scrub(frame));
             let scrubbed = strokes(&painting, &editor.camera(), editor.session.frame);
             let there = rendered.at(frame, &options);
-            assert!(played == scrubbed, "{pacing:?}: frame {frame} by a scrub");
+            assert!(played == scrubbed, "{pacing:?}: frame {frame} differs when scrubbed to");
             assert!(
                 played == format!("{:?}", (there.strokes, there.view)),
-                "{pacing:?}: frame {frame} rendered"
+                "{pacing:?}: frame {frame} differs when rendered"
             );
         }
         editor.timeline(TimelineEvent::EndScrub);

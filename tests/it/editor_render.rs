@@ -150,7 +150,7 @@ fn every_kind_of_file_is_that_of_the_command() {
         let by_command = commanded(&plan, &document);
         assert_eq!(by_command.keys().collect::<Vec<_>>(), names);
         if let Some(bytes) = by_command.get(exr_name) {
-            assert!(has_channel(bytes, "B") || has_channel(bytes, "R"), "its colour");
+            assert!(has_channel(bytes, "B") || has_channel(bytes, "R"), "the file has no colour");
             for name in ["shadow.X", "stroke.id.X", "Z"] {
                 assert_eq!(has_channel(bytes, name), channels.contains(&name), "{settings:?}: {name}");
             }

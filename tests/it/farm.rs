@@ -1,4 +1,4 @@
-//! Tests of packs and of jobs for farms.
+//! Tests of packs (`impasto pack`) and of jobs for render farms (`impasto farm`).
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -56,7 +56,7 @@ fn good(folder: &Path, arguments: &[&str]) {
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
 }
 
-/// The words of a run that is refused.
+/// Runs a command that must be refused. Returns what it prints to stderr.
 fn refused(folder: &Path, arguments: &[&str]) -> String {
     let done = run(folder, arguments);
     assert!(!done.status.success());

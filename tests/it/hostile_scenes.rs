@@ -126,7 +126,7 @@ const CASES: [Case; 35] = [
         "scene.ron:2:68: error: two keys stand at frame 1",
     ),
     case("keys_one", r#"objects: [(name: "a", mesh: "cube.obj", keys: [(frame: 0)])]"#, Good, ""),
-    // A rotation is three angles, so four numbers are an error, whether they are zero or not.
+    // A rotation is three Euler angles, so four numbers (a quaternion) are an error, whether they are zero or not.
     case(
         "quat_zero",
         r#"objects: [(name: "a", mesh: "cube.obj", keys: [(frame: 0, rotation_deg: (0, 0, 0, 0))])]"#,
@@ -271,11 +271,11 @@ fn every_case_opens_in_the_editor_as_far_as_it_can_be_read_and_its_file_stays() 
         match Document::open_with_problems(&path, &LoadOptions::default()) {
             Ok(mut document) => {
                 let has_losses = document.loss_count() > 0;
-                assert_eq!(has_losses, !loads, "{}: what is refused is a loss", case.name);
+                assert_eq!(has_losses, !loads, "{}: it must have losses or load", case.name);
                 assert_eq!(
                     document.save().is_err(),
                     has_losses,
-                    "{}: less is never saved over it",
+                    "{}: only a file that was read whole may be saved",
                     case.name
                 );
                 if has_losses {

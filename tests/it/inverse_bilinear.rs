@@ -1,5 +1,5 @@
-//! Tests of inverse bilinear interpolation: the maths against the source's formula, and tapered and bent strokes as
-//! they are drawn.
+//! Tests of inverse bilinear interpolation: our formula against that of the source (docs/techniques/inverse_bilinear.md
+//! names it), and tapered and bent strokes as they are drawn.
 
 use glam::{DMat3, DVec2};
 use impasto_core::hash;

@@ -1,4 +1,4 @@
-//! Tests that a picture is the same however little of it a renderer keeps, as it does for huge pictures.
+//! Tests that a picture is the same however little of its data a renderer keeps (of huge pictures it keeps less).
 
 use impasto_gl_render::context::Driver;
 use impasto_gl_render::{Keeps, Renderer};

@@ -56,7 +56,7 @@ fn is_taken(painting: &Painting) -> bool {
     matches!(painting.kept(), Kept::Taken(..))
 }
 
-/// Everything of two paintings that a picture or `impasto info` is made from.
+/// Asserts that all that a picture or `impasto info` is made from is the same in two paintings.
 fn assert_same(what: &str, a: &Painting, b: &Painting, frames: &[f64]) {
     assert_eq!(a.particle_counts(), b.particle_counts(), "{what}");
     for object in 0..a.particle_counts().len() {
@@ -101,7 +101,7 @@ fn what_is_kept_equals_what_is_prepared_and_every_edit_has_a_key_of_its_own() {
 #[test]
 fn edits_after_a_start_from_what_was_kept_give_the_same_bits() {
     let shelf = Shelf::default();
-    // Every third edit: each is tried from a warm start elsewhere (warm_prepare).
+    // Every third edit only: `warm_prepare` tries them all, without kept paintings.
     for pair in versions().windows(2).step_by(3) {
         let [start, next] = pair else { continue };
         shelf.prepare(&mut Preparer::default(), &start.loaded);
@@ -276,7 +276,7 @@ fn strokes(folder: &Path, more: &[&str]) -> Output {
     strokes_with(folder, more, "")
 }
 
-/// Like [`strokes`], with `variable` as the folder that the environment names.
+/// Like [`strokes`], with the environment variable `IMPASTO_CACHE` set to `variable`.
 fn strokes_with(folder: &Path, more: &[&str], variable: &str) -> Output {
     let mut command = Command::new(impasto());
     command.env("IMPASTO_CACHE", variable);

@@ -45,8 +45,8 @@ fn lamp(kind: LightKind, position: [f64; 3]) -> Light {
 #[test]
 fn a_ball_casts_the_shadow_that_geometry_says() {
     let mut renderer = renderer(Driver::Auto);
-    // From the lamp at (1.2, 0, 1.8) the ball's middle lies before the place (−0.6, 0). The shadow ends to the side of
-    // that by 2.546 tan(10.18°) = 0.457.
+    // Seen from the lamp at (1.2, 0, 1.8), the ball's middle lies in front of the place (−0.6, 0), which is 2.546 away.
+    // The ball's radius spans asin(0.3 / 1.697) = 10.18°, so the shadow ends 2.546 tan(10.18°) = 0.457 to either side.
     let near = [1.2, 0.0, 1.8];
     let spot = Light {
         direction: Some([-0.4, 0.0, -1.0]),

@@ -1,5 +1,6 @@
-//! Tests how far the plain render's openness pass looks. Its radius is 5.5 % of the picture's height. The pass's taps
-//! see a straight wall from up to 0.83 radii away.
+//! Tests how far openness, the ambient occlusion of the plain render, looks. Its radius is 5.5 % of the picture's
+//! height, and its outermost taps reach a straight wall at up to 0.83 radii: a wall at 0.65 radii must darken the
+//! floor, one at 1 must not.
 
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::Driver;
@@ -48,7 +49,7 @@ fn darkening(renderer: &mut Renderer) -> [f64; 3] {
 #[test]
 fn surroundings_darken_as_far_as_the_radius_and_no_farther() {
     let [near, middle, beyond] = darkening(&mut renderer(Driver::Egl));
-    assert!(near > 20.0, "what touches is not dark: {near}");
+    assert!(near > 20.0, "walls at a quarter of the radius hardly darken the floor: {near}");
     assert!(middle > 4.0, "openness does not look as far as its radius: {middle}");
     assert!(beyond.abs() < 0.5, "openness looks farther than its radius: {beyond}");
     // Planted faults: a radius a quarter as large, and one that is too large.

@@ -1,4 +1,4 @@
-//! Layers of paint that are hidden, or laid in another order.
+//! Tests of layers of paint that are hidden, or laid in another order.
 
 use std::collections::BTreeMap;
 

@@ -6,8 +6,8 @@ use impasto_painting::FrameOptions;
 use impasto_scene::motion;
 use impasto_tests::scenes;
 
-/// A stroke whose centre lies beside the picture is drawn if it reaches into it, however long chance made it. A wider
-/// picture of the same view shows which strokes these are.
+/// A stroke whose centre lies beside the picture is drawn if it reaches into the picture, even if only because jitter
+/// or boil made it longer. A wider picture of the same view shows which strokes these are.
 #[test]
 fn long_strokes_that_reach_into_the_picture_are_there() {
     let painting =
@@ -27,7 +27,7 @@ fn long_strokes_that_reach_into_the_picture_are_there() {
         if is_in && beside_px > 0.0 {
             count += 1;
             let of = format!("{} x {} px", stroke.length_px, stroke.width_px);
-            assert!(there.contains(&source.place), "{beside_px} px beside the picture, {of}");
+            assert!(there.contains(&source.place), "a stroke of {of}, {beside_px} px outside, is missing");
         }
     }
     assert!(count > 100, "{count}");

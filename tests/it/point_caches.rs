@@ -339,7 +339,7 @@ fn commands_tell_of_a_sample_that_is_no_shape() {
     cache[28..32].copy_from_slice(&SAMPLES.to_le_bytes());
     scene(folder.path(), &cache, &moved("plate", ""));
     let file = std::fs::OpenOptions::new().write(true).open(folder.path().join("plate.pc2"));
-    file.and_then(|file| file.set_len(32 + 60 * SAMPLES as u64)).expect("a hole takes no room");
+    file.and_then(|file| file.set_len(32 + 60 * SAMPLES as u64)).expect("a hole in a file takes no room");
     for arguments in [
         &["render", "scene.ron", "-o", "f_#.png", "--frames", "2"][..],
         &["strokes", "scene.ron", "--frame", "2", "-o", "strokes.csv"],

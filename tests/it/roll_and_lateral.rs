@@ -245,7 +245,7 @@ fn strokes_can_be_kept_from_turning_and_turned_by_chance() {
             a.iter().filter_map(|(key, angle)| Some(degrees_apart(*angle, *b.get(key)?))).collect()
         };
     let still = apart(&at(0.0, Rotation::Off), &at(1.0, Rotation::Off));
-    assert!(still.len() > 500 && still.iter().all(|&off| off == 0.0), "off: {} strokes", still.len());
+    assert!(still.len() > 500 && still.iter().all(|&off| off == 0.0), "unturned: {} strokes", still.len());
     // In the reference pose nothing turns where the reference sees the surface well.
     let unturned = apart(&at(0.0, Rotation::Off), &at(0.0, Rotation::On));
     let same = unturned.iter().filter(|&&off| off < 1e-3).count();

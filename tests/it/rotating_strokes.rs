@@ -81,7 +81,7 @@ fn a_lone_stroke_lies_at_its_angle() {
         let measured = 0.5 * f64::atan2(sum.1, sum.0);
         let error = wrap_half(measured - f64::from(angle_deg).to_radians()).to_degrees();
         println!("{angle_deg} degrees: off by {error:.3}");
-        assert!(error.abs() <= 0.5, "{angle_deg} degrees: the picture says {error} more");
+        assert!(error.abs() <= 0.5, "{angle_deg} degrees: the drawn stroke is off by {error}");
     }
 }
 

@@ -74,8 +74,8 @@ fn a_shot_is_as_bright_as_where_it_was_made_within_limits() {
     let [usual, around, day] = watts(3.0);
     assert!((usual - 3.0 * 0.455).abs() < 1e-3 && (around / usual - 0.11).abs() < 1e-3, "{usual} {around}");
     assert!((watts(2.0)[0] * 1.5 / usual - 1.0).abs() < 1e-3);
-    // A very bright sun is dimmed to the upper limit, and a moon is lifted but stays dim. An intensity too small for
-    // lux is lifted to the upper limit.
+    // A very bright sun is dimmed to the upper limit, and a moon is lifted but stays dim. An intensity that is too
+    // small to be in lux counts as relative, and becomes the upper limit.
     let [burning, ..] = watts(1000.0);
     let [moon, _, night] = watts(0.05);
     assert!((burning - 1.7).abs() < 1e-3 && (lit(1.0)[0] - 1.7).abs() < 1e-3, "{burning}");

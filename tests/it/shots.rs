@@ -247,8 +247,8 @@ fn what_a_shot_moves_is_posed_once_it_has_own_keys() {
     for (frame, before) in before.iter().enumerate() {
         assert!(pose(&document, frame as f64).abs_diff_eq(*before, 1e-6), "{frame}");
     }
-    // A steady turn about one axis needs two keys. At 90 degrees about Y its angles are imprecise, so there may be a
-    // third.
+    // A steady turn about one axis needs two keys. Keys hold Euler angles, which are ill-conditioned at 90 degrees
+    // about Y, where this turn ends, so there may be a third.
     assert!(document.scene().objects[0].keys.len() <= 3);
     document.apply(&Command::Time(Time::OwnKeys(KeyOf::Camera))).unwrap();
     assert_eq!(document.scene().camera.keys.len(), 2);

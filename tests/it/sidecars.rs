@@ -115,7 +115,7 @@ fn planes(
 /// A lens shifted by whole pixels gives the same picture, moved: depth, light and shadow move with the surfaces.
 #[test]
 fn a_shifted_lens_moves_the_picture_and_nothing_else() {
-    // Even, because openness is computed at every second pixel: the same places must be computed again.
+    // Even, because openness (ambient occlusion) is computed at every second pixel: these must fall on the same places.
     const BY_PX: [i32; 2] = [32, -16];
     let scene = root().join("scenes/lane.ron");
     let mut renderer = renderer(Driver::Auto);

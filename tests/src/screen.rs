@@ -12,7 +12,7 @@ const PATIENCE: Duration = Duration::from_secs(120);
 /// The time between two checks while waiting.
 const PAUSE: Duration = Duration::from_millis(30);
 
-/// Width and height of a screen in pixels: the window's own size.
+/// Width and height of a screen in pixels: the size with which the editor's window opens.
 pub const SIZE_PX: [usize; 2] = [1280, 800];
 
 /// Repeats `look` until it returns something.

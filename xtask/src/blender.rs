@@ -11,7 +11,7 @@ use crate::steps::{self, cargo, target_folder};
 /// The Blenders that are tried, as modules of Python 3.11.
 const VERSIONS: [&str; 3] = ["5.0.1", "4.5.15", "4.2.23"];
 
-/// Names a Python that has Blender as a module already.
+/// The environment variable that names a Python which already has Blender as a module.
 const OWN_PYTHON: &str = "IMPASTO_BPY";
 
 /// Whether missing Blenders are fetched.
@@ -92,7 +92,7 @@ fn python_3_11() -> Option<&'static str> {
     })
 }
 
-/// Runs a Python program.
+/// The command that runs a Python program in `folder`.
 fn python(python: &Path, folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(python);
     command.args(arguments).current_dir(folder).env("PYTHONDONTWRITEBYTECODE", "1");

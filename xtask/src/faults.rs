@@ -13,7 +13,7 @@ use anyhow::{Context as _, bail, ensure};
 
 use crate::steps::{self, cargo, target_folder};
 
-/// Names the folder of shaders, as `tests/src/pictures.rs` reads it.
+/// The environment variable that names the folder of shaders; `tests/src/pictures.rs` reads it.
 const PLANTED: &str = "IMPASTO_PLANTED_SHADERS";
 
 /// A small change of a shader that makes a picture wrong.
@@ -25,7 +25,7 @@ struct Fault {
     /// What stands there once, and what takes its place.
     from: &'static str,
     to: &'static str,
-    /// Parts of the names of tests that look at it.
+    /// Parts of the names of the tests that should notice the fault.
     tests: &'static [&'static str],
 }
 

@@ -2,7 +2,7 @@
 layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
 layout(location = 1) in vec4 size;           // length and width in px, unused
 layout(location = 2) in uvec4 marks;         // unused, mark
-layout(location = 6) in vec4 resolved;       // colour and how much is there
+layout(location = 6) in vec4 resolved;       // colour, alpha
 layout(location = 7) in vec4 fitted;         // centre in px where it lies on its body
 uniform vec2 size_px;
 uniform float mark_rows;

@@ -17,7 +17,7 @@ const LEAST_SHARE: f32 = 1.0 / 1024.0;
 /// A stroke is listed by name only if it covers more than this of some pixel.
 const LEAST_NAMED: f32 = 1.0 / 255.0;
 
-/// Names, among the regions, the strokes that are in no region of the scene.
+/// The name, in the region matte, of strokes that are in no region of the scene.
 const NO_REGION: &str = "everything else";
 
 /// What shows in each pixel, top row first.

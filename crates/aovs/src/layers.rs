@@ -17,7 +17,8 @@ use crate::planes::planes;
 /// The largest factor on a layer.
 const MOST_GAIN: f32 = 4.0;
 
-/// The finish adds light only where more than this is lacking, and more than the last bit of a 16-bit float.
+/// `finish` adds light only where more is lacking than `LEAST_LIGHT`, and more than the share `HALF_ULP` of the wanted
+/// light: about the last bit of a 16-bit float.
 const LEAST_LIGHT: f32 = 4e-4;
 const HALF_ULP: f32 = 1.0 / 1024.0;
 
@@ -88,7 +89,7 @@ fn finished(mut layers: Vec<[f32; 4]>, wanted: [f32; 4]) -> Vec<[f32; 4]> {
     for layer in &mut layers {
         layer[3] = f16::from_f32(layer[3]).to_f32();
     }
-    // It may also have more alpha: then the finish covers a little.
+    // A softened outline may also have more alpha: then `finish` covers a little.
     let through: f32 = layers.iter().map(|layer| 1.0 - layer[3]).product();
     let mut top = [0.0; 4];
     if wanted_through < through - LEAST_ALPHA {

@@ -65,7 +65,8 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     fault.map_or(Ok(()), |fault| Err(Failure::Other(fault)))
 }
 
-/// What the frames do not show as the scene states it, although all were drawn, in words; `None` if nothing.
+/// In words, what is wrong with frames that were drawn nevertheless, such as a body whose point cache could not be
+/// read; `None` if nothing is.
 type Fault = Option<String>;
 
 fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, Failure> {

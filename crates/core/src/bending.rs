@@ -39,7 +39,7 @@ pub struct Bend {
     pub skin: Option<SkinWeights>,
     /// The pose in which the mesh is at rest.
     pub rest: BendPose,
-    /// Normals turn as the surface round them does, since the file does not say how targets change them.
+    /// Whether normals turn as the surface round them does, because the file does not say how targets change them.
     pub turns_normals: bool,
 }
 
@@ -110,8 +110,9 @@ impl Target {
 }
 
 impl Bend {
-    /// The vertices in a pose: `Σ w (p + Σ m d)`, with the joints blended by their weights (linear blend skinning), normals by the
-    /// cofactors of the blended matrix. A normal that vanishes stays as it was bound.
+    /// The vertices in a pose, by linear blend skinning: `Σ w J (p + Σ m d)`. J and w are the matrices and weights of
+    /// the joints, p is the bound position, d and m are the offsets and weights of the targets. Normals are transformed
+    /// by the cofactors of the blended matrix `Σ w J`. A normal that vanishes stays as it was bound.
     pub fn at(&self, pose: &BendPose) -> Vertices {
         let joints: Vec<Rows> = pose.joints.iter().map(rows).collect();
         let count = self.bound.positions.len();

@@ -9,21 +9,22 @@ use crate::sampling::{self, Surface, hexagonal_spacing};
 /// At most this many samples measure a surface, since all pairs of them are compared.
 const MOST_SAMPLES: usize = 2048;
 
-/// A sample lies on the same form as another while their normals differ by at most 40 degrees.
+/// The cosine of 25 degrees: samples whose normals differ by more do not lie on the same form.
 const LEAST_COSINE: f32 = 0.906;
 
-/// The other must also lie off the sample's tangent plane by at most this share of their distance, as on a ball at that
-/// angle: an eye ends at its lids although the cheek faces the same way.
+/// Samples on the same form also lie off each other's tangent planes by at most this share of their distance: as much
+/// as points of a ball whose normals differ by 25 degrees. So an eye ends at its lids, although the cheek faces the
+/// same way.
 const MOST_RISE: f32 = 0.22;
 
 /// The form ends at the radius at which it fills only this share of the disc; a right-angled corner of a plane fills 0.25.
 const LEAST_SHARE: f32 = 0.2;
 
-/// The first radius that is looked at, in spacings of the samples: less is too few samples to judge by.
+/// The first radius that is looked at, in spacings of the samples: within a smaller one there are too few samples.
 const FIRST_RADIUS: f32 = 2.5;
 
-/// How many radii are looked at. Their squares, in squares of the first, are 1, 1.5, 2, 3, 4, 6, 8 and so on: the exponent of a
-/// floating-point number and the first bit after it.
+/// How many radii are looked at. Their squares, in squares of the first, are 1, 1.5, 2, 3, 4, 6, 8 and so on: all
+/// numbers from 1 on that a float holds in its exponent and the first bit of its mantissa.
 const RADII: usize = 24;
 
 /// Samples no farther than this smooth the measure, in spacings.
@@ -190,7 +191,7 @@ fn size_ln_from(beyond: &[f32], first_radius: f32, density: f32) -> f32 {
     let mut counts = [0u32; RADII];
     let first = 1f32.to_bits() >> 22;
     for &beyond in beyond {
-        // The next radius above: the bits of a positive number grow with it.
+        // The index of the next larger radius: the bits of positive floats sort like their values.
         let step =
             (beyond.max(1.0).to_bits().wrapping_sub(1) >> 22).wrapping_add(1).saturating_sub(first) as usize;
         if step < RADII {

@@ -80,7 +80,7 @@ fn find(mesh: &TriangleMesh) -> (Shells, Vec<bool>) {
     (shells, open)
 }
 
-/// Gives vertices at the same position the same number, counted from 0 in the order in which positions begin.
+/// Gives vertices at the same position the same number, counted from 0 in the order in which positions first occur.
 pub(crate) fn weld(positions: &[Vec3]) -> Vec<u32> {
     // A hash table of the first vertex at each position, at most half full, with linear probing.
     const FREE: u32 = u32::MAX;

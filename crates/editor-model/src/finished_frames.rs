@@ -11,7 +11,7 @@ mod tests;
 /// How many frames are read before they are needed.
 const AHEAD: usize = 12;
 
-/// The frames that are looked through, and the place among them.
+/// The frames that are looked through, and which of them is to be shown.
 #[derive(Clone, Debug)]
 pub struct FinishedFrames {
     frames: Vec<(i64, PathBuf)>,
@@ -116,8 +116,8 @@ impl FinishedFrames {
         self.playback.wait_secs(now_secs)
     }
 
-    /// The frames to read, the most urgent first: the one that is asked for, and those after it; while it rests, the one
-    /// before, too.
+    /// The indices of the frames to read, the most urgent first: the frame that is asked for; unless it plays, the one
+    /// before; then those after it.
     pub fn wanted(&self) -> Vec<usize> {
         let count = self.frames.len();
         let mut wanted: Vec<usize> = (0..=AHEAD)

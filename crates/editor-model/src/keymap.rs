@@ -362,7 +362,8 @@ impl Keymap {
         }
     }
 
-    /// Every binding with its keys: the user's own, else those of the preset that no key of the user's took.
+    /// Every binding with its keys: those that the user chose for it, or else those of the preset without the ones that
+    /// the user gave to another binding.
     fn bindings(&self) -> impl Iterator<Item = (&'static Binding, Vec<Chord>)> {
         BINDINGS.iter().enumerate().map(|(index, binding)| {
             let chords = match self.own.of(index) {
@@ -377,7 +378,7 @@ impl Keymap {
         })
     }
 
-    /// The keys that a binding has by itself.
+    /// The keys of a binding in the preset, without changes by the user.
     fn preset_chords(&self, binding: &Binding) -> Vec<Chord> {
         let own = match self.preset {
             Preset::Blender => binding.blender,

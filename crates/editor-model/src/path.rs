@@ -147,7 +147,7 @@ impl SurfacePath {
         }
     }
 
-    /// A path that has only begun, pressed this hard.
+    /// The path with this pressure at its press; a path that has gone on already stays as it is.
     pub fn pressed(mut self, pressure: f64) -> Self {
         if let [piece] = self.pieces.as_mut_slice()
             && let [point] = piece.as_mut_slice()
@@ -215,14 +215,14 @@ impl SurfacePath {
         }
     }
 
-    /// The pen is lifted; this is the most that it pressed since it was set down. A path that is no more than a press
-    /// is as hard as that.
+    /// The path once the pen is lifted. `greatest` is the highest pressure since the pen was set down: a path that is
+    /// only a press gets at least this pressure.
     pub fn lifted(mut self, greatest: f64) -> Self {
         self.harden(greatest);
         self
     }
 
-    /// As long as the path is a press, and the string has not been pulled, it takes the greatest pressure.
+    /// If the path still has only the point of its press, raises the pressure there to at least `pressure`.
     fn harden(&mut self, pressure: f64) {
         if let [piece] = self.pieces.as_mut_slice()
             && let [point] = piece.as_mut_slice()
@@ -327,7 +327,7 @@ impl SurfacePath {
     fn finish_at(&mut self, hand: DVec2, pick: &mut dyn FnMut(DVec2) -> Option<Hit>) {
         let from = self.tip;
         let count = (from.distance(hand) / STEP_PX).ceil().clamp(1.0, 65_536.0) as u32;
-        // A pen that is lifted presses less and less, but this piece is drawn as it was before.
+        // A pen that is lifted presses less and less, but this piece keeps the pressure of the last point before it.
         let pressure = self.pieces.last().and_then(|piece| piece.last()).map_or(1.0, |point| point.pressure);
         let steps: Vec<Step> = (1..=count)
             .map(|step| Step { at_px: from.lerp(hand, f64::from(step) / f64::from(count)), pressure })

@@ -111,8 +111,8 @@ impl Picker {
     }
 
     /// The point of an object's surface at rest that is nearest to `position_in_model`, at most `max_distance` (model
-    /// units) from it. A point counts only if its painted side is less than 90 degrees from `facing`; one side of a
-    /// sheet always is.
+    /// units) from it. A point counts only if the normal of its painted side is less than 90 degrees from `facing`. A
+    /// sheet is painted on both sides, so the side that faces that way is taken.
     pub fn closest_on_surface(
         &self,
         object: usize,

@@ -219,7 +219,7 @@ impl Playback {
                 let late = (now_secs - playing.start_secs) - (index as f64 + 0.5) / fps;
                 self.lead_secs = (self.lead_secs + late * LEAD_GAIN).clamp(0.0, MOST_LEAD_SECS);
             }
-            // Lateness is not made up for: frames never run faster than the rate.
+            // At most one frame of lateness is made up for, so that frames do not race after a slow picture.
             Pacing::EveryFrame => playing.due_secs = (playing.due_secs + 1.0 / fps).max(now_secs - 1.0 / fps),
         }
         true

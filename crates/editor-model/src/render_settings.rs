@@ -114,7 +114,7 @@ pub struct Fault {
 pub struct RenderPlan {
     /// The scene with its files.
     pub loaded: Arc<LoadedScene>,
-    /// Its frames.
+    /// The frames to be rendered.
     pub frames: FrameList,
     /// Width and height in pixels.
     pub size_px: [u32; 2],
@@ -253,9 +253,9 @@ impl RenderPlan {
         self.frames.iter().filter(is_there).count()
     }
 
-    /// The frames of which this rendering has a PNG file, each with that file, once `done` frames are finished; none
-    /// where the kind has no PNG. Frames are rendered in their order, so what is there of later ones, and is to be
-    /// replaced, is of an earlier rendering.
+    /// The frames whose PNG files belong to this rendering, each with its file, once `done` frames are finished; empty
+    /// if the kind has no PNG. With [`Existing::Replace`] these are among the first `done` frames of the list: files of
+    /// later frames are left from an earlier rendering. With [`Existing::Keep`] every file that is there counts.
     pub fn finished(&self, done: u64) -> Vec<(i64, PathBuf)> {
         if !self.kind.has_png() {
             return Vec::new();

@@ -242,7 +242,7 @@ pub struct Session {
     pub frame_before_paint: Option<f64>,
     /// Whether playing begins again at the end of the range.
     pub looped: bool,
-    /// Whether frames that were played are then painted exactly while the window rests.
+    /// Whether, after playing, the frames that were played are painted exactly while the window rests.
     pub finishes: bool,
     /// Whether playing follows the clock or shows every frame.
     pub pacing: Pacing,

@@ -123,7 +123,7 @@ pub struct Transforming {
     /// The object's pose when it began.
     world_from_model: DAffine3,
     from_px: DVec2,
-    /// The last movement of the pointer.
+    /// Where the pointer was last, pixels.
     at_px: DVec2,
     snap: Snap,
     /// Angle by which the pointer has gone round the pivot, radians; it counts whole turns.

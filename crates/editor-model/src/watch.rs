@@ -128,7 +128,7 @@ mod tests {
         assert_eq!([watch.look(&document), watch.look(&document)], [None, None]);
         fs::write(&scene, format!("{SCENE} ")).expect("written");
         assert_eq!([watch.look(&document), watch.look(&document)], [None, Some(News::Scene)]);
-        assert_eq!(watch.look(&document), None, "told once");
+        assert_eq!(watch.look(&document), None, "a change is reported once");
         // The files of another document are new, so they are not reported.
         let other = Document::empty(folder.path());
         assert_eq!([watch.look(&other), watch.look(&document)], [None, None]);

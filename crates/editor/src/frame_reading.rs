@@ -1,8 +1,8 @@
-//! Reads frames from their PNG files on a thread of its own, for the viewer of finished frames. What it keeps never takes
-//! more than [`MOST_BYTES`], however many frames there are.
+//! Reads frames from their PNG files on a thread of its own, for the viewer of finished frames. However many frames
+//! there are, the pictures that it keeps take at most [`MOST_BYTES`], unless the one that is shown alone takes more.
 //!
 //! ```text
-//! want([7, 8, 9…], size) ─▶ thread: the first that is not there ─▶ decode, reduce ─▶ picture(7)
+//! want([7, 8, 9…], size) ─▶ thread: the first that is not read yet ─▶ decode, reduce ─▶ picture(7)
 //! ```
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -19,7 +19,7 @@ mod tests;
 /// The pictures that are kept take no more memory than this, unless the one that is shown takes more by itself.
 pub const MOST_BYTES: usize = 256 << 20;
 
-/// One picture takes at most one part in this many of the memory that is left.
+/// A picture is refused if reading it would take more than the available memory divided by this.
 const MEMORY_SHARE: u64 = 4;
 
 /// Reads frames. Dropping this ends its thread after the frame that it is reading.
@@ -36,10 +36,11 @@ struct Board {
     paths: Vec<PathBuf>,
     /// Indices, the most urgent first.
     wanted: Vec<usize>,
-    /// Pictures are reduced while they stay larger than this.
+    /// The size of the area that pictures are shown in. Larger ones are reduced, to no less than they are shown at.
     size_px: [usize; 2],
     read: BTreeMap<usize, Result<Arc<ColorImage>, String>>,
-    /// Those that were let go for others: they are not read again for the same needs.
+    /// Frames whose pictures were dropped to make room for others. They are not read again until other frames or
+    /// another size are wanted.
     let_go: BTreeSet<usize>,
     most_bytes: usize,
     ended: bool,
@@ -78,7 +79,7 @@ impl FrameReading {
     pub fn want(&self, wanted: Vec<usize>, size_px: [usize; 2]) {
         let mut board = self.shared.board();
         if size_px != board.size_px {
-            // Those that were reduced for a smaller window would be blurred.
+            // Pictures that were reduced for a smaller window would be blurred.
             board.read.clear();
             board.let_go.clear();
             board.size_px = size_px;
@@ -92,8 +93,8 @@ impl FrameReading {
         self.shared.changed.notify_all();
     }
 
-    /// Takes the files that are there by now. If frames have other places now, what was read is forgotten.
-    /// Returns whether it is.
+    /// Replaces the list of files. Unless it only got longer, the indices of frames have changed, and all pictures are
+    /// dropped. Returns whether they were.
     pub fn replace(&self, paths: Vec<PathBuf>) -> bool {
         let mut board = self.shared.board();
         let moves = !paths.starts_with(&board.paths);
@@ -148,7 +149,7 @@ impl Board {
         }
     }
 
-    /// The frame to read next: the first that is wanted and not there, as long as there is room for it.
+    /// The frame to read next: the first wanted one that is not read yet, as long as there is room for it.
     fn next(&self) -> Option<usize> {
         let is_due = |index: &&usize| {
             **index < self.paths.len() && !self.read.contains_key(*index) && !self.let_go.contains(*index)
@@ -199,11 +200,11 @@ fn read(path: &Path, size_px: [usize; 2]) -> Result<ColorImage, String> {
     Ok(reduced(&pixels.at_depth(Depth::Eight), size_px))
 }
 
-/// Refuses a picture that would take more than a share of the memory that is left.
+/// Refuses a picture that would take more than its share ([`MEMORY_SHARE`]) of the available memory.
 fn fits(path: &Path, info: &FrameInfo, available_bytes: Option<u64>) -> Result<(), String> {
     let [width, height] = info.size_px;
     let channel_bytes = if info.depth == Depth::Sixteen { 2 } else { 1 };
-    // As it is decoded, and as RGBA.
+    // Four channels a pixel, three times over: as decoded, as RGBA, and as RGBA of 8 bits.
     let needed = u64::from(width) * u64::from(height) * 4 * (channel_bytes * 2 + 1);
     match available_bytes {
         Some(available) if needed > available / MEMORY_SHARE => Err(format!(
@@ -214,10 +215,11 @@ fn fits(path: &Path, info: &FrameInfo, available_bytes: Option<u64>) -> Result<(
     }
 }
 
-/// The mean of blocks of pixels, of the largest blocks that leave the picture at least as large as it is shown.
+/// Reduces a picture: each new pixel is the mean of a square block. The blocks are the largest that leave the picture
+/// at least as large as it is shown.
 fn reduced(picture: &FramePixels, size_px: [usize; 2]) -> ColorImage {
     let [width, height] = picture.size_px.map(|side| side as usize);
-    // It is shown as a whole, so the side that has less room says how large it is.
+    // The whole picture is shown, so the side that has less room decides the scale.
     let step = (width / size_px[0].max(1)).max(height / size_px[1].max(1)).max(1);
     let size = [width.div_ceil(step), height.div_ceil(step)];
     let mut pixels = Vec::with_capacity(size[0] * size[1]);

@@ -1,6 +1,6 @@
 //! Packs everything that a shot needs into one folder or `.tar` file: the scene file unchanged, and all files that were
-//! read with it. Each lies where the scene finds it without further folders. Equal inputs give equal bytes on every
-//! machine.
+//! read with it. Each lies where the scene finds it, so that no folders have to be named for the search. Equal inputs
+//! give equal bytes on every machine.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -120,7 +120,8 @@ pub struct PackedFile {
     pub sha256: String,
 }
 
-/// Packs a scene into a new folder, or into a `.tar` file, which replaces one that is there only when it is whole.
+/// Packs a scene into a new folder, or into a `.tar` file. A `.tar` file that is there already is replaced only when
+/// the new one is whole.
 ///
 /// # Errors
 /// [`PackError`]; then nothing is left behind.

@@ -3,7 +3,7 @@
 /// The denominator of television rates: 23.976 stands for 24000/1001.
 const OF_TELEVISION: u32 = 1001;
 
-/// How far, as a share of itself, a rate may be from the television rate that it stands for.
+/// A rate that is off by less than this share (0.01 %) from a television rate stands for it.
 const NEAR: f64 = 1e-4;
 
 /// A rate as a fraction in lowest terms: a whole number, a television rate, or any other rate to 1/1000. Both numbers

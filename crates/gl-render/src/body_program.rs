@@ -8,8 +8,9 @@ use impasto_painting::frame::FrameBody;
 use crate::gl::{Bound, GlError, Gpu, Program, ProgramSource, ShaderFile};
 use crate::meshes::Part;
 
-/// Uniforms that all programs of bodies read, and those that only some read.
+/// The uniform that all programs of bodies read.
 const POSE: [&str; 1] = ["world_from_model"];
+/// The uniform that only some of them read.
 const NORMALS: [&str; 1] = ["world_from_normal"];
 
 /// The uniforms of `shared/cutout.glsl`.

@@ -60,7 +60,7 @@ pub struct SurfacePixels {
     pub normal: Vec<[f16; 4]>,
     /// Light that arrives; the last number is how much arrives of the light that casts shadows, 0..=1.
     pub light: Vec<[f16; 4]>,
-    /// How open the place is, 0..=1.
+    /// Ambient occlusion: how open the place is, 0..=1.
     pub openness: Vec<f16>,
 }
 

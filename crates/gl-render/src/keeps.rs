@@ -43,6 +43,7 @@ impl Keeps {
             Style::SumiE(_) => (33, true),
             Style::Reference => (0, false),
         };
+        // Of `UnlitTargets`, of the other targets of the reference pass, and of the finished picture.
         let [unlit, lit, picture] = [13, 26, 16];
         // Strokes, what is read back, and what the driver needs beside.
         let else_taken = 8;

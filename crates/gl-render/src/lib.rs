@@ -5,6 +5,8 @@
 //!                │
 //!                └─▶ a style: its targets and its passes in order ─▶ encode: sRGB bytes ─▶ overlays of a window
 //! ```
+//!
+//! Openness is ambient occlusion: 1 in the open, 0 where a place is enclosed.
 
 mod body_program;
 pub mod context;

@@ -7,7 +7,7 @@ use crate::gl::{Format, GlError, Gpu, Texture};
 /// Texels in a row: the most pigments that a palette has.
 const PIGMENTS: usize = 16;
 
-/// Alpha of a palette that nothing keeps to; 0 would mean that there is no pigment.
+/// Alpha of the pigments in a palette whose mix is 0: an alpha of 0 would mean that there is no pigment.
 const LEAST_MIX: f32 = 1e-3;
 
 /// A texture with a row for each palette of a frame, or one empty row if it has none. `encode` converts the linear

@@ -22,7 +22,7 @@ use crate::shader_files::{REFERENCE, SHARED};
 use crate::shadow::ShadowMap;
 use crate::watch::Watch;
 
-/// The passes, in order: shadow, surface, openness, light, then the bodies that noise colours.
+/// The passes, in order: shadow, surface, openness (ambient occlusion), light, then the bodies that noise colours.
 pub(crate) struct ReferencePass {
     gpu: Gpu,
     shadow: ShadowMap,

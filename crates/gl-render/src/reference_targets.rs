@@ -26,7 +26,8 @@ pub(crate) struct ReferenceTargets {
     place_pass: Framebuffer,
 }
 
-/// The unlit targets of the reference pass: beside other passes of it, only the ink style and AOVs read them.
+/// What the reference pass knows before light falls on the surfaces. Outside that pass only the ink style and AOVs read
+/// these targets.
 pub(crate) struct UnlitTargets {
     pub(crate) depth: Rc<Texture>,
     /// Colour without light; alpha is 1 where the surface is lit, 0 where it is unlit.

@@ -125,9 +125,10 @@ fn shadow_from_world(center: Vec3, radius: f32, to_light: Vec3) -> Mat4 {
 pub(crate) struct Sight {
     /// From world space to the clip space of the map.
     pub shadow_from_world: Mat4,
-    /// Side of a texel, world units; of a lamp, at a distance of 1.
+    /// Side of a texel in world units; for a lamp, at a distance of 1 from it.
     pub texel: f32,
-    /// How far depths in the map may differ: a constant, plus a number that is divided by the square of the distance.
+    /// How much nearer to the light than a point the depth in the map may be without shadowing the point: a constant,
+    /// plus a number that is divided by the square of the distance.
     pub bias: [f32; 2],
 }
 

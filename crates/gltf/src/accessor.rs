@@ -121,7 +121,7 @@ impl fmt::Display for Component {
 /// Elements at equal distances in the bytes of a view.
 #[derive(Clone, Debug)]
 pub(crate) struct Run {
-    /// From the first byte of the first element to the last of the last.
+    /// From the first byte of the first element to the last byte of the last element.
     pub bytes: Bytes,
     pub stride: usize,
 }

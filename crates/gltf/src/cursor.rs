@@ -95,7 +95,7 @@ impl<'p, 't> Cursor<'p, 't> {
         })
     }
 
-    /// How many items an array member has: 0 where it is missing.
+    /// An array member; an empty list where it is missing.
     ///
     /// # Errors
     /// It is no array.
@@ -143,7 +143,7 @@ impl<'p, 't> Cursor<'p, 't> {
         self.member(name).map_or(Ok(default), |member| member.whole())
     }
 
-    /// This finite number, also in `f32`.
+    /// This number, which must be finite as an `f32` too.
     pub fn number(&self) -> Checked<f64> {
         match *self.value {
             Json::Number(number) if (number as f32).is_finite() => Ok(number),

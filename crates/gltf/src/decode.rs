@@ -77,7 +77,7 @@ impl<'o, 'p, 't> Accessors<'o, 'p, 't> {
         &self.list[index]
     }
 
-    /// The index that a member holds, of an accessor of one of some shapes and components.
+    /// The index that a member holds, of an accessor that has one of these shapes and one of these components.
     ///
     /// # Errors
     /// Out of range, or another format.
@@ -164,7 +164,7 @@ impl<'o, 'p, 't> Accessors<'o, 'p, 't> {
         }
     }
 
-    /// The first element of an accessor's values in which something is found; `None` if in no element.
+    /// The first element of an accessor's values in which `scan` finds something; `None` if it finds nothing.
     pub fn first<const N: usize>(&mut self, index: usize, scan: Scan, values: &[[f32; N]]) -> Option<usize> {
         let search = || values.iter().position(|value| scan.finds(value));
         *self.scans.entry((index, scan)).or_insert_with(search)

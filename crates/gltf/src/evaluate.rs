@@ -1,4 +1,4 @@
-//! Where everything is at a time.
+//! Tells where everything in a shot is at a given time, and what else its animations change.
 //!
 //! An [`Animator`] is made once and holds the tracks in the order in which they are used; [`Animator::pose`] is a pure
 //! function of the time. All is computed in `f64`.
@@ -44,7 +44,7 @@ pub struct Animator {
     span_s: Option<[f32; 2]>,
 }
 
-/// A track and the clock that it shares with others.
+/// A track, and the index of its clock, the list of its keys' times; tracks with equal times share a clock.
 #[derive(Clone, Debug)]
 struct Playable {
     track: Track,
@@ -205,8 +205,8 @@ impl Animator {
         moves
     }
 
-    /// The shot at a time, seconds. Before the first and after the last key of a track, what it drives stands still; a
-    /// time that is not finite is the first key's.
+    /// The shot at a time, seconds. Before the first and after the last key of a track, what it drives stands still.
+    /// NaN counts as before the first key.
     pub fn pose(&self, time_s: f64) -> Posed {
         let mut posed = Posed::default();
         self.pose_into(time_s, &mut posed);
@@ -238,7 +238,8 @@ impl Animator {
     }
 }
 
-/// Lists of times. Exporters write one for each track, and nearly all are equal: a place in equal lists is found once.
+/// The lists of key times, each once: exporters write one for each track, and nearly all are equal. So a time's place
+/// among the keys is looked for once, and not for every track.
 #[derive(Default)]
 struct Clocks {
     list: Vec<Arc<Vec<f32>>>,
@@ -331,8 +332,8 @@ fn drive_trs(trs: &mut Trs, property: NodeProperty, track: &Track, place: keys::
     }
 }
 
-/// The rotation at a place. Keys were checked to have a length; only a spline between them may pass through zero, and
-/// then has its earlier key.
+/// The rotation at a place. That no key is zero was checked. Between two keys a spline may pass through zero: there the
+/// rotation is that of the earlier key.
 fn rotation(track: &Track, place: keys::Place) -> DQuat {
     let key = |key| DQuat::from_array(place.key::<4>(track, key)).normalize();
     match track.interpolation {

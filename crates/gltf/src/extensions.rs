@@ -42,7 +42,7 @@ const SILENT: [&str; 6] = [
     "EXT_structural_metadata",
 ];
 
-/// Extensions beyond `KHR_materials_` that may be required, and whose effects are then not seen.
+/// Extensions, beside those of `KHR_materials_`, whose effects are not seen. A file that requires one is still read.
 const UNSEEN: [&str; 5] =
     ["EXT_lights_image_based", "EXT_lights_ies", "KHR_audio_emitter", "KHR_physics_rigid_bodies", "MSFT_lod"];
 

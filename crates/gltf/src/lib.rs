@@ -4,7 +4,7 @@
 //! each is checked against the bytes before it is used, and each complaint names its place ([`Finding::pointer`]).
 //!
 //! Space and units are those of glTF: right-handed, Y up, metres, radians, seconds; colours are linear; texture
-//! coordinates have V pointing down. Matrices take columns.
+//! coordinates have V pointing down. Matrices multiply column vectors.
 //!
 //! ```text
 //! bytes ─▶ container ─▶ json ─▶ source (buffers, views) ─▶ accessor ─▶ decode ─▶ read_mesh, read_node, read_animation

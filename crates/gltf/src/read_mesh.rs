@@ -148,7 +148,7 @@ impl MeshReader<'_, '_, '_, '_> {
         }))
     }
 
-    /// A compressed primitive can still be read when its accessors hold it too.
+    /// Fails if a primitive is compressed, unless its positions are also in the file uncompressed.
     fn check_compression(&self, cursor: &Cursor<'_, '_>, position: &Cursor<'_, '_>) -> Checked<()> {
         let extensions = cursor.object("extensions")?;
         let Some(draco) = extensions.as_ref().and_then(|extensions| extensions.member(DRACO)) else {
@@ -242,8 +242,9 @@ impl MeshReader<'_, '_, '_, '_> {
         Ok(self.finite_or_left_out(&member, index, colors))
     }
 
-    /// An attribute of our own with one whole number per vertex, stored as floats. `None` if it is missing or, since
-    /// other programs may use the name for something else, if it has another format or, after a warning, fractions.
+    /// An attribute of our own with one whole number per vertex, stored as floats. `None` if it is missing. Other
+    /// programs may use the name for something else, so another format also gives `None`, without a message; numbers
+    /// that are not whole, negative or too large give `None` and a warning.
     fn numbers(
         &mut self,
         attributes: &Cursor<'_, '_>,

@@ -8,8 +8,8 @@ use crate::extensions::MESHOPT;
 use crate::finding::{Checked, Findings, Severity};
 use crate::uri::{self, Target};
 
-/// Gives the bytes of a file beside the glTF file: its name, decoded and relative with `/`, and the most bytes that are
-/// wanted. An error is a sentence for the user, without a full stop.
+/// Gives the bytes of a file beside the glTF file. Its arguments are the file's name (decoded, relative, with `/`
+/// between folders) and the most bytes that are wanted. An error is a sentence for the user, without a full stop.
 pub type Open<'a> = dyn FnMut(&str, u64) -> Result<Vec<u8>, String> + 'a;
 
 /// The largest file beside the glTF file.
@@ -22,14 +22,14 @@ pub const MAX_TOTAL_BYTES: u64 = 4 << 30;
 /// (8 bits) grow to when they are read as `f32`.
 pub const SPARE_BYTES: u64 = 512 << 20;
 
-/// A view into a buffer, inside it.
+/// A view into a buffer; it was checked that the view lies inside the buffer.
 #[derive(Clone, Debug)]
 pub(crate) struct View {
     /// `None` where the buffer has no data: a place holder, or compressed by an extension.
     pub bytes: Option<Bytes>,
-    /// Bytes in the file.
+    /// Its length in the file, bytes.
     pub len: u64,
-    /// From one element to the next.
+    /// Bytes from one element to the next, if the view states them.
     pub stride: Option<usize>,
     /// Where the view starts in its buffer, for alignment.
     pub offset: u64,

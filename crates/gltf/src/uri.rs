@@ -21,13 +21,13 @@ pub(crate) fn target(uri: &str) -> Result<Target, &'static str> {
     if uri.starts_with(':') || has_scheme(uri) {
         return Err("has a scheme: only files beside the glTF file and data URIs are read");
     }
-    // A query or fragment would be part of a name on the web only; exporters write such characters unescaped.
+    // `?` and `#` are part of the name here, and begin no query or fragment: exporters write them unescaped.
     let name = String::from_utf8(percent_decoded(uri)?).map_err(|_| "is not UTF-8 when decoded")?;
     check_name(&name)?;
     Ok(Target::File(name))
 }
 
-/// Whether it begins with something like `https:` or `C:`.
+/// Whether a URI or a name begins with something like `https:` or `C:`.
 fn has_scheme(uri: &str) -> bool {
     let Some((scheme, _)) = uri.split_once(':') else { return false };
     scheme.starts_with(|c: char| c.is_ascii_alphabetic())

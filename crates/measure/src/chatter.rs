@@ -25,7 +25,7 @@ pub struct Place {
     pub amount: f64,
 }
 
-/// Counts of a kind of strokes over a shot.
+/// How often something happens to strokes over a shot. The unit is the stroke-frame: one stroke in one frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Share {
     /// Stroke-frames in which it happened.
@@ -40,7 +40,7 @@ impl Share {
         self.found / self.of.max(1) as f64
     }
 
-    /// Adds one stroke-frame.
+    /// Adds one stroke-frame; `found` is 1 if something happened to the stroke in it, else 0.
     pub fn count(&mut self, found: f64) {
         self.found += found;
         self.of += 1;

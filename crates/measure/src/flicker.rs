@@ -3,7 +3,7 @@
 use crate::chatter::Place;
 use crate::plane::Plane;
 
-/// A second difference of luma above this, of 255, is seen.
+/// A second difference of luma above this (levels of 255) is seen.
 pub const SEEN: f32 = 6.0;
 
 /// How many bins count the second differences, from 0 to 255.
@@ -26,7 +26,7 @@ pub struct Flicker {
     pub pixels: usize,
     /// Those that flicker visibly.
     pub flickering: usize,
-    /// The worst.
+    /// The pixel with the largest second difference.
     pub worst: Option<Place>,
 }
 
@@ -59,7 +59,7 @@ impl Flicker {
         }
     }
 
-    /// The second difference that this share of the pixels stays below, 0..=1.
+    /// The second difference (as a share of 255) that a `share` of the pixels, 0..=1, stays below.
     pub fn percentile(&self, share: f64) -> f64 {
         let wanted = (share * self.pixels as f64).ceil() as usize;
         let mut sum = 0;

@@ -114,7 +114,7 @@ impl Steps {
 fn visible_share(key: &StrokeKey, stroke: &MeasuredStroke, shown: Shown<'_>, size_px: [u32; 2]) -> f64 {
     let reference = shown.reference;
     let facing = stroke.facing.clamp(LEAST_FACING, 1.0);
-    // How much nearer the surface may be where the stroke's ends lie on it.
+    // How much nearer than its centre the stroke's ends may lie, as a share of its depth, for the surface slants away.
     let slant = shown.units_per_px_at_1 * 0.5 * stroke.length_px * (1.0 / (facing * facing) - 1.0).sqrt();
     let nearest = stroke.depth * (1.0 - NEARER - slant);
     let (sin, cos) = stroke.angle_rad.sin_cos();

@@ -246,7 +246,7 @@ impl LiftSources {
         self.references.views(point, |reference| {
             let neighbours = lists?.of(index);
             let center_px = reference.map.project(reference.then(point.raised()).position);
-            // At rest, and where the reference has it.
+            // A neighbour's position at rest, and its position at the reference's frame.
             let at = |other: &u32| {
                 let at_rest = self.traits.particles.at(*other as usize).position.as_dvec3();
                 let carried = reference.carried(self.traits.particles.places()[*other as usize]);

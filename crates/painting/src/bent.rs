@@ -126,7 +126,7 @@ impl BodySurface {
     }
 }
 
-/// Vertices, and F at each, if finding them needed it.
+/// Vertices, with F at each of them if their normals were found from it.
 struct Strained {
     vertices: Vertices,
     gradients: Option<Vec<Mat3>>,

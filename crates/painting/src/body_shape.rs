@@ -25,7 +25,7 @@ pub struct NoiseLayers {
     pub tile: Arc<Tile>,
     /// How many layers, at least 1.
     pub count: u32,
-    /// How fast layers move, and how far apart they begin.
+    /// How fast layers move; also how far apart they begin.
     pub speed: f32,
     /// Texture coordinates times this, plus `offset`.
     pub tiling: Vec2,

@@ -5,11 +5,13 @@
 
 use impasto_core::hash;
 
-/// What boil changes at full strength, standard deviations: the place along and across in lengths and widths, the logarithms of
-/// length and width, the direction in radians, and the slow noise of colour.
+/// What boil changes at full strength, as standard deviations. Of the place: along in lengths, across in widths.
 const PLACE: [f32; 2] = [0.10, 0.22];
+/// Of the logarithms of length and width.
 const SIZE: [f32; 2] = [0.16, 0.12];
+/// Of the direction, radians.
 const ANGLE_RAD: f32 = 0.14;
+/// Of the slow noise of colour, in its own standard deviation.
 const DRIFT: f32 = 1.6;
 
 /// How strokes are laid while one drawing holds.

@@ -119,7 +119,7 @@ mod tests {
             for point in [anchor, beside] {
                 let on_canvas = map.transform_point2(now.project(point).as_vec2());
                 let difference = (on_canvas.as_dvec2() - before.project(point)).length();
-                assert!(difference < 0.1, "{difference}");
+                assert!(difference < 0.1, "off by {difference} px");
             }
         }
         let still = rule.at(&reference, 360.0).canvas_from_px;

@@ -197,7 +197,8 @@ impl Painting {
         (!faults.is_empty()).then(|| format!("{why}: {}", faults.join("; ")))
     }
 
-    /// Index of the region that a place of an object's surface belongs to; `regions.len()` of the scene for none of them.
+    /// Index of the region that a place of an object's surface belongs to; `regions.len()` of the scene if it belongs
+    /// to none.
     pub fn region_at(&self, object: usize, place: &Particle) -> usize {
         usize::from(self.bodies[object].regions.of(place))
     }
@@ -216,7 +217,7 @@ impl Painting {
         self.bent_at(frame)[object].as_ref().map(|bent| bent.place(PackedParticle::of(place)))
     }
 
-    /// The material that a stroke lies on: its name, or that of its object where it has none.
+    /// The name of the material that a stroke lies on; the object's name where the material has none.
     pub fn material_of(&self, object: usize, kind: LayerKind, particle: usize) -> &str {
         let body = &self.bodies[object].surface;
         let material = self
@@ -232,7 +233,8 @@ impl Painting {
         }
     }
 
-    /// The layers of paint that its frames may have, from the lowest: the `layer` of their regions, and which layer of paint.
+    /// The layers of paint that this painting's frames may have, the lowest first: each as the `layer` that regions
+    /// state, and the kind of layer.
     pub fn paint_layers(&self) -> Vec<(i32, LayerKind)> {
         let orders: BTreeSet<i32> = self.rules.iter().map(|rule| rule.strokes.layer).collect();
         let mut kinds = presets::laying_order(self.scene()).to_vec();

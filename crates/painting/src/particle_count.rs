@@ -118,7 +118,7 @@ pub(crate) fn find<const LAYERS: usize>(
         .map(|needed| (needed * surface.area() * 1.25).clamp(f64::from(least), MOST).ceil() as usize)
 }
 
-/// A count that was found, times `by`, but at most the greatest count that is found.
+/// A count that was found, times `by`, but at most [`MOST`].
 pub(crate) fn times(found: usize, by: f32) -> usize {
     let most = found.max(MOST as usize);
     ((found as f64 * f64::from(by)).ceil() as usize).min(most)
@@ -268,7 +268,7 @@ mod tests {
             find(&surface, std::slice::from_ref(&sighting), 64, |_| None, |_, _, _| [0.001])[0] as f64
         };
         let (rough, fine) = (counted(1), counted(100));
-        assert!((rough / fine - 1.0).abs() < 0.2, "{rough} {fine}");
+        assert!((rough / fine - 1.0).abs() < 0.2, "{rough} particles, but {fine} on the grid");
     }
 
     #[test]
@@ -285,7 +285,7 @@ mod tests {
             find(&surface, &[sighting], 64, |_| None, |_, _, _| [0.01])[0] as f64
         };
         let [above, below] = [4.0, -4.0].map(counted);
-        assert!(above > 300.0 && (above / below - 1.0).abs() < 0.05, "{above} {below}");
+        assert!(above > 300.0 && (above / below - 1.0).abs() < 0.05, "{above} from above, {below} below");
     }
 
     #[test]
@@ -310,8 +310,8 @@ mod tests {
             find(&surface, std::slice::from_ref(&sighting), 64, |_| None, |_, _, _| [0.001])[0] as f64
         };
         let [one, some, many, more] = [1, 8, 64, 128].map(counted);
-        assert!((some / one / 8.0 - 1.0).abs() < 0.1, "{some} of {one} each");
-        assert!(many < 48.0 * one && more < 1.2 * many, "{one} {many} {more}");
+        assert!((some / one / 8.0 - 1.0).abs() < 0.1, "8 floors need {some}, one needs {one}");
+        assert!(many < 48.0 * one && more < 1.2 * many, "1 floor needs {one}, 64 {many}, 128 {more}");
     }
 
     #[test]
@@ -338,7 +338,7 @@ mod tests {
                     sum += weight;
                     (sum >= share * total).then_some(value)
                 });
-                assert_eq!(reached(&mut values, share * total), expected, "{count} {share}");
+                assert_eq!(reached(&mut values, share * total), expected, "{count} values, share {share}");
             }
         }
     }

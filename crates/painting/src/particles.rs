@@ -12,7 +12,8 @@ use crate::body::BodySurface;
 /// The first particles of an order, on a surface at rest. Only their places are stored; all else is computed when it is asked for.
 #[derive(Clone)]
 pub struct Particles {
-    /// The identity of the order on a surface of this shape, however many of its particles have been sampled.
+    /// The same `Arc` in all `Particles` of one order, however many of its particles have been sampled; compared by
+    /// address.
     order: Arc<()>,
     all: Arc<Vec<PackedParticle>>,
     surface: Arc<BodySurface>,

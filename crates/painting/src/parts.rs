@@ -191,8 +191,8 @@ mod tests {
             assert!((found[0] - length).abs() < 0.02 * length, "{found:?}, not {length}");
             assert!((found[0] / found[1] - 3.0).abs() < 1e-4, "{found:?}");
         };
-        // A form 100 units large suits strokes far wider than these, one of 15 units suits 19.5 px: so much narrower that they
-        // shrink a little further, to a soft minimum with 19.5 √(19.5 / 25).
+        // A form 100 units large suits strokes far wider than these (25 px). One of 15 units suits 19.5 px: the limit
+        // is 19.5 √(19.5 / 25) px, and the width is a soft minimum of that and 25 px.
         close(cap.fitted([75.0, 25.0], 100.0, 1.0), 75.0);
         close(cap.fitted([75.0, 25.0], 15.0, 1.0), 49.1);
         close(cap.fitted([75.0, 25.0], 15.0, 0.5), 62.05);

@@ -121,7 +121,7 @@ impl PartialEq for Standing {
 impl Standing {
     /// Hashes where its vertices and its parts are.
     pub(crate) fn feed_key(&self, key: &mut KeyHasher) {
-        // Its vertices follow from the shape.
+        // The shape is left out: it only says where the vertices are, and these are hashed.
         let Self { shape: _, bent, centers } = self;
         key.numbers(&[u8::from(bent.is_some())]);
         if let Some(bent) = bent {

@@ -187,9 +187,10 @@ mod tests {
             let floor = [Some((Vec3::new(-half, 0.0, -half), Vec3::new(half, 0.0, half)))];
             find(&floor, &floor, &views, DVec3::ZERO)
         };
-        // Round all of a small floor; round a part of a large one, with what is before the camera inside.
+        // The sphere holds all of a small floor. Of a large one it holds only a part, with the origin before the
+        // camera in it.
         assert_eq!(sphere(3.0), (Vec3::ZERO, 3.0 * 2f32.sqrt()));
         let (center, radius) = sphere(300.0);
-        assert!(radius < 60.0 && center.distance(Vec3::ZERO) < radius, "{center} {radius}");
+        assert!(radius < 60.0 && center.distance(Vec3::ZERO) < radius, "centre {center}, radius {radius}");
     }
 }

@@ -185,8 +185,9 @@ impl PaintingView<'_> {
         Some((stroke, source))
     }
 
-    /// ln of ρ*·A/(index + ½): strokes wanted per pixel over particles per pixel, over rank. The number of particles cancels
-    /// out, so twice as many leave the first half as they were.
+    /// ln of ρ*·A/(index + ½): strokes wanted per pixel over particles per pixel, over rank. ρ* is the strokes wanted
+    /// per pixel; A is how many pixels the coat's whole area would fill at this particle's scale. The number of
+    /// particles cancels out, so twice as many leave the first half as they were.
     fn supply_ln(&self, coat: &CoatView<'_>, index: usize, area_px: f32, wanted_per_px: f32) -> f32 {
         let area_px = area_px / (self.px_scale * self.px_scale);
         let wanted = f64::from(wanted_per_px * area_px) * coat.coat.sampled.area / (index as f64 + 0.5);

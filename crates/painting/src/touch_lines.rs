@@ -20,14 +20,14 @@ const MARK_LENGTH: f64 = impasto_core::brush::SIZE[0] as f64 / impasto_core::bru
 const STRETCHED: f64 = 1.5;
 const END: f64 = 0.36;
 
-/// By how much a line is narrower at its very ends.
+/// By what share of its width a line is narrower at its very ends.
 const LIFTED: f64 = 0.22;
 
 /// A line of this many widths, or more, needs `RUNS_DRY` more paint in its mark to show at its end.
 const DRY_AFTER: f64 = 12.0;
 const RUNS_DRY: f64 = 0.34;
 
-/// Steps of a touch at a single place.
+/// How many steps the line of a touch at a single place has.
 const STRAIGHT_STEPS: usize = 8;
 
 /// The least slant that a surface counts with, as in `paint.vert`.

@@ -7,8 +7,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// The files that were found while a scene was read. Copies share one list.
 #[derive(Clone, Debug, Default)]
 pub struct FoundFiles {
-    /// For each file, by the path at which it was found: the path, relative to the scene's folder, at which its name
-    /// would find it without further folders. `None` if there is no such path.
+    /// By the path at which a file was found: the path, relative to the scene's folder, at which its name would find it
+    /// if there were no extra folders. `None` if there is no such path.
     places: Arc<Mutex<BTreeMap<PathBuf, Option<PathBuf>>>>,
 }
 
@@ -25,7 +25,7 @@ impl FoundFiles {
     /// Notes a file that the file `beside` names, in a scene of the folder `root`. `name` has `/` between folders.
     pub(crate) fn note(&self, [beside, root]: [&Path; 2], path: &Path, name: &str) {
         let mut places = self.places.lock().unwrap_or_else(PoisonError::into_inner);
-        // If the naming file was itself found in a further folder, its place in the scene's folder counts.
+        // If the naming file was itself found in an extra folder, its own path in this list counts.
         let naming = places.get(&without_dots(beside)).cloned().unwrap_or_else(|| {
             let root = std::fs::canonicalize(root).ok()?;
             let folder = beside.parent().filter(|folder| !folder.as_os_str().is_empty());
@@ -36,8 +36,8 @@ impl FoundFiles {
         places.insert(path.to_owned(), place);
     }
 
-    /// Every file found, by its path, with the path relative to the scene's folder at which its name would find it
-    /// there. `None` if there is no such path.
+    /// By the path of each file that was found: the path, relative to the scene's folder, at which its name would find
+    /// it if there were no extra folders. `None` if there is no such path.
     pub fn places(&self) -> BTreeMap<PathBuf, Option<PathBuf>> {
         self.places.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }

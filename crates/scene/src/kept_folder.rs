@@ -226,11 +226,11 @@ mod tests {
         let (file, mut bytes) = (folder.find(&key(0), 1 << 20).unwrap().unwrap(), [1; 60]);
         file.read(40, &mut bytes).unwrap();
         assert_eq!((file.bytes, bytes), (100, [0; 60]));
-        assert!(file.read(41, &mut bytes).is_err(), "that is beyond its end");
+        assert!(file.read(41, &mut bytes).is_err(), "bytes beyond the end were read");
         folder.tidy(&key(3));
         assert_eq!([0, 1, 2, 3].map(|number| is_there(&folder, number)), [true, false, false, true]);
         assert!(foreign.iter().all(|path| path.exists()) && at_work.exists() && !left_over.exists());
-        // The file that was written just now stays, whatever its age.
+        // The file of the key that is handed in stays, whatever its age; both newer files go.
         used(&folder.file(&key(3)), 5000);
         keep(&folder, 4, &[4; 200]).unwrap();
         folder.tidy(&key(3));
@@ -248,9 +248,9 @@ mod tests {
         assert_eq!(keep(&missing, 0, &[0; 3]).unwrap_err().kind(), io::ErrorKind::NotFound);
         missing.tidy(&key(0));
         keep(&kept, 1, &[1; 100]).unwrap();
-        assert!(kept.find(&key(1), 99).is_err(), "more memory than there is");
+        assert!(kept.find(&key(1), 99).is_err(), "a file over the limit of 99 bytes was opened");
         fs::create_dir(kept.file(&key(2))).unwrap();
-        assert!(kept.find(&key(2), 1 << 20).is_err(), "a folder is no file");
+        assert!(kept.find(&key(2), 1 << 20).is_err(), "a folder was opened as a kept file");
         assert!(keep(&kept, 2, &[0; 3]).is_err());
     }
 }

@@ -23,7 +23,8 @@ pub struct Located {
 pub(crate) struct Node {
     pub(crate) start: u32,
     pub(crate) end: u32,
-    /// Length in bytes of the name in front of the bracket, as in `Frame(0)`, or of the name alone; else 0.
+    /// Length in bytes of the name in front of the bracket, as in `Frame(0)`, or of a name or number that has no
+    /// bracket; else 0.
     pub(crate) name_bytes: u32,
     pub(crate) inside: Inside,
 }

@@ -26,10 +26,11 @@ const HEADER: u64 = 32;
 /// One point of a sample, in bytes.
 const POINT: u64 = 12;
 
-/// A file of at most this many bytes is read whole when its places are checked. Of a larger one, some samples are read.
+/// To check the points' positions, a file of at most this many bytes is read whole. Of a larger one, some samples are
+/// read.
 const READ_WHOLE: u64 = 256 << 20;
 
-/// How many samples of a larger file are read when its places are checked.
+/// How many samples of a larger file are read to check the points' positions.
 const READ_SAMPLES: u64 = 16;
 
 /// Coordinates beyond this are refused, as in meshes.
@@ -43,7 +44,7 @@ pub struct PointCache {
     samples: u64,
     first_frame: f64,
     frames_per_sample: f64,
-    /// What is wrong with its places; found when first asked for.
+    /// What is wrong with the points' positions; found when first asked for.
     fault_of_places: OnceLock<Option<Fault>>,
 }
 
@@ -58,7 +59,8 @@ impl fmt::Debug for PointCache {
 pub(crate) type Fault = [String; 2];
 
 impl PointCache {
-    /// Opens a cache and checks its header against its length. No place is read, since the file may hold more of them than any mesh.
+    /// Opens a cache and checks its header against its length. No position is read, since the file may hold more points
+    /// than any mesh.
     ///
     /// # Errors
     /// What is wrong, and the mend.
@@ -110,8 +112,8 @@ impl PointCache {
         })
     }
 
-    /// What is wrong with its places, found by reading them at the first call. Call it only if the number of points is
-    /// that of a mesh, since memory for a whole sample is taken.
+    /// What is wrong with the points' positions, found by reading them at the first call. Call it only if the number of
+    /// points is that of a mesh, since memory for a whole sample is taken.
     pub(crate) fn fault_of_places(&self) -> Option<&Fault> {
         let find = || {
             let whole = self.count as u64 * self.samples * POINT <= READ_WHOLE;
@@ -147,7 +149,7 @@ impl PointCache {
     /// the first and after the last, they stand still. Memory for two samples is taken, whatever the length of the file.
     ///
     /// # Errors
-    /// Those of the system, and a place that is no number or too far away.
+    /// Those of the system, and a position that is not finite or too far away.
     pub fn at(&self, frame: f64) -> io::Result<Vec<Vec3>> {
         let last = (self.samples - 1) as f64;
         let place = ((frame - self.first_frame) / self.frames_per_sample).max(0.0).min(last);
@@ -179,7 +181,7 @@ impl PointCache {
     }
 }
 
-/// The places in the bytes of a sample; an error for each that is no number or too far away.
+/// The positions in the bytes of a sample; an error for each that is not finite or too far away.
 fn places_in(bytes: &[u8], sample: u64) -> impl Iterator<Item = io::Result<Vec3>> {
     let place = move |(number, point): (usize, &[u8; POINT as usize])| {
         let coordinate =

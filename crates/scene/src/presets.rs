@@ -118,7 +118,7 @@ pub fn resolve(scene: &Scene, region: Option<usize>) -> ResolvedStrokes {
 }
 
 /// As [`resolve`], with these settings of the scene and of a region in place of those that `scene` has. Hidden layers
-/// keep their coverage: so they are shown where they are edited, and not so painted.
+/// keep their coverage, so that an editor can show it; what is painted comes from [`resolve`].
 pub fn resolve_with(
     scene: &Scene,
     of_scene: &StrokeSettings,

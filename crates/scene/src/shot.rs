@@ -33,7 +33,7 @@ pub struct Shot {
     object_of_name: HashMap<String, usize>,
     /// The node of the camera that is looked through.
     camera: Option<usize>,
-    /// Whether the scene chose it, so that no cut leads to another.
+    /// Whether the scene chose this camera, so that no cut leads to another one.
     is_chosen: bool,
     /// The lights as they are at rest, each with its node; the soft light all around has none.
     lights: Vec<(Light, Option<usize>)>,
@@ -175,8 +175,8 @@ impl Shot {
         self.stated_rate().or_else(|| self.rate_of_keys()).unwrap_or(24.0)
     }
 
-    /// The first and the last frame at `fps` frames per second: those that the sidecar states, unless it states another
-    /// rate, or else those between which the shot moves, where frame = time · fps.
+    /// The first and the last frame at `fps` frames per second. If the sidecar states frames, and no other rate than
+    /// this, they are those; else they are those between which the shot moves (frame = time · fps).
     pub fn frames(&self, fps: f64) -> (i64, i64) {
         if let Some([first, last]) =
             self.file.sidecar.frames.filter(|_| self.stated_rate().is_none_or(|rate| rate == fps))

@@ -130,7 +130,7 @@ fn with_what_it_takes(scene: &Scene, own: &StrokeSettings) -> StrokeSettings {
         let stated = (row.number.get)(own).or((row.number.get)(&all));
         *(row.number.of)(&mut all) = stated;
     }
-    // Sizes follow from each other, so they are stated as they come out.
+    // Scene and region may state length, width and scale each, which act on each other: their outcome is stated.
     let states_sizes = all.length_px.or(all.width_px).or(all.scale).is_some();
     if states_sizes {
         all.length_px = Some(size_px(f64::from(resolved.body().length_px)));
@@ -144,7 +144,8 @@ fn with_what_it_takes(scene: &Scene, own: &StrokeSettings) -> StrokeSettings {
     let is_sized_body = |layer: &LayerSettings| {
         layer.name == LayerKind::Body.name() && layer.length_px.or(layer.width_px).is_some()
     };
-    // Those of the other layers follow from the body's, unless the layer `body` states its own: then each is stated.
+    // The sizes of the other layers follow from the body's, unless the list of layers states a size for `body`: then
+    // the size of each layer is stated.
     let states_each = states_sizes && all.layers.iter().chain(&own.layers).any(is_sized_body);
     let of_region: Vec<String> = own.layers.iter().map(|layer| layer.name.clone()).collect();
     let each = LayerKind::ALL.map(LayerKind::name).into_iter().filter(|_| states_each);
@@ -270,7 +271,7 @@ mod tests {
         assert_eq!((applied.keys.len(), applied.keys[0].frame, applied.layer), (1, 7.0, Some(2)));
         assert_eq!(applied.layers[0].length_px, Some(20.0));
         assert_eq!(applied.edges, Some(Edges::Overrun(2.0)));
-        assert_eq!(applied.scale, Some(0.5), "a factor is no size");
+        assert_eq!(applied.scale, Some(0.5), "the scale is no size in pixels, and was scaled");
         let same = preset.applied_to(&StrokeSettings::default(), 720, false);
         assert_eq!(same, preset.strokes);
     }

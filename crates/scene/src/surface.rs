@@ -223,7 +223,8 @@ impl<'a> Builder<'a> {
     }
 
     /// Cuts a range of the faces. A part of the faces stops when all cores together have `spent` too many tests, because
-    /// [`Self::new`] then starts again. A range of all faces goes on to the end, without tests.
+    /// [`Self::new`] then starts again. A range of all faces goes on to the end: when its tests are used up, it cuts
+    /// without them.
     fn cut(mut self, faces: Range<usize>, spent: &AtomicU64) -> Self {
         self.triangles.reserve(faces.len());
         let ends = &self.geometry.ends;

@@ -256,6 +256,6 @@ mod tests {
         write(&pipe, b"through").unwrap();
         assert_eq!(reader.join().unwrap().unwrap(), b"through");
         assert!(fs::metadata(&pipe).unwrap().file_type().is_fifo());
-        assert!(write(folder.path(), b"").is_err(), "a folder is no file");
+        assert!(write(folder.path(), b"").is_err(), "a folder was written into");
     }
 }

@@ -66,7 +66,7 @@ mod tests {
         let says = |system: System| system.mend(FOR_EGL);
         assert_eq!(says(System::Debian), "apt-get install libegl1 libgl1-mesa-dri");
         assert_eq!(says(System::Fedora), "dnf install mesa-libEGL mesa-dri-drivers");
-        assert_eq!(says(System::Arch), "pacman -S mesa", "one package, named once");
+        assert_eq!(says(System::Arch), "pacman -S mesa", "one package for both parts");
         let words = "install the EGL library (libEGL.so.1) and Mesa's OpenGL drivers (swrast_dri.so)";
         assert_eq!(says(System::OtherLinux), words);
         let elsewhere = says(System::NotLinux);

@@ -74,7 +74,7 @@ mod tests {
         assert_eq!(
             System::of(DEBIAN, |_| false),
             System::OtherLinux,
-            "nobody is told to use what is not there"
+            "apt-get is assumed where it is missing"
         );
         assert_eq!(System::of("ID=nixos\n", |_| true), System::OtherLinux);
         assert_eq!(System::of("", |_| true), System::OtherLinux);

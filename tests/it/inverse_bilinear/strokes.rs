@@ -192,7 +192,7 @@ fn strokes_of_a_scene_take_taper_and_bend_but_the_underpainting_does_not() {
         prepare(shapes::loaded(scene, [shapes::sphere(32, 16)])).unwrap().at(0.0, &FrameOptions::new(SIZE_PX))
     };
     let (plain, stated) = (of(None, None), of(Some(0.0), Some(0.0)));
-    assert_eq!(plain.strokes, stated.strokes, "what is stated and nothing is nothing");
+    assert_eq!(plain.strokes, stated.strokes, "a stated taper and bend of 0 change strokes");
     let shaped = of(Some(0.75), Some(-40.0));
     let mut bends = Vec::new();
     for run in &shaped.layers {
@@ -209,5 +209,5 @@ fn strokes_of_a_scene_take_taper_and_bend_but_the_underpainting_does_not() {
     bends.sort_by(f32::total_cmp);
     let middle = bends[bends.len() / 2];
     assert!((middle + 40.0).abs() < 4.0, "{middle}");
-    assert!(bends[bends.len() / 10] < -45.0 && bends[bends.len() * 9 / 10] > -35.0, "they differ");
+    assert!(bends[bends.len() / 10] < -45.0 && bends[bends.len() * 9 / 10] > -35.0, "bends do not vary");
 }

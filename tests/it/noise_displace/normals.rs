@@ -86,8 +86,8 @@ fn displaced(normals: NoiseNormals) -> Arc<LoadedScene> {
 }
 
 /// How the ramp moves the sheet, in the space of the model. `along` is the displacement that one whole texture adds,
-/// along U and along V. The dot products of `textures` with a step on the sheet are the textures it crosses along U
-/// and along V.
+/// along U and along V. The dot products of `textures` with a step on the sheet tell how many textures the step crosses
+/// along U and along V.
 #[derive(Clone, Copy)]
 struct Ramp {
     along: [DVec3; 2],
@@ -177,7 +177,7 @@ fn a_fault_of_displaced_normals_is_seen_in_the_light() {
     let mut off_with =
         |ramp: &Ramp| largest_difference(&drawn(&mut renderer, modelled_with(ramp.normal())), &modelled);
     let right = Ramp::of_test();
-    assert!(off_with(&right) <= 2, "the faults are planted into what is right");
+    assert!(off_with(&right) <= 2, "without a fault, the light is wrong already");
     let third = |axis: usize, fault: DVec3| {
         let mut ramp = right;
         ramp.textures[axis] *= fault;
@@ -190,6 +190,6 @@ fn a_fault_of_displaced_normals_is_seen_in_the_light() {
         ("V along the model's Y", third(1, DVec3::new(1.0, 0.667, 1.0))),
     ] {
         let off = off_with(&ramp);
-        assert!(off > 3, "the test does not notice a small slope of {what}: {off} of 255");
+        assert!(off > 3, "the test does not notice a slope of {what} that is too small: {off} of 255");
     }
 }

@@ -7,7 +7,7 @@ use impasto_tests::shapes;
 
 use super::{SIZE_PX, red, scene_in, source, wash};
 
-/// The sheet is a square of 160 px in the middle of the picture. Seen aslant, it is dark in the source's rule.
+/// The sheet is a square of 160 px in the middle of the picture, darker than white. When cut, its left half is a hole.
 #[test]
 fn a_hole_of_the_texture_has_no_ink() {
     let mut renderer = renderer(Driver::Egl);

@@ -79,7 +79,7 @@ const SHORT_AND_LONG: &str = "[(of: Length, dabs: [
     (at: (0.455, 0.45, 0.207), normal: (0.91, 0, 0.41), radius: 0.5, by: 2.6),
 ])]";
 
-/// Less paint on its front, and more on its leaf.
+/// Less paint on the apple's front, and more on its leaf.
 const THIN: &str = "[(of: Density, dabs: [
     (at: (0.06, 0.45, 0.51), normal: (0.12, 0, 0.99), radius: 0.35, by: 0),
     (at: (0.21, 0.35, 0.46), normal: (0.42, 0, 0.9), radius: 0.4, by: 0),

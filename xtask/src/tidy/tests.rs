@@ -83,7 +83,7 @@ fn half_a_technique_is_named() {
         files.remove(missing);
         found(&files, expected);
     }
-    // An overlay is not a style.
+    // An overlay may take the place of the style.
     let mut overlay = whole.to_vec();
     overlay[1].0 = "crates/gl-render/src/overlays/sumi_e.rs";
     assert_eq!(verdict(&overlay), Ok(()));

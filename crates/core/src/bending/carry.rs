@@ -76,7 +76,8 @@ pub struct CarriedPlace {
 }
 
 impl CarriedPlace {
-    /// The unit normal now of the side whose normal at rest is `at_rest`; `at_rest` where the surface has collapsed.
+    /// The unit normal now of the side whose unit normal at rest is `at_rest`. Where the surface has collapsed, it is
+    /// `at_rest` itself.
     pub fn normal(&self, at_rest: DVec3) -> DVec3 {
         self.area_normal(at_rest).normalize_or(at_rest)
     }

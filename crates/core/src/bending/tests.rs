@@ -64,7 +64,8 @@ fn the_gradient_of_an_affine_map_is_exact_on_a_flat_surface() {
     }
 }
 
-/// Edges count alike, however long, also where a surface is stretched unevenly: here those to the right and the left.
+/// Edges count alike, however long they are, even if the surface is stretched more on one side of a vertex than on the
+/// other.
 #[test]
 fn the_gradient_is_the_mean_of_what_edges_say_whatever_their_length() {
     let [right, up, left, down] = [Vec3::X, Vec3::Y, Vec3::X * -3.0, Vec3::Y * -0.5];
@@ -74,7 +75,7 @@ fn the_gradient_is_the_mean_of_what_edges_say_whatever_their_length() {
         triangles: vec![[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]],
         ..TriangleMesh::default()
     };
-    // The right side is twice as long, the upper one three times, the others as they were.
+    // The edge to the right gets twice as long, the one upwards three times; the others stay.
     let positions = [Vec3::ZERO, right * 2.0, up * 3.0, left, down];
     let found = Gradients::new(&mesh, Bonds::All).at(&positions)[0];
     assert!(found.abs_diff_eq(Mat3::from_diagonal(Vec3::new(1.5, 2.0, 1.0)), 1e-6), "{found}");
@@ -160,7 +161,7 @@ fn a_joint_that_there_is_not_moves_nothing_to_nowhere() {
     assert!(bent.positions[0].is_finite() && bent.normals == [Vec3::X]);
 }
 
-/// Two triangles that share an edge at rest, of which each has vertices of its own.
+/// Two triangles that share an edge at rest. Each triangle has vertices of its own there.
 fn hinge() -> TriangleMesh {
     TriangleMesh {
         positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Y, Vec3::X, Vec3::new(1.0, 1.0, 0.0)],

@@ -80,7 +80,7 @@ fn a_picture_with_contrast_makes_a_brush() {
     };
     assert!(marks.iter().all(is_disc));
     assert!(marks_of_picture([64, 32], &disc(white, clear)).iter().all(is_disc));
-    assert!(marks_of_picture([64, 32], &disc(black, white)).iter().all(is_disc), "dark on light");
+    assert!(marks_of_picture([64, 32], &disc(black, white)).iter().all(is_disc), "dark disc not inverted");
     // One texel, and fewer texels than the size claims.
     assert_eq!(marks_of_picture([1, 1], &[white]).len(), VARIANTS as usize);
     assert!(marks_of_picture([64, 32], &light[..10]).is_empty());

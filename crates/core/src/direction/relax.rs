@@ -237,7 +237,7 @@ mod tests {
             (0..900).map(|i| (5..25).contains(&(i % 30)).then(|| hold(i))).collect();
         let relaxed = graph.relaxed(symmetry, &solved, &holds);
         for i in 0..900 {
-            assert!(holds[i].is_some() || relaxed[i] == solved[i], "what is held moved");
+            assert!(holds[i].is_some() || relaxed[i] == solved[i], "the fixed sample {i} moved");
         }
         (0..30).map(|i| relaxed[15 * 30 + i].to_angle() / symmetry.power()).map(f64::to_degrees).collect()
     }

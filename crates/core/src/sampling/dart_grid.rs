@@ -198,7 +198,8 @@ impl DartGrid {
         let last = self.mask as usize;
         let run = self.starts[bucket] as usize..self.starts[(bucket + 2).min(last + 1)] as usize;
         if run.len() > CROWDED && !is_first {
-            // The own column first: where faces lie on each other, the other one may hold half of all darts, far away.
+            // The position's own column comes first: where faces lie on each other, the other column may hold half of
+            // all darts, all of them far away.
             let middle = self.starts[bucket + 1] as usize;
             if self.any_in_run(middle..run.end, position, radius_sq, found) {
                 return true;

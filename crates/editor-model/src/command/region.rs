@@ -110,7 +110,7 @@ impl Regions {
             Self::PasteStrokes(of, pasted) => {
                 let mut pasted = StrokeSettings::clone(pasted);
                 if matches!(of, StrokesOf::Region(_)) {
-                    // Only a scene has them.
+                    // Only a scene has an order of layers, and a ground.
                     pasted.order.clear();
                     pasted.layers.retain(|layer| layer.name != GROUND);
                 }
@@ -234,7 +234,7 @@ fn paint_layer(settings: &mut StrokeSettings, layer: &LayerSettings) -> String {
         hidden if hidden == was_hidden => format!("Paint: {name}"),
         Some(true) => format!("Hide layer {name}"),
         Some(false) => format!("Show layer {name}"),
-        // A region takes over again what the scene says.
+        // The region states nothing any more, so what the scene states counts again, taken to be the opposite.
         None if was_hidden == Some(false) => format!("Hide layer {name}"),
         None => format!("Show layer {name}"),
     }

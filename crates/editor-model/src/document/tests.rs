@@ -54,8 +54,8 @@ fn a_scene_with_losses_cannot_take_the_place_of_its_file_until_they_are_settled(
     let mut document = folder.open();
     assert_eq!(document.loss_count(), 3);
     assert!(!document.is_edited());
-    assert!(document.lacks_mesh(&document.scene().objects[0].mesh), "a box stands in");
-    let refused = document.save().expect_err("off");
+    assert!(document.lacks_mesh(&document.scene().objects[0].mesh), "a box stands in for the unusable mesh");
+    let refused = document.save().expect_err("saving is refused while losses are left");
     assert!(matches!(refused, SaveError::Problems { count: 3, line: 4 }), "{refused}");
     assert!(document.save_as(&folder.path()).is_err());
     assert!(document.save_as(&folder.0.path().join("meshes/../s.ron")).is_err(), "the same file");
@@ -72,7 +72,7 @@ fn a_scene_with_losses_cannot_take_the_place_of_its_file_until_they_are_settled(
     // Undo brings the problems back; redo removes them again.
     document.undo().expect("undone");
     assert_eq!((document.loss_count(), document.scene().strokes.width_px), (3, None));
-    assert!(document.apply(&seed(3)).is_ok(), "a box stands in again");
+    assert!(document.apply(&seed(3)).is_ok(), "a box stands in for the mesh again, so edits are allowed");
     document.undo().expect("undone");
     document.redo().expect("the edit again");
     document.undo().expect("undone");
@@ -80,7 +80,7 @@ fn a_scene_with_losses_cannot_take_the_place_of_its_file_until_they_are_settled(
     document.read_text(&text).expect("read");
     document.fix_certain().expect("fixed");
     assert_eq!(document.loss_count(), 0);
-    document.save().expect("on again");
+    document.save().expect("saving is allowed once no loss is left");
     let saved = Document::open(&folder.path(), &LoadOptions::default()).expect("well");
     assert_eq!((saved.scene().seed, saved.scene()), (7, document.scene()));
 }
@@ -96,7 +96,7 @@ fn fixes_and_edits_both_hold_where_they_are_of_different_things() {
     // Two edits of the same thing conflict: nothing is lost, and the message says what to do.
     document.apply(&seed(4)).expect("done");
     let text = document.source().expect("a source").text.replace("\"x\"", "7");
-    let refused = document.read_text(&text).expect_err("two hands");
+    let refused = document.read_text(&text).expect_err("the seed was edited and changed in the text");
     assert!(refused.0.starts_with("seed was edited since"), "{refused}");
     assert_eq!(document.scene().seed, 4);
 }
@@ -110,7 +110,7 @@ fn a_fix_keeps_touches_and_brings_those_that_the_text_adds() {
     let mut document = folder.open();
     document.apply(&Command::Scene(SceneEdit::SetSize(640, 480))).expect("done");
     document.fix_certain().expect("fixed");
-    assert_eq!(document.scene().touches.len(), 1, "a fix beside an edit");
+    assert_eq!(document.scene().touches.len(), 1, "the fix lost or doubled a touch");
     let text = &document.source().expect("one problem is left").text;
     let text = text.replace("\"x\"", "7").replace("touches: [", &format!("touches: [{}, ", touch("rim")));
     document.read_text(&text).expect("read");
@@ -169,13 +169,13 @@ fn a_file_changed_outside_is_not_saved_over_and_can_be_read_again() {
     // Undo brings back the dropped edits.
     document.undo().expect("undone");
     assert_eq!((document.scene().seed, document.is_edited()), (1, true));
-    document.save().expect("known by now");
+    document.save().expect("the change outside is known since it was read");
     // A file that cannot be read changes nothing.
     fs::write(folder.path(), "(version: 1, camera").expect("written");
     assert!(document.reload().is_err());
     assert_eq!(document.scene().seed, 1);
     // What the document itself saves is not reported as a change.
-    document.save_as(&folder.path()).expect("chosen by hand");
+    document.save_as(&folder.path()).expect("a file chosen by hand is written over");
     assert!(!document.is_changed_outside());
 }
 
@@ -254,7 +254,7 @@ fn a_shot_that_was_exported_again_is_no_edit_and_what_was_edited_stays_one() {
     assert_eq!(
         crate::editor::Editor::new(document.clone()).session.frame,
         10.0,
-        "the reference is at frame 0"
+        "the reference frame 0 lies before the timeline, so its first frame is shown"
     );
     export("0.5");
     document.read_files_again().expect("read");

@@ -213,7 +213,8 @@ impl Editor {
         true
     }
 
-    /// Takes a tool up, in a mode that has it; cancels the interaction under way.
+    /// Takes up a tool, and changes to a mode that has it, if the current one has not. Cancels the interaction under
+    /// way.
     pub fn take_up(&mut self, tool: Tool, view: &View) {
         self.cancel(view);
         match (tool.is_for_paint(), self.session.mode) {
@@ -269,7 +270,8 @@ impl Editor {
         }
     }
 
-    /// Hides or shows, locks or unlocks what is selected, all of it as the last one turns.
+    /// Hides or shows (or locks or unlocks) all that is selected: the item selected last changes its state, and the
+    /// others get the same state.
     fn hide_or_lock(&mut self, action: Action) {
         let hides = action == Action::Hide;
         let can = |item: &&Item| match item {

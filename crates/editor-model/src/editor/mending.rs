@@ -157,12 +157,12 @@ mod tests {
         let mut editor = editor(folder.path());
         fs::write(folder.path().join("leaf.obj"), QUAD.replace("f 1", "v 2 2 2\nf 2 3 4\nf 1"))
             .expect("written");
-        let late = editor.taking_in(News::Files).expect("nothing is lost by it");
+        let late = editor.taking_in(News::Files).expect("reading the mesh again loses no edits");
         seed(&mut editor, 7);
         let late = std::thread::spawn(late).join().expect("read");
         assert_eq!(editor.take(late), Took::Late);
         assert_eq!((triangles(&editor), editor.document().scene().seed), (1, 7), "the edit stays");
-        let again = editor.taking_in(News::Files).expect("edits of the scene are not lost by it");
+        let again = editor.taking_in(News::Files).expect("edits of the scene do not prevent reading");
         assert_eq!(editor.take(again()), Took::In(true));
         assert_eq!((triangles(&editor), editor.document().scene().seed), (2, 7));
     }

@@ -61,7 +61,7 @@ impl Editor {
         if !event.at_px.is_finite() {
             return;
         }
-        // A mouse always presses fully; a pen does not even while it hovers.
+        // A mouse always reports full pressure; a pen reports less, already while it hovers.
         self.session.has_pen |= event.pressure < 1.0;
         let before_px = self.pointer_px.unwrap_or(event.at_px);
         (self.held, self.at_secs) = (event.held, event.at_secs);
@@ -203,7 +203,8 @@ impl Editor {
         } else if selection.active() != Some(&item) {
             selection = Selection::only(item.clone());
         }
-        // A drag that slightly misses must not carry the floor and the wall away: only handles and keys move scenery.
+        // A drag that slightly misses its object must not move the floor or the wall behind it: only handles and keys
+        // move scenery.
         let is_scenery = match &item {
             Item::Object(name) => self.is_scenery(name),
             _ => false,

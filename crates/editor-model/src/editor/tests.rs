@@ -202,7 +202,7 @@ fn stroke_previews_show_from_the_first_movement_until_the_pointer_rests() {
     act(&mut editor, Action::Paint);
     let at = middle_of_the_apple(&editor);
     event(&mut editor, PointerKind::Move, at, HERE);
-    assert!(editor.tool_output().comb_preview.is_none(), "it has not moved yet");
+    assert!(editor.tool_output().comb_preview.is_none(), "a preview shows before the pointer moves");
     for step in 1..=4 {
         event(&mut editor, PointerKind::Move, at + DVec2::new(5.0 * f64::from(step), 0.0), HERE);
     }
@@ -251,7 +251,7 @@ fn stroke_previews_show_from_the_first_movement_until_the_pointer_rests() {
     for step in 1..=4 {
         event(&mut editor, PointerKind::Move, at + DVec2::new(5.0 * f64::from(step), 0.0), HERE);
     }
-    assert!(editor.tool_output().comb_preview.is_none(), "switched off");
+    assert!(editor.tool_output().comb_preview.is_none(), "a preview shows though previews are switched off");
 }
 
 #[test]
@@ -268,8 +268,8 @@ fn a_mesh_in_an_edited_scene_without_a_file_gives_it_a_folder_and_a_camera() {
     assert_eq!(editor.document().folder(), scenes.join("meshes"));
     assert_eq!(editor.document().suggested_file(), scenes.join("meshes/apple.ron"));
     assert_eq!(editor.document().scene().lights.len(), lights, "what was edited before is kept");
-    assert_ne!(editor.document().scene().camera, camera, "it is seen whole");
-    assert!(!editor.live_in(&elsewhere), "the mesh is named from where it is");
+    assert_ne!(editor.document().scene().camera, camera, "the camera does not move to show the whole mesh");
+    assert!(!editor.live_in(&elsewhere), "the folder changes though a mesh is named relative to it");
     act(&mut editor, Action::Undo);
     assert_eq!(editor.document().scene().camera, camera);
 }
@@ -294,13 +294,13 @@ fn a_drag_that_misses_selects_the_wall_and_does_not_move_it() {
     for mode in [Action::Arrange, Action::Animate] {
         act(&mut editor, mode);
         let (before, at) = (editor.document().scene().clone(), on_the_wall(&editor));
-        // Not when it was selected before, either.
+        // In the second round the wall is selected already; it must not move then, either.
         for _ in 0..2 {
             drag(&mut editor, Button::Left, [at, at + DVec2::new(60.0, 10.0)], HERE);
             assert_eq!(editor.document().selection().active(), Some(&Item::Object("wall".to_owned())));
-            assert!(*editor.document().scene() == before, "it was moved");
+            assert!(*editor.document().scene() == before, "the drag moved the wall");
         }
-        // It is moved on purpose by its key.
+        // The move key does move it.
         for pressed in [Key::Letter('G'), Key::Letter('X'), Key::Digit(1), Key::Enter] {
             key(&mut editor, pressed);
         }
@@ -344,8 +344,8 @@ fn the_move_key_moves_the_selected_camera_until_a_click() {
     event(&mut editor, PointerKind::Move, at, HERE);
     key(&mut editor, Key::Letter('G'));
     event(&mut editor, PointerKind::Move, at + DVec2::new(50.0, 20.0), HERE);
-    assert_eq!(editor.document().scene().camera, before, "not before the click");
-    assert_ne!(editor.shot().eye, motion::camera_at(editor.document().scene(), 0.0).eye, "it shows");
+    assert_eq!(editor.document().scene().camera, before, "the camera has new keys before the click");
+    assert_ne!(editor.shot().eye, motion::camera_at(editor.document().scene(), 0.0).eye, "it stands still");
     event(&mut editor, PointerKind::Press(Button::Left), at + DVec2::new(50.0, 20.0), HERE);
     event(&mut editor, PointerKind::Release(Button::Left), at + DVec2::new(50.0, 20.0), HERE);
     assert_ne!(editor.document().scene().camera, before);

@@ -1,19 +1,19 @@
-//! Keys that the user chose: only what differs from the preset. A key of one's own wins over a key of the preset, so
-//! that a change stands with either preset, and taking it back gives the other command its key again.
+//! Keys that the user chose: only what differs from the preset. A key that the user chose wins over a key of the
+//! preset. So a change holds with either preset, and taking it back returns the key to the command that had it.
 
 use std::collections::BTreeMap;
 
 use super::table::BINDINGS;
 use super::{Action, Chord, Key, Keymap, Scope, Where};
 
-/// A command of the list of keys: an action, in the places where one row of the table holds.
+/// A command of the list of keys: one row of `BINDINGS`, that is an action and the scopes in which its keys work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct CommandId(usize);
 
 /// A command with its keys.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CommandKeys {
-    /// Which.
+    /// Which command it is.
     pub id: CommandId,
     /// Its keys now.
     pub chords: Vec<Chord>,
@@ -36,7 +36,8 @@ impl CommandId {
         BINDINGS[self.0].action
     }
 
-    /// Its name, which no other command has: with its place, where an action has more than one row.
+    /// Its name, which no other command has: if an action has more than one row of `BINDINGS`, the name also says where
+    /// the keys work.
     pub fn name(self) -> String {
         let Self(index) = self;
         let name = BINDINGS[index].name;
@@ -47,7 +48,7 @@ impl CommandId {
         }
     }
 
-    /// Where its keys hold, in words; `None` for everywhere.
+    /// Where its keys work, in words; `None` for everywhere.
     pub fn place(self) -> Option<&'static str> {
         let holds = BINDINGS[self.0].holds;
         if holds.contains(&Where::Everywhere) {
@@ -90,8 +91,8 @@ impl CommandId {
         }
     }
 
-    /// Whether one key cannot belong to both: they hold in one place, or one holds everywhere and the other in a mode.
-    /// (What is modal, a field or a lane may take a key that holds elsewhere.)
+    /// Whether the two cannot share a key: they work in the same scope, or one works everywhere and the other in a
+    /// mode. (Modal tools, fields and lanes may take a key that otherwise works everywhere.)
     fn meets(self, other: Self) -> bool {
         let is_mode = |place: &Where| {
             matches!(place, Where::In(Scope::Arrange | Scope::Paint | Scope::Animate) | Where::Everywhere)
@@ -115,7 +116,7 @@ impl OwnKeys {
         self.0.iter().map(|(id, chords)| (*id, chords.as_slice()))
     }
 
-    /// Notes keys as they were read from a file. `Esc` stays what cancels.
+    /// Notes keys as they were read from a file. `Esc` is left out, since it always cancels.
     pub fn note(&mut self, id: CommandId, mut chords: Vec<Chord>) {
         chords.retain(|chord| chord.key != Key::Escape);
         if id.is_free() {
@@ -123,7 +124,7 @@ impl OwnKeys {
         }
     }
 
-    /// A command that has one of these keys as its own, where no other command may have it.
+    /// Another command for which the user chose one of these keys, and which cannot share it with the command `id`.
     pub fn owner(&self, id: CommandId, chords: &[Chord]) -> Option<CommandId> {
         let has = |(other, own): (CommandId, &[Chord])| {
             (other.meets(id) && own.iter().any(|chord| chords.contains(chord))).then_some(other)
@@ -158,7 +159,8 @@ impl Keymap {
         self.commands().filter(loses).map(|other| other.id).collect()
     }
 
-    /// The commands that hold elsewhere too, and whose keys these would hide where this one holds.
+    /// The commands of Animate, or of everywhere, that these keys would no longer reach on a lane if the lane command
+    /// `id` had them. Empty if `id` is not a lane command.
     pub fn hidden(&self, id: CommandId, chords: &[Chord]) -> Vec<CommandId> {
         if BINDINGS[id.0].holds != [Where::In(Scope::Lane)] {
             return Vec::new();
@@ -173,7 +175,7 @@ impl Keymap {
         self.commands().filter(hides).map(|other| other.id).collect()
     }
 
-    /// The keys that a command has by itself.
+    /// The keys of a command in the preset, without changes by the user.
     pub fn usual(&self, id: CommandId) -> Vec<Chord> {
         self.preset_chords(&BINDINGS[id.0])
     }

@@ -1,4 +1,4 @@
-//! Keys in words, as menus write them, and read back from there.
+//! Keys as text: written as menus show them, and read back.
 
 use std::str::FromStr;
 

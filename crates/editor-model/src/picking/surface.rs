@@ -46,7 +46,7 @@ pub(super) struct SurfaceTree {
     rest: OnceLock<Placed>,
 }
 
-/// The triangles of a surface at some places.
+/// The triangles of a surface, with its vertices at given positions.
 struct Placed {
     positions: Vec<Vec3>,
     tree: Bvh2,
@@ -200,8 +200,9 @@ impl SurfaceTree {
         Some((point, (distance + skipped) / length, front))
     }
 
-    /// The point of the surface at rest that is nearest to `to`, at most `farthest` away. A point counts only if its
-    /// painted side is less than 90 degrees from `facing`; one side of a sheet always is.
+    /// The point of the surface at rest that is nearest to `to`, at most `farthest` away. A point counts only if the
+    /// normal of its painted side is less than 90 degrees from `facing`. A sheet is painted on both sides, so the side
+    /// that faces that way is taken.
     pub(super) fn closest(&self, to: DVec3, farthest: f64, facing: DVec3) -> Option<SurfacePoint> {
         let point = |triangle, weights| self.point_at_rest(triangle, weights, |face| face.dot(facing) > 0.0);
         let counts = |triangle, weights| {

@@ -32,7 +32,7 @@ fn pictures_that_come_at_once_show_the_frame_of_the_clock() {
         }
         assert_eq!(playback.dropped(), 0, "{fps} fps");
         assert!(playback.missed().next().is_none());
-        assert_eq!(frames.len(), 130, "{fps} fps: the loop goes over its seam");
+        assert_eq!(frames.len(), 130, "{fps} fps: not every frame of the loop is shown");
     }
 }
 
@@ -89,7 +89,7 @@ fn drops_are_counted_and_remembered_exactly() {
     assert_eq!(playback.tick(course, 0.35), Some(3.0));
     assert!(playback.shown(3.0, 0.35));
     assert_eq!((playback.dropped(), playback.missed().collect::<Vec<_>>()), (2, vec![1, 2]));
-    // The same frame again, now exact, counts once.
+    // The same frame shown again, as an exact picture after a draft, is not a new frame.
     assert!(!playback.shown(3.0, 0.36));
     // Across the loop's end: 4 to 9 and 0 were never shown.
     playback.lead_secs = 0.0;
@@ -100,9 +100,9 @@ fn drops_are_counted_and_remembered_exactly() {
     // A late picture of the round before does not count for this round.
     assert!(!playback.shown(5.0, 1.16));
     playback.stop();
-    assert_eq!(playback.dropped(), 9, "it can be read after the stop");
+    assert_eq!(playback.dropped(), 9, "the count stays after the stop");
     playback.resume(4.0, course, 2.0);
-    assert_eq!(playback.dropped(), 9, "a scrub forgets nothing");
+    assert_eq!(playback.dropped(), 9, "the count stays after a scrub");
     playback.play(4.0, course, 3.0);
     assert_eq!((playback.dropped(), playback.missed().count()), (0, 0));
 }
@@ -117,7 +117,7 @@ fn a_clock_that_jumps_goes_on_where_the_film_was() {
         playback.shown(17.0, 10.5);
         let dropped = playback.dropped();
         playback.tick(course, 10.5 + jump);
-        assert_eq!(playback.dropped(), dropped, "nobody looked while the machine slept");
+        assert_eq!(playback.dropped(), dropped, "frames missed in the jump count as dropped");
         if jump.is_finite() {
             let now = 10.5 + jump;
             playback.lead_secs = 0.0;
@@ -152,7 +152,7 @@ fn without_a_loop_the_last_frame_is_shown_and_ends_it() {
     assert_eq!(playback.tick(once, 0.75), Some(7.0));
     assert!(playback.shown(7.0, 0.75));
     assert_eq!(playback.tick(once, 3.0), Some(9.0), "not beyond the end");
-    assert!(playback.is_playing(), "until it is seen");
+    assert!(playback.is_playing(), "it plays until the last frame is shown");
     assert!(playback.shown(9.0, 3.1));
     playback.tick(once, 3.2);
     assert!(!playback.is_playing());
@@ -193,6 +193,6 @@ fn another_range_goes_on_from_what_is_shown() {
     playback.tick(long, 0.1);
     playback.shown(102.0, 0.1);
     let short = course(0, 9, 24.0);
-    assert_eq!(playback.tick(short, 0.2), Some(0.0), "102 is no part of it");
+    assert_eq!(playback.tick(short, 0.2), Some(0.0), "frame 102 is not in the new range");
     assert!(playback.wait_secs(0.2).unwrap() <= 1.0 / 24.0);
 }

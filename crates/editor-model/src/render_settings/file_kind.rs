@@ -127,7 +127,7 @@ pub enum AovChoice {
     OfScene,
     /// All that the style of the scene has.
     All,
-    /// These, as far as the style has them; none of them for the colour alone.
+    /// These, as far as the style has them; an empty set means the colour alone.
     These(AovSet),
 }
 
@@ -145,7 +145,7 @@ impl AovChoice {
         wanted.shared(scene.style.settings().aovs())
     }
 
-    /// The same files, but with or without this one.
+    /// The same choice, but with this AOV or without it.
     #[must_use]
     pub fn with(self, aov: Aov, is_wanted: bool, scene: &Scene) -> Self {
         let others = self.set(scene).without(aov.into());

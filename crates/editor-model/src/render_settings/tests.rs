@@ -268,7 +268,7 @@ fn a_movie_is_one_file_of_all_frames() {
     assert_eq!((settings.output.as_str(), settings.ending()), ("out/frame.mp4", "mp4"));
     settings.choose_output("films/my film.mov".to_owned());
     settings.choose_kind(FileKind::Movie);
-    assert_eq!(settings.output, "films/my film.mov", "a movie stays of its kind");
+    assert_eq!(settings.output, "films/my film.mov", "a movie keeps its ending");
     let plan = settings.plan(&document, 0.0).unwrap();
     let path = std::path::absolute(folder.path().join("films/my film.mov")).unwrap();
     assert_eq!((plan.path(0), plan.path(7), plan.kind), (path.clone(), path.clone(), FileKind::Movie));
@@ -304,5 +304,5 @@ fn frames_of_an_earlier_rendering_are_not_finished() {
     assert_eq!(numbers(&plan, 0), Vec::<i64>::new());
     assert_eq!(numbers(&plan, 2), [0, 1]);
     assert_eq!(numbers(&plan, 10), [0, 1, 2, 7]);
-    assert_eq!(numbers(&plan.keeping(), 2), [0, 1, 2, 7], "what is kept is part of it");
+    assert_eq!(numbers(&plan.keeping(), 2), [0, 1, 2, 7], "kept files count as finished");
 }

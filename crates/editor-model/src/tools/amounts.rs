@@ -8,7 +8,7 @@ use crate::session::ToolOptions;
 /// Dabs of a drag lie this share of the radius apart, which looks even.
 pub(super) const DAB_SHARE: f64 = 0.5;
 
-/// The strengths that all dabs of a drag have at one place in its middle, added up: `1 + 2 (1 − ¼)²`.
+/// The falloffs (1 − r²)² of all dabs of a drag, [`DAB_SHARE`] apart, summed at one of its dabs: `1 + 2 (1 − ¼)²`.
 const OVERLAP: f64 = 2.125;
 
 /// The factor of one dab. The dabs of a drag together give 1 + strength if it raises. If it lowers, they give the
@@ -51,8 +51,8 @@ pub(super) fn short(value: f64, length: f64) -> f64 {
     if rounded == 0.0 { 0.0 } else { rounded }
 }
 
-/// The amounts of a region that are left after an eraser of this radius touched these points: dabs of this amount on
-/// this object are gone if it went over their middles.
+/// The amounts of a region that are left after an eraser of this radius touched these points. A dab of this amount on
+/// this object is gone if the eraser went over its middle.
 pub(super) fn erased(
     region: &Region,
     (of, object): (Amount, &str),

@@ -259,7 +259,8 @@ impl Act {
         matches!(self, Self::Add | Self::TakeAway | Self::AddNew)
     }
 
-    /// Whether it leaves dabs, each with a radius and a strength of its own; else a gesture has one of each.
+    /// Whether it leaves dabs, each with its own radius and strength; else the whole gesture has one radius and one
+    /// strength.
     fn leaves_dabs(self) -> bool {
         self.is_for_regions() || matches!(self, Self::Raise | Self::Lower)
     }

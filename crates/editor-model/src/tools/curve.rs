@@ -308,7 +308,7 @@ impl Drawing {
         let flips = mirror_axes(around).flips().into_iter();
         let images: Vec<Guide> =
             flips.flat_map(|flip| mirrored(&own, flip, &seen, &reference, &mut nearest)).collect();
-        // The curve itself goes behind its mirror images, because the last guide is selected from then on.
+        // The curve itself comes last in the list, after its mirror images, because the last guide gets selected.
         let guides = images.into_iter().chain([own]).collect();
         let region = self.on.target.clone();
         Some(Command::Directions(Directions::Stroke { region, gesture: Gesture::Curve, guides }))

@@ -1,4 +1,5 @@
-//! What the pressure of a pen does to a gesture. A pointer without pressure presses by 1, which changes no bit.
+//! What the pressure of a pen does to a gesture. A pointer without pressure counts as pressure 1, which changes no bit
+//! of the result.
 
 use super::{Surroundings, amounts};
 use crate::path::{PathPoint, SurfacePath};

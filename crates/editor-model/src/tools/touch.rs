@@ -40,7 +40,7 @@ struct Drag {
     object: String,
     path: SurfacePath,
     press_px: DVec2,
-    /// How far the pointer has been from its press.
+    /// The farthest that the pointer has been from the press, pixels.
     farthest_px: f64,
     at_px: DVec2,
 }
@@ -211,7 +211,7 @@ impl Drag {
             at: point.position.to_array().map(|value| short(value, path.radius())),
             normal: point.normal.to_array().map(|value| short(value, 1.0)),
         });
-        // The ring is as wide as the stroke: from points of the window to pixels of the scene's own size.
+        // The stroke is as wide as the ring: converts from points of the window to pixels of the scene's own size.
         let scale = f64::from(around.scene().size.1) / around.view.size_px.y.max(1.0);
         let felt = Felt::of_path(path, options);
         let width_px = (2.0 * options.radius_px * felt.radius * scale)

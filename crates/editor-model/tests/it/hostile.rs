@@ -38,7 +38,7 @@ fn opener() {
 fn open(file: &Path) {
     match Document::open_with_problems(file, &LoadOptions::default()) {
         Err(report) => {
-            assert!(report.0.iter().any(|problem| problem.severity.is_fatal()), "no word of why");
+            assert!(report.0.iter().any(|problem| problem.severity.is_fatal()), "no fatal problem is named");
             tell(&format!("refused: {report}"));
         }
         Ok(mut document) => {

@@ -95,7 +95,7 @@ fn nothing_written_is_lost_when_killed_at_any_moment() {
             offer.discard().expect("gone");
         }
         // The last copy may have been complete before it was reported.
-        assert!((kept..=kept + 1).contains(&newest), "run {run}: {newest} is the newest of {kept}");
+        assert!((kept..=kept + 1).contains(&newest), "run {run}: {newest} is left, {kept} was kept");
         seen = seen.max(newest);
     }
     assert!(

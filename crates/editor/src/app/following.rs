@@ -40,7 +40,7 @@ impl Told {
     }
 }
 
-/// The lines of the program that is followed; `told` is `None` if none is.
+/// The lines of the program that is followed; `told` is `None` if no program is followed.
 #[derive(Default)]
 pub(super) struct Following {
     told: Option<Receiver<Told>>,

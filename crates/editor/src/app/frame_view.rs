@@ -53,8 +53,8 @@ impl FrameView {
         }
     }
 
-    /// Takes the newest picture that was read: that of the frame which is due, else of one before it that is later than
-    /// what is shown.
+    /// Shows the frame that is due. If its file is not read yet, and frames play, shows the latest frame before it that
+    /// is read, unless what is shown is later.
     fn follow(&mut self, ui: &Ui, now_secs: f64) {
         let (at, count) = (self.frames.at(), self.frames.count());
         let most = if self.frames.is_playing() { count } else { 1 };

@@ -8,7 +8,7 @@ use impasto_editor_model::timeline::TimelineEvent;
 
 use crate::widgets::key_of;
 
-/// What is held, as the keymap knows it.
+/// The modifiers that are held, as the keymap has them.
 pub(super) fn held(held: egui::Modifiers) -> Modifiers {
     Modifiers { ctrl: held.command, shift: held.shift, alt: held.alt }
 }

@@ -87,9 +87,9 @@ mod tests {
         let track = path(&scene, 1).expect("it moves");
         assert_eq!(track.keys, [(0.0, DVec3::NEG_X), (60.0, DVec3::X)]);
         assert_eq!((track.places.first(), track.places.last()), (Some(&DVec3::NEG_X), Some(&DVec3::X)));
-        assert_eq!(track.places.len(), 62, "one a frame, and the end");
+        assert_eq!(track.places.len(), 62, "one for each frame 0 to 60, and the last key");
         scene.objects[1].keys[1].frame = 1e9;
-        assert!(path(&scene, 1).is_some_and(|track| track.places.len() <= 402), "a long film has no more");
+        assert!(path(&scene, 1).is_some_and(|track| track.places.len() <= 402), "too many places");
         assert_eq!(path(&scene, 9), None);
     }
 }

@@ -1,4 +1,4 @@
-//! Says which picture of the viewport overlay marks are made for, and that picture's camera and frame.
+//! Says for which of the viewport's pictures the overlay makes its marks, and that picture's camera and frame.
 
 use impasto_scene::motion::CameraPose;
 

@@ -115,7 +115,7 @@ impl FileDialogs {
             ShownAs::Desktop(answers) => match (answers.try_recv(), open.since.elapsed()) {
                 (Ok(Some(path)), _) => {
                     let completed = ask.completed(path.clone());
-                    // The desktop has asked only about the name that was typed.
+                    // The desktop has asked whether to replace only for the name as it was typed, without the ending.
                     if completed != path && completed.symlink_metadata().is_ok() {
                         open.shown = ShownAs::Sheet(PathSheet::asking_to_replace(ask, &completed));
                         ctx.request_repaint();

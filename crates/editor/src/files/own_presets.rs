@@ -41,8 +41,8 @@ pub fn presets_in(folder: &Path) -> Vec<OwnPreset> {
     found
 }
 
-/// Writes a preset to `path`, and copies the pictures of its brushes into that folder. `file_of` finds the file of a
-/// brush.
+/// Writes a preset to `path`, and copies the pictures of its brushes into the folder of `path`. `file_of` finds the
+/// file of a brush.
 ///
 /// # Errors
 /// Why it was not saved, in words to show; then no file was written or, if only the last step failed, only pictures.
@@ -180,7 +180,7 @@ mod tests {
         scene.strokes.brush = Some(BrushMix(vec!["mine.png".to_owned(), "gone.png".to_owned()]));
         let words = save_preset(StrokesFile::of(&scene, None), at_hand, &path).unwrap_err();
         assert!(words.contains("thick.strokes.ron") && words.contains("gone.png"), "{words}");
-        assert_eq!(files_in(&presets), [""; 0].map(PathBuf::from), "not even the picture that is there");
+        assert_eq!(files_in(&presets), [""; 0].map(PathBuf::from), "the picture that exists was copied");
         scene.strokes.brush = Some(BrushMix(vec!["mine.png".to_owned()]));
         scene.strokes.length_px = Some(f64::INFINITY);
         let words = save_preset(StrokesFile::of(&scene, None), at_hand, &path).unwrap_err();

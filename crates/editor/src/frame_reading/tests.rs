@@ -1,4 +1,4 @@
-//! Frames from files: what comes, what is let go, what is wrong with a file.
+//! Tests of reading frames from files: which are read, which are dropped for others, what is said of a broken file.
 
 use std::sync::mpsc;
 use std::time::Duration;
@@ -18,7 +18,7 @@ fn files(count: u8, side: u32) -> (Vec<PathBuf>, tempfile::TempDir) {
     (paths.collect(), folder)
 }
 
-/// A reading, and what waits for its next frame.
+/// A [`FrameReading`], and a function that waits until it has read one more frame.
 fn reading(paths: Vec<PathBuf>, most_bytes: usize) -> (FrameReading, impl Fn()) {
     let (sender, receiver) = mpsc::channel();
     let wake = move || {
@@ -40,7 +40,7 @@ fn frames_come_in_the_order_of_need() {
     reading.want(vec![3, 4, 0], [8, 8]);
     for expected in [&[3][..], &[3, 4], &[0, 3, 4]] {
         next();
-        // The thread may be ahead of what was told.
+        // The thread may have read more frames than `next` has waited for.
         let kept = kept(&reading, 6);
         assert!(expected.iter().all(|index| kept.contains(index)), "{kept:?}");
     }
@@ -103,8 +103,8 @@ fn a_file_that_cannot_be_read_says_why() {
     while reading.picture(0).is_none() {
         next();
     }
-    assert!(reading.picture(1).expect("told").expect_err("missing").contains("gone.png is not there"));
-    assert!(reading.picture(2).expect("told").expect_err("broken").contains("no.png is no whole PNG"));
+    assert!(reading.picture(1).expect("a result").expect_err("missing").contains("gone.png is not there"));
+    assert!(reading.picture(2).expect("a result").expect_err("broken").contains("no.png is no whole PNG"));
 }
 
 #[test]

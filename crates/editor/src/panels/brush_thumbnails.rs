@@ -98,7 +98,7 @@ mod tests {
     fn every_built_in_brush_shows_a_stroke_of_its_own() {
         let mut seen: Vec<ColorImage> = Vec::new();
         for name in brush::NAMES {
-            let mark = brush::marks_of(name).expect("the house has it").swap_remove(0);
+            let mark = brush::marks_of(name).expect("a built-in brush").swap_remove(0);
             let image = image(&mark);
             let inked = image.pixels.iter().filter(|pixel| pixel.a() > 128).count();
             let share = inked as f32 / image.pixels.len() as f32;

@@ -30,20 +30,21 @@ struct Memory {
 enum Doing {
     #[default]
     Nothing,
-    /// The next keys are those of this command.
+    /// The next keys that are pressed become those of this command.
     Listening(CommandId),
-    /// As before, after keys that it cannot have: why, in words.
+    /// As `Listening`, after keys that the command cannot have; the text says why.
     ListeningStill(CommandId, String),
-    /// These keys of the command are those of others now: it asks whether to take them.
+    /// The command is to get these keys, which belong to the other commands now: the sheet asks whether to take them.
     Asking(CommandId, Vec<Chord>, Vec<CommandId>),
-    /// On a lane, these keys of the command would hide what others do there: it asks whether they may.
+    /// If the command gets these keys, they would no longer reach the other commands on a lane: the sheet asks whether
+    /// it is to get them.
     AskingToHide(CommandId, Vec<Chord>, Vec<CommandId>),
-    /// It asks whether all keys are to be the usual ones again.
+    /// The sheet asks whether all keys are to be the usual ones again.
     AskingReset,
 }
 
-/// Shows the sheet over everything. `numpad` are the keys of the number pad that were pressed in this pass. Returns true
-/// once it closes.
+/// Shows the sheet over everything. `numpad` are the keys of the number pad that were pressed in this pass. Returns
+/// true once it closes.
 pub fn key_sheet(
     ctx: &egui::Context,
     shown: &PanelInput<'_>,
@@ -127,7 +128,7 @@ fn list(ui: &mut Ui, keymap: &Keymap, memory: &mut Memory, keys: MarkKeys, asks:
     let found: Vec<CommandKeys> =
         keymap.commands().filter(|command| command.id.is_free() && is_meant(command, &typed)).collect();
     memory.marked = keys.mark(memory.marked, found.len());
-    // Before the lines are shown: one of them may begin something.
+    // Decided before the lines are shown, because a click on one of them changes `memory.doing`.
     let marked = (memory.doing == Doing::Nothing).then_some(memory.marked);
     // In a low window the list is shorter, so that what stands under it stays in view.
     let room = ui.ctx().content_rect().height() - AROUND_LIST;
@@ -219,7 +220,7 @@ fn choose(keymap: &Keymap, id: CommandId, chords: Vec<Chord>, doing: &mut Doing,
     }
 }
 
-/// The line under the list: a question, what to press, or the way back for all.
+/// The line under the list: a question, or what to press, or the button that resets all keys.
 fn foot(ui: &mut Ui, keymap: &Keymap, memory: &mut Memory, asks: &mut Vec<Ask>) {
     let (rect, _) =
         ui.allocate_exact_size(vec2(ui.available_width(), measure::SHEET_BUTTON), egui::Sense::hover());
@@ -305,7 +306,7 @@ enum Heard {
     Leave,
     /// A key that the keymap does not know.
     Unknown,
-    /// Keys that copy, cut or paste text: they never come as keys.
+    /// Keys that copy, cut or paste text: egui reports these as events of their own, not as keys.
     ForText,
     Keys(Chord),
 }

@@ -352,7 +352,7 @@ mod tests {
     fn the_menus_hold_every_command_once() {
         let listed = actions();
         let once: HashSet<_> = listed.iter().collect();
-        assert_eq!(once.len(), listed.len(), "one stands twice");
+        assert_eq!(once.len(), listed.len(), "an action is in the menus twice");
         let within_others = |action: &Action| {
             matches!(
                 action,

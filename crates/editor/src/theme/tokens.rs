@@ -156,7 +156,7 @@ mod tests {
         0.2126 * linear(colour.r()) + 0.7152 * linear(colour.g()) + 0.0722 * linear(colour.b())
     }
 
-    /// WCAG 2 contrast.
+    /// The contrast ratio by WCAG 2, which asks for at least 4.5 for text and 3 for outlines and shapes.
     fn contrast(one: Color32, other: Color32) -> f64 {
         let (a, b) = (luminance(one), luminance(other));
         (a.max(b) + 0.05) / (a.min(b) + 0.05)
@@ -192,12 +192,12 @@ mod tests {
             for fill in [tokens.hov, tokens.act] {
                 assert!(
                     contrast(tokens.text, fill) >= 4.5,
-                    "{theme}: only `text` stands on these, and it must read"
+                    "{theme}: only `text` stands on these fills, and it is hard to read"
                 );
             }
-            assert!(contrast(tokens.on_accent, tokens.accent) >= 4.5, "{theme}: white on the accent");
-            assert!(contrast(tokens.out, tokens.panel) >= 3.0, "{theme}: a control's outline");
-            assert!(contrast(tokens.key, tokens.panel) >= 3.0, "{theme}: a key is a shape");
+            assert!(contrast(tokens.on_accent, tokens.accent) >= 4.5, "{theme}: white on accent is too weak");
+            assert!(contrast(tokens.out, tokens.panel) >= 3.0, "{theme}: outlines on a panel are too weak");
+            assert!(contrast(tokens.key, tokens.panel) >= 3.0, "{theme}: keys on a panel are too weak");
         }
         // In the light theme neither of these texts stands on `app`: only the picture and its chips lie on it.
         assert_eq!(weak_pairs, ["light ochre on app: 4.50", "light vermilion on app: 4.42"]);

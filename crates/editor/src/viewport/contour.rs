@@ -58,7 +58,8 @@ pub fn contours([columns, rows]: [usize; 2], is_in: impl Fn(usize, usize) -> boo
     lines
 }
 
-/// Joins pieces from `start` on to one line, and removes them from `next`; `None` if no piece begins there.
+/// Joins the pieces that follow each other from `start` into one line, and removes them from `next`; `None` if no piece
+/// begins there.
 fn follow(
     start: (usize, usize),
     next: &mut HashMap<(usize, usize), Vec<(usize, usize)>>,

@@ -90,7 +90,7 @@ struct Corner {
     /// Numerators x and y of the place in pixels from the picture's centre, Y up, and their denominator w.
     place: [f64; 3],
     depth: f64,
-    /// Its weights of the second and the third corner of its triangle.
+    /// Its barycentric weights for the second and the third corner of the whole triangle.
     share: [f64; 2],
 }
 

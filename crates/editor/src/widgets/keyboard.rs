@@ -1,9 +1,9 @@
-//! egui's keys as the keymap knows them.
+//! Converts egui's keys to those of the keymap.
 
 use egui::Key as EguiKey;
 use impasto_editor_model::keymap::Key;
 
-/// The key of the keymap; `None` if that has none.
+/// The keymap's key for a key of egui; `None` if the keymap has none.
 pub(crate) fn key_of(key: EguiKey) -> Option<Key> {
     let name = key.name();
     let mut characters = name.chars();

@@ -47,7 +47,7 @@ impl LayerRow<'_> {
         let rest = if self.selected { tokens.sel } else { Color32::TRANSPARENT };
         let fill = if response.contains_pointer() && !self.selected { tokens.hov } else { rest };
         let end = Rect::from_min_max(pos2(rect.right() - self.end, rect.top()), rect.max);
-        // The field at the end stands out from the panel, and would not from the fill of the row.
+        // The fill of the row ends before the field, which would not stand out from it.
         let filled = rect.with_max_x(end.left() - measure::GAP / 2.0);
         ui.painter().rect_filled(filled, draw::corner(), fill);
         draw::focus_ring(ui, &response, rect.shrink(1.0), measure::CORNER);

@@ -12,10 +12,10 @@ use winit::event::{ElementState, TouchPhase, WindowEvent};
 #[cfg(target_os = "linux")]
 mod x11;
 
-/// The axes of a pen before this one are its place.
+/// The number of the first axis that is not part of a pen's position: the axes before it are X and Y.
 const FIRST_OTHER_AXIS: u32 = 2;
 
-/// An axis of a pointing device that tells pressure.
+/// The axis of a pointing device that reports pressure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PressureAxis {
     /// Its number among the axes of the device.
@@ -30,17 +30,17 @@ pub struct PressureAxis {
 pub struct Pens {
     /// Finds the pressure axis of the device that moves the pointer now; `None` if it has none.
     find: Box<dyn FnMut() -> Option<PressureAxis>>,
-    /// Whether any device has told of an axis that is no place. Without one the system is never asked.
+    /// Whether any device has reported an axis other than X and Y. Until then `find` is not called.
     has_axes: bool,
-    /// Whether it has since the last press.
+    /// Whether a device has reported such an axis since the last press.
     has_told: bool,
     axis: Option<PressureAxis>,
     pressure: f64,
-    /// The most since the press; `None` while nothing is pressed.
+    /// The greatest pressure since the press; `None` while nothing is pressed.
     greatest: Option<f64>,
-    /// One for each pointer event since the last pass.
+    /// One pressure for each pointer event since the last pass.
     samples: Vec<f64>,
-    /// Whether the last event moved the pointer: X11 tells the axes of a movement after it.
+    /// Whether the last event moved the pointer: X11 reports the axes of a movement after the movement.
     moved: bool,
 }
 
@@ -71,7 +71,7 @@ impl Pens {
         Self::new(move || server.get_or_insert_with(x11::Server::open).as_ref()?.pressure_axis())
     }
 
-    /// Pens come as touches, where the system tells them at all.
+    /// On systems other than Linux, pens come as touches, if the system reports their pressure at all.
     #[cfg(not(target_os = "linux"))]
     pub(super) fn of_system(_event_loop: &winit::event_loop::ActiveEventLoop) -> Self {
         Self::new(|| None)
@@ -97,7 +97,7 @@ impl Pens {
             WindowEvent::MouseInput { state: ElementState::Pressed, .. } if self.has_axes => {
                 match std::mem::take(&mut self.has_told) {
                     true => self.look(),
-                    // A pen would have told: it presses harder and softer all the time.
+                    // It is a mouse: a pen would have reported axes, since its pressure changes all the time.
                     false => self.pressure = 1.0,
                 }
             }
@@ -119,8 +119,8 @@ impl Pens {
         };
     }
 
-    /// Notes the pressure of the pointer events that egui made of the event; `input` is all of its input since the last
-    /// pass.
+    /// Notes the pressure of the pointer events that egui made of the window's event. `input` is all of egui's input
+    /// since the last pass.
     pub fn after(&mut self, event: &WindowEvent, input: &RawInput) {
         let count = input.events.iter().filter(|event| is_of_pointer(event)).count();
         let lifts = matches!(event, WindowEvent::Touch(touch) if ends(touch.phase));
@@ -275,7 +275,7 @@ mod tests {
             axis(2, 2000.0),
             axis(3, 77.0),
         ];
-        // The press has what the tablet says when it is asked.
+        // The press has the pressure that the tablet reports when it is asked: 500 of 2000.
         assert_eq!(told(&mut pens, &events), [0.0, 0.25, 0.5, 1.0]);
         // Pressure that changes without a movement belongs to the next one.
         assert_eq!(told(&mut pens, &[axis(2, 400.0), moved()]), [0.2]);
@@ -302,7 +302,7 @@ mod tests {
         assert_eq!(told(&mut pens, &[moved(), axis(2, 0.0), pressed(), released()]), [0.0, 0.3, 0.3]);
         assert_eq!(asked.get(), 2);
         let clicks = [pressed(), released(), moved(), axis(0, 4.0), pressed(), released()];
-        assert_eq!(told(&mut pens, &clicks), [1.0; 5], "a mouse");
+        assert_eq!(told(&mut pens, &clicks), [1.0; 5], "a mouse must press fully");
         assert_eq!(asked.get(), 2);
         assert_eq!(told(&mut pens, &[axis(2, 100.0), pressed()]), [0.3]);
         assert_eq!(asked.get(), 3);
@@ -311,10 +311,10 @@ mod tests {
     #[test]
     fn the_greatest_pressure_goes_with_the_release() {
         let mut pens = Pens::new(|| tablet(20.0));
-        // It is set down, pressed and lifted in one place.
+        // The pen is set down, pressed and lifted in one place.
         let events = [moved(), axis(2, 0.0), pressed(), axis(2, 1200.0), axis(2, 40.0), released()];
         assert_eq!(told(&mut pens, &events), [0.0, 0.01, 0.6]);
-        // Under the string of a steady brush, this is as hard as it got.
+        // While the string of a steady brush is not pulled, the path takes the greatest pressure.
         assert!((felt(0.2, &[0.01, 0.6]) - 0.6).abs() < 1e-9);
         let events = [axis(2, 30.0), pressed(), moved(), axis(2, 1600.0), axis(2, 10.0), released()];
         let told = told(&mut pens, &events);

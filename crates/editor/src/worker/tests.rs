@@ -195,7 +195,7 @@ fn drafts_come_during_a_drag_and_the_last_job_is_shown() {
     // The drag ends: the same view again, now exact.
     worker.0.show(Job { loaded: Arc::clone(&loaded), serial: 1, views: vec![view(&loaded, last_frame)] });
     let told = until(&worker, is_exact);
-    assert!(pictures(&told).iter().all(|picture| picture.exact), "the draft stands there already");
+    assert!(pictures(&told).iter().all(|picture| picture.exact), "the shown draft is drawn again");
 }
 
 #[test]
@@ -242,7 +242,7 @@ fn a_film_is_finished_at_rest_and_then_plays_exactly() {
         worker.0.show(job(serial, other));
         let is_of_it = |report: &Report| matches!(report, Report::Picture(picture) if picture.strokes > 0);
         let told = until(&worker, is_of_it);
-        assert!(pictures(&told).iter().all(|picture| picture.seconds > 0.0), "{serial}: it is drawn");
+        assert!(pictures(&told).iter().all(|picture| picture.seconds > 0.0), "{serial}: not drawn");
     }
 }
 

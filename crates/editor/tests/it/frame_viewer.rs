@@ -1,4 +1,4 @@
-//! The viewer of finished frames: keys, buttons, the line, and how it looks.
+//! Tests of the viewer of finished frames: its keys, its buttons, the line of frames, and how it looks.
 
 use std::path::PathBuf;
 
@@ -87,7 +87,7 @@ fn keys_play_step_and_go_back_to_work() {
         harness.key_press_modifiers(held, key);
         assert_eq!(asked(&mut harness), [ask]);
     }
-    // What edits does nothing.
+    // Keys that edit do nothing here.
     for key in [Key::X, Key::Delete, Key::G, Key::Num2] {
         harness.key_press(key);
         assert_eq!(asked(&mut harness), []);

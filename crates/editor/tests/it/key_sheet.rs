@@ -1,4 +1,4 @@
-//! The sheet that changes keys, by real events: its keymap is the one that the page then uses.
+//! Tests of the sheet that changes keys, with real events: the page takes over the keymap that the sheet asks for.
 
 use egui::{Event, Modifiers, Role, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -121,7 +121,7 @@ fn a_conflict_names_the_other_command_and_is_taken_over_or_left() {
     click(&mut harness, "Take it over");
     assert_eq!(does(&harness, "K", Scope::Paint), Some(Action::Comb));
     assert_eq!(does(&harness, "K", Scope::Arrange), None);
-    // Back to all.
+    // All keys are reset.
     click(&mut harness, "Reset all keys");
     assert_ne!(harness.state().keymap, Keymap::default(), "it asks first");
     click(&mut harness, "Cancel the change");
@@ -158,11 +158,11 @@ fn keys_that_cannot_work_are_refused_with_words() {
         press(&mut harness, Modifiers::NONE, key);
         harness.get_by_label_contains(words);
         assert_eq!(harness.state().keymap, Keymap::default());
-        // It still listens.
+        // The sheet still waits for keys.
         press(&mut harness, Modifiers::NONE, egui::Key::F9);
         assert_ne!(harness.state().keymap, Keymap::default(), "{name}");
     }
-    // Esc leaves it, whatever is held with it.
+    // Esc ends the wait for keys, whatever is held with it.
     let mut harness = harness();
     find(&mut harness, "comb");
     click(&mut harness, "Comb");
@@ -223,7 +223,7 @@ fn any_key_can_be_given() {
     click(&mut harness, "Import a mesh");
     click(&mut harness, "No key");
     assert_eq!(harness.state().keymap.shortcut_text(Action::ImportMesh), None);
-    // These never come as keys, so they cannot be given.
+    // The keys that copy come as this event, never as keys, so they cannot be given.
     click(&mut harness, "Import a mesh");
     harness.event(Event::Copy);
     harness.run();

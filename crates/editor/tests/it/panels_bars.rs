@@ -269,7 +269,7 @@ fn settings_without_room_are_behind_the_button() {
     let options = &harness.state().session.options;
     assert!(options.even && !options.front_only);
     let steady = harness.query_by_role_and_label(Role::SpinButton, "Steady");
-    assert!(steady.is_some(), "it stays open while one sets");
+    assert!(steady.is_some(), "it stays open while settings are changed");
 }
 
 #[test]
@@ -458,7 +458,7 @@ fn the_keys_are_listed_with_digits_as_the_user_has_them() {
     assert!(harness.query_by_label("NumPad 7, 7").is_none());
     harness.state_mut().keymap.digits = Digits::NumPad;
     harness.run();
-    assert!(harness.query_by_label("NumPad 7, 7").is_some(), "digits are views");
+    assert!(harness.query_by_label("NumPad 7, 7").is_some(), "digits are not listed as keys of views");
 }
 
 #[test]

@@ -196,7 +196,7 @@ fn what_is_wrong_is_mended_by_name_until_saving_is_on_again() {
     // The last problem is fixed by hand, in the text.
     let source = harness.state().editor.document().source().expect("a source").text.clone();
     type_instead(&mut harness, &source.replace("\"long\"", "40"));
-    assert_eq!(harness.state().editor.document().loss_count(), 1, "not before it is asked for");
+    assert_eq!(harness.state().editor.document().loss_count(), 1, "the text was read unasked");
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
     harness.run_steps(SETTLED);
     assert_eq!(harness.state().editor.document().scene().regions[0].strokes.length_px, Some(40.0));

@@ -131,7 +131,7 @@ fn what_exr_files_hold_is_ticked_in_a_menu() {
     assert_eq!(value(&harness).as_deref(), Some("No AOVs"));
 
     click(&mut harness, "AOVs");
-    assert!(!is_enabled(&harness, "AOVs of the scene"), "it names none");
+    assert!(!is_enabled(&harness, "AOVs of the scene"), "the scene names none");
     for name in ["depth", "stroke.id", "layers", "crypto.object", "stroke.id"] {
         click(&mut harness, name);
     }
@@ -150,7 +150,7 @@ fn what_exr_files_hold_is_ticked_in_a_menu() {
     assert!(harness.query_by_label("depth").is_none(), "Esc closes the menu");
     assert_eq!(asked(&mut harness), [], "and nothing else");
     fill(&mut harness, "Output files", "f_##.png");
-    assert_eq!(harness.state().settings.kind, FileKind::Png8, "as its name ends");
+    assert_eq!(harness.state().settings.kind, FileKind::Png8, "the kind follows the name");
 }
 
 #[test]

@@ -156,7 +156,7 @@ fn the_pressure_of_a_pen_comes_with_each_event() {
         vec![
             Event::PointerMoved(at(200.0)),
             button(at(200.0), PointerButton::Primary, true),
-            // What is no event of the pointer has no pressure, and takes none.
+            // This is no event of the pointer, so it takes none of the pressures.
             Event::Text("x".to_owned()),
             Event::PointerMoved(at(210.0)),
             Event::PointerMoved(at(220.0)),

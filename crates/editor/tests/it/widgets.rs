@@ -239,7 +239,7 @@ fn a_click_types_and_a_double_click_brings_the_default_back() {
         harness.step();
     };
     click(&mut harness);
-    assert!(harness.query_by_role(Role::TextInput).is_some(), "it is typed");
+    assert!(harness.query_by_role(Role::TextInput).is_some(), "no field to type in");
     click(&mut harness);
     assert!(harness.query_by_role(Role::TextInput).is_none());
     assert_eq!(harness.state().coverage, 2.5, "the default of the page");
@@ -346,9 +346,9 @@ fn tab_is_the_apps_until_something_has_the_focus() {
     let first = harness.ctx.memory(|memory| memory.focused());
     harness.key_press(Key::Tab);
     harness.run();
-    assert_eq!(harness.state().tabs, 1, "it is not the app's now");
+    assert_eq!(harness.state().tabs, 1, "Tab is still the app's");
     let second = harness.ctx.memory(|memory| memory.focused());
-    assert!(second.is_some() && second != first, "it walks on");
+    assert!(second.is_some() && second != first, "the focus stays where it was");
 }
 
 #[test]

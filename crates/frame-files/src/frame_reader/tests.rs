@@ -89,7 +89,7 @@ fn header(width: u32, height: u32) -> Vec<u8> {
     encoder.set_color(ColorType::Rgba);
     encoder.set_depth(BitDepth::Sixteen);
     drop(encoder.write_header().unwrap());
-    // The signature (8 bytes) and one chunk of 13 bytes.
+    // The signature (8 bytes) and one chunk: 12 bytes of length, type and checksum, and 13 bytes of data.
     bytes.truncate(8 + 12 + 13);
     bytes
 }

@@ -8,7 +8,7 @@ uniform int light_count;
 uniform int shadowed_light;      // index of the light that casts shadows, or -1
 uniform sampler2DShadow shadow_depth;
 uniform mat4 shadow_from_world;
-uniform float shadow_texel;      // world units; of a lamp, at a distance of 1
+uniform float shadow_texel;      // side of a texel in world units; for a lamp, at a distance of 1 from it
 uniform vec2 shadow_bias;        // constant depth, plus one that is divided by the square of a lamp's distance
 uniform vec3 ambient_above;
 uniform vec3 ambient_below;
@@ -48,7 +48,7 @@ struct LitPoint {
     vec3 position;               // world space, like the normal
     vec3 normal;
     vec3 towards_eye;            // unit
-    float openness;              // 0 enclosed .. 1 open
+    float openness;              // ambient occlusion: 0 enclosed .. 1 open
     float gloss;                 // 0 matt .. 1 glazed
 };
 

@@ -1,5 +1,5 @@
-// How open the surroundings are, at half the size: darker where things touch. The taps are the same under quarter turns
-// and never random, so that nothing shimmers.
+// Ambient occlusion at half the picture's size: 1 where the surroundings are open, less where things touch. The taps
+// are the same under quarter turns and never random, so that nothing shimmers.
 #include "shared/lens.glsl"
 uniform sampler2D normal;
 uniform sampler2D depth_and_id;

@@ -1,4 +1,5 @@
-// How a stroke's colour is mixed from the colour under it. Colours are Oklab; an entry of `mixing` that is 0 changes nothing.
+// How a stroke's colour is mixed from the colour under it. Colours are Oklab. A jitter, temperature or grading of 0
+// changes nothing.
 uniform sampler2D palettes;      // a row each: pigments in Oklab, w how far colours keep to them, 0 past the last
 
 const uint ANY_COLOR = 255u;

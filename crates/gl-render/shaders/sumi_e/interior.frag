@@ -1,4 +1,5 @@
-// Pass 2 of the source: light from its own direction, put through the ramp of four tones.
+// Pass 2 of the source (the effect that `styles/sumi_e.rs` names): light from the direction `to_light`, put through the
+// ramp of four tones.
 #include "sumi_e/ramp.glsl"
 #include "shared/cutout.glsl"
 in vec3 normal_in_view;

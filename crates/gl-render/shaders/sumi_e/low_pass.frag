@@ -1,4 +1,5 @@
-// Passes 1 and 3 of the source: the mean of nine pixels two apart, clamped at the picture's edges.
+// Passes 1 and 3 of the source (the effect that `styles/sumi_e.rs` names): the mean of nine pixels two apart, clamped
+// at the picture's edges.
 uniform sampler2D picture;
 
 out vec4 blurred;

@@ -14,7 +14,7 @@ use super::{DriverMessages, GlError, Platform, ShaderTexts};
 static OPENED: AtomicU64 = AtomicU64::new(0);
 
 thread_local! {
-    /// Which of them was made current last on this thread.
+    /// `Shared::id` of the context that was made current last on this thread.
     static CURRENT: Cell<u64> = const { Cell::new(0) };
 }
 
@@ -25,7 +25,7 @@ pub(crate) struct Gpu {
 }
 
 struct Shared {
-    /// Which of the contexts it is, from 1.
+    /// The context's number among all that were opened, from 1.
     id: u64,
     gl: Arc<glow::Context>,
     clock: RefCell<Option<PassClock>>,
@@ -167,7 +167,8 @@ impl Gpu {
         }
     }
 
-    /// Stops timing. Returns the passes with their seconds, in order, and the number of fragments of all quads.
+    /// Stops timing. Returns the passes with their seconds, in order, and the number of fragments of all quads and
+    /// strips.
     pub(crate) fn stop_clock(&self) -> (Vec<(&'static str, f64)>, u64) {
         self.shared.clock.borrow_mut().take().map(|clock| (clock.laps, clock.fragments)).unwrap_or_default()
     }

@@ -33,7 +33,7 @@ use data::PaintData;
 use programs::{DETAIL, FILES, SOFTEN, SPREAD, StrokePrograms};
 use targets::{DetailTargets, PaintTargets};
 
-/// How much of a body's own colour shows in the toned ground under it.
+/// How far the toned ground under the paint of a body hides the background.
 const WASH: f32 = 0.85;
 
 /// Side of the blocks in which detail is looked for, pixels at the scene's size.

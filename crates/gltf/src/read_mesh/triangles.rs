@@ -13,18 +13,18 @@ pub(crate) type Triangles = Arc<Vec<[u32; 3]>>;
 /// How vertices make triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Mode {
-    /// Three each.
+    /// Every three vertices are a triangle.
     Triangles,
-    /// Each with the two before it; every other triangle is turned round.
+    /// Each vertex makes a triangle with the two before it; every other one is turned round, so that all wind alike.
     Strip,
-    /// Each with the one before it and the first.
+    /// Each vertex makes a triangle with the one before it and the first.
     Fan,
 }
 
 /// The triangles of a primitive with `count` vertices. Primitives of the same indices share one list.
 ///
 /// # Errors
-/// An index that is no vertex; more memory than is left.
+/// An index that is not less than `count`; triangles that need more memory than is left.
 pub(crate) fn triangles(
     reader: &mut MeshReader<'_, '_, '_, '_>,
     primitive: &Cursor<'_, '_>,

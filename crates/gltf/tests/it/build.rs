@@ -45,13 +45,13 @@ impl Buffer {
         )
     }
 
-    /// Adds an accessor as it is written.
+    /// Adds an accessor that is given as JSON, and gives its index.
     pub fn accessor(&mut self, accessor: Value) -> usize {
         self.accessors.push(accessor);
         self.accessors.len() - 1
     }
 
-    /// The rest of a document, with this buffer in it as a data URI.
+    /// Completes `document`: adds the asset, the views, the accessors, and this buffer as a data URI.
     pub fn finish(&self, mut document: Value) -> Value {
         document["asset"] = json!({ "version": "2.0" });
         let uri = format!("data:application/octet-stream;base64,{}", base64(&self.bytes));
@@ -61,7 +61,7 @@ impl Buffer {
         document
     }
 
-    /// The same as a `.glb`.
+    /// As [`Buffer::finish`], but as the bytes of a `.glb` that holds the buffer.
     pub fn glb(&self, document: Value) -> Vec<u8> {
         let mut document = self.finish(document);
         document["buffers"] = json!([{ "byteLength": self.bytes.len() }]);

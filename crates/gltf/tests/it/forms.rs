@@ -87,7 +87,7 @@ fn strided_views_hold_several_lists() {
     assert_eq!(*primitive.positions, [[0., 0., 7.], [1., 1., 7.], [2., 0., 7.]]);
     assert_eq!(primitive.uvs[0], None);
     assert_eq!(primitive.uvs[1].as_deref(), Some(&vec![[0., 0.25], [0.5, 0.25], [1., 0.25]]));
-    // One element more would end in the last gap's place.
+    // A fourth element would lie beyond the view.
     buffer.accessors[0]["count"] = json!(4);
     let refused = read_alone(
         one_primitive(&buffer, json!({ "attributes": { "POSITION": 0 } })).to_string().into_bytes(),

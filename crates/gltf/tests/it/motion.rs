@@ -1,4 +1,4 @@
-//! Evaluation against closed forms.
+//! Tests the poses that [`Animator`] gives at a time, against closed forms.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 

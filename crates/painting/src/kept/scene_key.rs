@@ -45,8 +45,8 @@ impl SceneKey<'_> {
         let mut key = KeyHasher::default();
         key.words(concat!(env!("CARGO_PKG_VERSION"), " ", env!("IMPASTO_SOURCES")));
         key.numbers(&[FORMAT]);
-        // What a shot brings is in the objects, and in the views, references and shapes that follow.
-        // Touches are laid anew; of them only the brushes are kept.
+        // The stage is left out: what a shot brings is in the objects, and in the views, references and shapes that
+        // follow. Touches are left out too, except their brushes: they are laid anew, and only the brushes are kept.
         key.value(&Scene { stage: Stage::default(), touches: Vec::new(), ..Scene::clone(scene) });
         scene.touches.iter().for_each(|touch| key.value(&touch.brush));
         rules.iter().for_each(|rule| key.value(rule));

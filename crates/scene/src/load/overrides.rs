@@ -22,7 +22,7 @@ pub(super) struct Applied {
 }
 
 impl Applied {
-    /// Whether a field is this one, lies inside it, or contains it.
+    /// Whether a field is the one that was set, lies inside it, or contains it.
     pub(super) fn covers(&self, field_path: &str) -> bool {
         let holds = |outer: &str, inner: &str| {
             inner.strip_prefix(outer).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))

@@ -125,15 +125,15 @@ pub(super) fn from_ron(located: &Located, text: &str) -> Result<Scene, SpannedEr
     }
 }
 
-/// How the files of this house are written in RON.
+/// How Impasto's files are written in RON.
 pub(super) fn options() -> ron::Options {
     ron::Options::default()
         .with_default_extension(Extensions::IMPLICIT_SOME)
         .with_recursion_limit(2 * limits::MAX_NESTING)
 }
 
-/// The first field that `text` leaves out although only a scene with a shot may: its name, and the offset where it
-/// could be.
+/// The first field that `text` leaves out although only a scene with a shot may leave it out: its name, and the offset
+/// at which it could be added.
 fn left_to_shot(located: &Located, text: &str) -> Option<(&'static str, usize)> {
     fn field<'a>(located: &'a Located, text: &str, node: &'a Node, name: &str) -> Option<&'a Node> {
         let Inside::Fields(fields) = &node.inside else { return None };

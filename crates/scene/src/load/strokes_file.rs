@@ -66,7 +66,7 @@ pub fn parse(path: &Path, text: &str) -> Result<StrokesFile, Report> {
     if problems.is_empty() { Ok(preset) } else { Err(Report(problems)) }
 }
 
-/// Reads the file of a preset, and holds that the pictures of its brushes, which lie in its folder, can be used.
+/// Reads the file of a preset, and checks that the pictures of its brushes, which lie in its folder, can be used.
 ///
 /// # Errors
 ///

@@ -31,8 +31,8 @@ const USUAL_VIEW: DVec3 = DVec3::new(0.5, 0.27, 0.9);
 /// front.
 const RISES: [f64; 2] = [0.38, 0.18];
 
-/// If light from the left lights less than this share of what faces the eye, light comes from the right, if that lights
-/// more.
+/// Light comes from the left, unless it lights less than this share of what faces the eye, and light from the right
+/// lights more.
 const LEAST_LIT: f64 = 0.36;
 
 /// An axis is surely up when its score is this much above the next best.

@@ -149,7 +149,7 @@ fn the_backdrop_stands_under_and_behind_the_model() {
     let backdrop = &scene.objects[1];
     let at = backdrop.keys[0].translation;
     assert!((at[0] - 5.0).abs() < 1e-3 && (at[2] - 2.0).abs() < 1e-3);
-    assert!(at[1] < -3.5 && at[1] > -3.51, "a hair under the model: {at:?}");
+    assert!(at[1] < -3.5 && at[1] > -3.51, "not just under the model: {at:?}");
     // The wall stands on the far side, as the camera sees it.
     let pose = crate::motion::poses_at(&scene, 0.0)[1];
     let wall = pose.transform_point3(DVec3::new(0.0, 0.5, -0.28) * backdrop.scale.0[0]);
@@ -301,7 +301,7 @@ fn low_models_are_seen_from_higher_up_than_tall_ones_and_see_their_floor() {
         let gaze = -back.normalize();
         let up = gaze.cross(DVec3::Y).cross(gaze).normalize();
         let ray = gaze - up * 17.5f64.to_radians().tan();
-        let Lens::Perspective { near, .. } = scene.camera.lens else { panic!("a perspective lens") };
+        let Lens::Perspective { near, .. } = scene.camera.lens else { panic!("no perspective lens") };
         let floor = scene.objects[1].keys[0].translation[1];
         let depth = (key.eye[1] - floor) / -ray.y;
         assert!(near < depth, "height {height}: near {near}, floor at {depth}");

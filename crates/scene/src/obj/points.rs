@@ -12,7 +12,7 @@ pub(super) struct NamedPoints {
     pub of_corner: Vec<u32>,
 }
 
-/// Reads them from a text that the linter has cleaned, so that every index is in range.
+/// Reads the points from a text that the linter has cleaned, so that every index is in range.
 pub(super) fn of(cleaned: Cleaned<'_>) -> NamedPoints {
     let mut named = NamedPoints { count: 0, of_corner: Vec::new() };
     for line in cleaned.split(b'\n').map_while(Result::ok) {

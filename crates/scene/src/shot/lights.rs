@@ -8,7 +8,7 @@ use super::Shot;
 use crate::document::{Color, Light, LightKind};
 
 /// The intensity, in a scene, of a sun of one watt per square metre. A white surface is then as bright as in the
-/// program that made the shot: 1/π, over what the display curve does to middle values.
+/// program that made the shot: 1/π, divided by the factor, about 0.7, that the display curve gives middle values.
 const OF_WATT: f64 = 0.455;
 
 /// Lux per watt per square metre, as exporters convert.
@@ -22,7 +22,8 @@ const MOST: f64 = 1.7;
 /// `MOST`.
 const NO_LUX: f64 = 0.01;
 
-/// Light that is a share of `LEAST` becomes this power of the share: a night stays dark, and its strokes can be seen.
+/// Light below `LEAST`, as a share of it, is raised to this power, which lifts it: a night stays dark, and its strokes
+/// can be seen.
 const DARKNESS: f64 = 0.6;
 
 /// The soft light all around, which no exporter writes: as a share of the suns' light, and of the lamps' light.

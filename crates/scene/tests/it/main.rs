@@ -1,4 +1,5 @@
-//! Tests of reading files, and of the pages that are made from the source. One program, since each more is linked anew.
+//! Tests of reading files, and of the pages that are made from the source. All are one program, since linking one for
+//! each file of tests would take longer.
 
 mod aovs_page;
 mod obj;

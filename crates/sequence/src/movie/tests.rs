@@ -163,7 +163,8 @@ fn transparency_is_kept_where_a_movie_has_it() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    // ffmpeg's own VP9 decoder drops transparency, so another decodes here, and ffprobe tells the pixel format without.
+    // ffmpeg's own VP9 decoder drops transparency, so libvpx decodes here. ffprobe uses ffmpeg's own and names a pixel
+    // format without alpha, so the tag is checked instead.
     for (name, decoder, tag) in
         [("a.mov", "prores", "pix_fmt=yuva444p12le"), ("a.webm", "libvpx-vp9", "TAG:alpha_mode=1")]
     {

@@ -44,7 +44,7 @@ fn a_right_press_that_cancels_or_drags_asks_for_no_menu() {
     event(&mut editor, PointerKind::Move, at, HERE);
     key(&mut editor, Key::Letter('G'));
     assert!(editor.is_moving());
-    assert_eq!(right_click(&mut editor, at), [], "it took the move back");
+    assert_eq!(right_click(&mut editor, at), [], "the right press only takes the move back");
     assert!(!editor.is_moving());
     drag(&mut editor, Button::Right, [at, at + DVec2::new(60.0, 0.0)], HERE);
     assert_eq!(editor.take_requests(), []);

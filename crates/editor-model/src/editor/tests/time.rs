@@ -49,7 +49,7 @@ fn the_first_pose_also_keys_the_reference_and_undo_takes_both() {
     let scene = editor.document().scene();
     assert_eq!(frames(scene), [0.0, 60.0]);
     assert!((x_at(scene, 60.0) - x_at(&before, 60.0) - 0.5).abs() < 1e-9);
-    assert_eq!(x_at(scene, 0.0), x_at(&before, 0.0), "it moves from where it was");
+    assert_eq!(x_at(scene, 0.0), x_at(&before, 0.0), "at frame 0 the apple stays where it was");
     assert_eq!(editor.document().undo_count(), count + 1);
     assert_eq!(words(&mut editor), [format!("Also keyed frame 0, so that {name} moves from there")]);
     act(&mut editor, Action::Undo);
@@ -66,7 +66,7 @@ fn without_auto_key_a_pose_stays_at_its_frame_until_it_is_keyed() {
     assert_eq!((editor.document().scene(), editor.document().undo_count()), (&before, count));
     assert!(
         (x_at(&editor.shown().0.scene, 60.0) - x_at(&before, 60.0) - 1.0).abs() < 1e-9,
-        "one on the other"
+        "the second move adds to the first"
     );
     assert!(editor.time().is_loose(&name));
     assert_eq!(editor.status(), format!("{name} is not keyed here  [I] keep it"));
@@ -264,7 +264,7 @@ fn keys_are_dragged_copied_nudged_and_deleted_and_each_is_one_entry() {
     drag_key(&mut editor, (of(), 60.0), 73.0);
     assert_eq!(frames(editor.document().scene()), [0.0, 73.0]);
     assert_eq!(editor.document().undo_text(), Some("Move 1 key"));
-    assert_eq!(editor.time().keys.selected(), [(of(), 73.0)], "it stays selected where it went");
+    assert_eq!(editor.time().keys.selected(), [(of(), 73.0)], "the key stays selected at its new frame");
     // Shift D, a move and a press copy a key.
     let view = view(&editor);
     assert!(editor.key(Key::Letter('D'), Modifiers { shift: true, ..HERE }, false, &view));

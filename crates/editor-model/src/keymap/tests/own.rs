@@ -1,4 +1,4 @@
-//! Keys of the user's own: what they take, what comes back, and their words.
+//! Tests of keys that the user chose: which commands lose keys to them and get them back, and keys as text.
 
 use super::*;
 
@@ -44,7 +44,7 @@ fn a_key_of_ones_own_is_the_only_one_and_shows_everywhere() {
     assert_eq!(own.shortcut_text(Action::Comb).as_deref(), Some("Ctrl K"));
     assert!(own.listed().any(|line| line.action == Action::Comb && line.keys == "Ctrl K"));
     assert_eq!(changed(&own), ["Comb"]);
-    // It stands with the keys of the other program, too.
+    // The choice holds with the other preset, too.
     let maya = Keymap { preset: Preset::Maya, ..own };
     assert_eq!(does(&maya, "Ctrl K", Scope::Paint), Some(Action::Comb));
 }
@@ -55,11 +55,11 @@ fn a_key_that_is_taken_comes_back() {
     assert_eq!(BLENDER.losers(id("Comb"), &[chord("Ctrl K")]), []);
     let own = with(&BLENDER, "Comb", &["K"]);
     assert_eq!(does(&own, "K", Scope::Paint), Some(Action::Comb));
-    assert_eq!(does(&own, "K", Scope::Arrange), None, "no key does two things, wherever one is");
+    assert_eq!(does(&own, "K", Scope::Arrange), None, "Comb took K from Compare in all modes");
     assert_eq!(changed(&own), ["Comb", "Compare with the reference"]);
     assert_eq!(own.own.iter().count(), 1, "only what was chosen is kept");
     assert_eq!(with(&own, "Comb", &["C"]), *BLENDER);
-    // The other way: the one that lost its key gets it back, and the taker has none.
+    // The other way round: Compare takes its key back, and Comb, which had taken it, has none.
     let back = with(&own, "Compare with the reference", &["K"]);
     assert_eq!(does(&back, "K", Scope::Paint), Some(Action::Compare));
     assert_eq!(keys(&back, "Comb"), Vec::<String>::new());
@@ -71,7 +71,7 @@ fn a_swap_stays_a_swap() {
     let own = with(&with(&BLENDER, "Comb", &["S"]), "Smooth", &["C"]);
     assert_eq!(does(&own, "S", Scope::Paint), Some(Action::Comb));
     assert_eq!(does(&own, "C", Scope::Paint), Some(Action::Smooth));
-    assert_eq!(does(&own, "S", Scope::Arrange), Some(Action::Scale), "another mode, another key");
+    assert_eq!(does(&own, "S", Scope::Arrange), Some(Action::Scale), "S still scales in Arrange");
     assert_eq!(with(&with(&own, "Comb", &["C"]), "Smooth", &["S"]), *BLENDER);
 }
 
@@ -121,7 +121,7 @@ fn escape_stays_what_cancels() {
 
 #[test]
 fn a_choice_outlasts_a_preset_that_has_the_same_keys() {
-    // Brush radius is on B in Maya's keys, so that this choice differs from Blender's only.
+    // In Maya's preset Brush radius is on B anyway, so this choice differs from Blender's preset only.
     let own = with(&BLENDER, "Brush radius", &["B"]);
     let maya = Keymap { preset: Preset::Maya, ..own.clone() };
     let own = Keymap { preset: Preset::Blender, ..with(&maya, "Comb", &["Ctrl K"]) };
@@ -154,7 +154,7 @@ fn keys_that_cannot_work_are_refused() {
         assert_eq!(keys(&own, name) == [key], works, "{name} {key}");
         assert!(works || own == *BLENDER, "{name} {key}");
     }
-    // By themselves, commands have none of these.
+    // No preset gives a command a key that the command refuses.
     for keymap in keymaps() {
         for command in keymap.commands().filter(|command| command.id.is_free()) {
             assert!(command.chords.iter().all(|chord| command.id.refusal(*chord).is_none()));
@@ -166,6 +166,6 @@ fn keys_that_cannot_work_are_refused() {
 fn a_key_on_a_lane_hides_what_it_does_elsewhere() {
     let delete = id("Delete (keys on a lane)");
     assert_eq!(BLENDER.hidden(delete, &[chord("K")]), [id("Compare with the reference")]);
-    assert_eq!(BLENDER.hidden(delete, &[chord("C")]), [], "Comb is of Paint");
+    assert_eq!(BLENDER.hidden(delete, &[chord("C")]), [], "Comb has this key in Paint only");
     assert_eq!(BLENDER.hidden(id("Along X"), &[chord("K")]), []);
 }

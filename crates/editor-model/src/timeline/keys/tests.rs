@@ -47,7 +47,7 @@ fn a_drag_of_three_points_snaps_to_frames_and_is_one_command() {
     assert_eq!(hand.take(press(Some(apple(60.0)), at(60.2, 1)), &lanes), None);
     assert_eq!(hand.selected(), [apple(60.0)]);
     hand.take(KeysEvent::Move(at(60.7, 1)), &lanes);
-    assert_eq!(hand.dragged(), None, "two points are a trembling hand");
+    assert_eq!(hand.dragged(), None, "a movement of two points is no drag yet");
     for to in [65.0, 70.0, 72.8] {
         assert_eq!(hand.take(KeysEvent::Move(at(to, 1)), &lanes), None, "nothing is done before the release");
     }

@@ -86,10 +86,10 @@ fn shift_erases_the_dabs_of_this_amount_under_the_ring() {
     assert_eq!(amounts(&world)[0].dabs.len(), whole, "the width stays");
     assert!(amounts(&world)[1].dabs.len() < whole && amounts(&world)[1].dabs.len() > 1);
     world.drag(Tool::Amount, &[LEFT, RIGHT], SHIFT);
-    assert_eq!(amounts(&world).len(), 1, "a list without dabs goes");
+    assert_eq!(amounts(&world).len(), 1, "a list without dabs is removed");
     let count = world.document.undo_count();
     assert!(world.drag(Tool::Amount, &[LEFT, RIGHT], SHIFT).commit.is_none());
-    assert_eq!(world.document.undo_count(), count, "nothing lay there");
+    assert_eq!(world.document.undo_count(), count, "an eraser over nothing adds no entry");
 }
 
 #[test]
@@ -99,7 +99,7 @@ fn nothing_is_painted_off_the_surface_nor_on_what_is_locked() {
     assert!(refused.refusal.is_some_and(|refusal| refusal.0.starts_with("Nothing to paint here")));
     assert!(world.release(Tool::Amount).commit.is_none());
     world.options.strength = 0.0;
-    assert!(world.drag(Tool::Amount, &[LEFT, RIGHT], NONE).commit.is_none(), "nothing changes");
+    assert!(world.drag(Tool::Amount, &[LEFT, RIGHT], NONE).commit.is_none(), "strength 0 paints something");
     world.options.strength = 1.0;
     world.run(Command::Edit(Edit::SetLocked(vec![Item::Region("skin".to_owned())], true)));
     let refused = world.press(Tool::Amount, LEFT, NONE);

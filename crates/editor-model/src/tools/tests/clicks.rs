@@ -22,7 +22,7 @@ fn a_click_fills_with_what_the_options_say() {
     ] {
         world.options.fill = fill;
         let [pressed, _] = world.click(Tool::Fill, HERE, NONE);
-        assert!(pressed.preview.is_some(), "it shows before it is let go");
+        assert!(pressed.preview.is_some(), "the fill is previewed before the release");
         assert_eq!(direction(&world), &wanted);
     }
     assert_eq!((world.document.undo_count(), world.document.undo_text()), (4, Some("Fill skin: 35°")));
@@ -99,7 +99,7 @@ fn a_click_makes_regions_of_floods_groups_and_materials() {
         assert_eq!(world.document.scene().regions.last().unwrap().on, wanted);
     }
     world.options.region_by = RegionBy::Flood;
-    // The flood reaches the lid: the user agrees.
+    // The flood takes triangles of the lid, so the user is asked, and agrees here.
     let [asked, _] = world.click(Tool::Region, HERE, NONE);
     world.run(asked.ask.expect("it is asked about").0);
     let made = world.document.scene().regions.last().unwrap();
@@ -120,7 +120,8 @@ fn a_click_makes_regions_of_floods_groups_and_materials() {
 #[test]
 fn a_click_that_takes_from_a_region_of_parts_is_asked_about_first() {
     let mut world = World::new();
-    // The lid is a group: it was chosen. The skin is the whole ball: it is there to be parted.
+    // The lid is a group, which somebody chose: taking from it is asked about. The skin is the whole ball, which is
+    // there to be divided: taking from it is not.
     world.options.region_does = RegionDoes::New;
     let on_lid = [320.0, 80.0];
     for by in [RegionBy::Flood, RegionBy::Group, RegionBy::Material] {
@@ -136,7 +137,7 @@ fn a_click_that_takes_from_a_region_of_parts_is_asked_about_first() {
     }
     world.options.region_by = RegionBy::Group;
     let [made, _] = world.click(Tool::Region, HERE, NONE);
-    assert!(made.commit.is_some() && made.ask.is_none(), "from the skin it is taken at once");
+    assert!(made.commit.is_some() && made.ask.is_none(), "taking from the skin is not asked about");
     world.document.undo();
     // What the region has already is not taken from anybody.
     world.options.region_does = RegionDoes::Add;
@@ -170,7 +171,7 @@ fn f_sizes_the_brush_until_a_press() {
     let reach_px = ring.points_px.iter().map(|at| at.distance(ring.at_px)).fold(0.0, f64::max);
     assert!((45.0..70.0).contains(&reach_px), "{reach_px}");
     world.press(Tool::Comb, HERE, NONE);
-    assert!(!world.hand.is_busy(), "the press keeps, and does not comb");
+    assert!(!world.hand.is_busy(), "the press keeps the radius, and begins no comb");
     world.drag_to(Tool::Comb, [HERE[0] + 60.0, HERE[1]], NONE);
     assert!(world.release(Tool::Comb).commit.is_none());
     assert_eq!((world.options.radius_px, world.document.undo_count()), (55.0, 0));
@@ -191,5 +192,5 @@ fn f_sizes_the_brush_until_a_press() {
     key(&mut world, Action::SmallerRadius);
     assert!((world.options.radius_px - 55.0).abs() < 1e-9);
     world.drag(Tool::Comb, &[[270.0, 200.0], [370.0, 200.0]], NONE);
-    assert_eq!(world.document.undo_count(), 1, "and then it combs");
+    assert_eq!(world.document.undo_count(), 1, "the next drag combs again");
 }

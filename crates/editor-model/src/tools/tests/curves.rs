@@ -49,12 +49,12 @@ fn a_double_press_or_the_last_point_ends_it() {
     world.click(TOOL, A, NONE);
     world.click(TOOL, B, NONE);
     world.press(TOOL, B, NONE);
-    assert_eq!((world.document.undo_count(), world.hand.is_busy()), (1, false), "double");
+    assert_eq!((world.document.undo_count(), world.hand.is_busy()), (1, false), "a double press ends it");
     let mut world = World::new();
     for at in [A, B, [323.0, 162.0]] {
         world.click(TOOL, at, NONE);
     }
-    assert_eq!((world.document.undo_count(), world.hand.is_busy()), (1, false), "the last point");
+    assert_eq!((world.document.undo_count(), world.hand.is_busy()), (1, false), "a press on the last point");
 }
 
 #[test]
@@ -185,7 +185,7 @@ fn the_arrow_flips_and_delete_takes_a_point_out() {
     assert!(key(&mut world, Action::Delete).commit.is_some());
     assert_eq!(world.guides(0).first().map_or(0, |guide| guide.points.len()), before.len() - 1);
     world.hover(TOOL, [20.0, 20.0]);
-    assert!(key(&mut world, Action::Delete).commit.is_none(), "the editor's own Delete goes on from here");
+    assert!(key(&mut world, Action::Delete).commit.is_none(), "off every handle, the tool takes no Delete");
 }
 
 #[test]

@@ -7,7 +7,7 @@ use crate::session::Pressure;
 
 const LINE: [[f64; 2]; 5] = [[290.0, 185.0], [305.0, 183.0], [320.0, 185.0], [335.0, 187.0], [350.0, 185.0]];
 
-/// The document after a drag with these pressures, as its file would have it.
+/// A new test world after a drag of this tool with these pressures.
 fn drawn(tool: Tool, set: impl Fn(&mut ToolOptions), pressures: [f64; 5]) -> World {
     let mut world = World::new();
     set(&mut world.options);
@@ -73,7 +73,7 @@ fn a_comb_takes_the_mean_pressure() {
     assert!((half.0 / full.0 - 0.5).abs() < 1e-12 && half.1 == full.1, "{half:?} of {full:?}");
     let half = comb(Pressure::Strength, [0.5; 5]);
     assert_eq!(half, (full.0, 0.4));
-    // From nothing to all, over a line of equal steps.
+    // The pressure rises evenly from 0 to 1, so its mean is a half: half of the strength 0.8.
     let rising = comb(Pressure::Strength, [0.0, 0.25, 0.5, 0.75, 1.0]);
     assert!((rising.1 - 0.4).abs() < 0.02, "{rising:?}");
     let least = comb(Pressure::Radius, [0.0; 5]);
@@ -87,7 +87,7 @@ fn each_dab_of_an_amount_has_its_own_pressure() {
     let narrow = dabs(&world);
     assert!(narrow.windows(2).all(|pair| pair[0].radius < pair[1].radius && pair[0].by == pair[1].by));
     assert!((narrow[0].radius / narrow.last().unwrap().radius - 0.2).abs() < 0.05);
-    // They lie as close as their own size asks for.
+    // Each dab lies half of its own radius from the next.
     let apart = |index: usize| {
         DVec3::from(narrow[index].at).distance(DVec3::from(narrow[index + 1].at)) / narrow[index].radius
     };
@@ -112,8 +112,8 @@ fn a_touch_is_as_wide_or_as_opaque_as_it_is_pressed() {
     assert_eq!(touched(Pressure::Strength, [0.5; 5]), (full.0, full.1 * 0.5));
 }
 
-/// The width of a touch that was laid by these places along a line and pressures, and was as hard as `released` when the
-/// pen was lifted, over its width at full pressure.
+/// The width of a touch, as a share of its width at full pressure. `path` has the X of each place in pixels and the
+/// pressure there; `released` is the greatest pressure, as the release reports it.
 fn touched_width(steady: f64, path: &[(f64, f64)], released: f64) -> f64 {
     let mut world = World::new();
     (world.options.pressure, world.options.steady) = (Pressure::Radius, steady);
@@ -156,7 +156,8 @@ fn the_ring_shows_what_is_painted() {
 
 #[test]
 fn a_press_under_the_string_is_as_hard_as_the_pen_got() {
-    // A hand trembles; the string, 24 pixels long, is not pulled. What came without a movement comes with the release.
+    // The hand only trembles, so the string (24 pixels long) is not pulled. A pressure that rose without a movement is
+    // reported by the release.
     let width = touched_width(0.2, &[(320.0, 0.02), (322.0, 0.4), (319.0, 0.3), (323.0, 0.1)], 0.6);
     assert!((width - 0.6).abs() < 0.02, "{width}");
 }

@@ -162,7 +162,7 @@ fn shift_smooths_and_ctrl_goes_against() {
     assert!(along.points.iter().eq(against.points.iter().rev()));
     world.options.against = true;
     world.drag(Tool::Comb, &[LEFT, RIGHT], CTRL);
-    assert_eq!(world.guides(0)[3].points, world.guides(0)[0].points, "against against is along");
+    assert_eq!(world.guides(0)[3].points, world.guides(0)[0].points, "Ctrl turns `against` back into along");
     world.drag(Tool::Smooth, &[LEFT, RIGHT], NONE);
     assert_eq!((world.guides(0)[4].mode, world.document.undo_count()), (GuideMode::Smooth, 5));
 }
@@ -209,10 +209,10 @@ fn an_eraser_cuts_guides_and_takes_away_what_it_covers() {
     assert!((shown(right.points[0].at).x - 332.0).abs() < 1.0);
     assert_eq!(other.points.len(), world.guides(0)[2].points.len());
     world.drag(Tool::Erase, &[[305.0, 250.0], [335.0, 250.0]], NONE);
-    assert_eq!(world.guides(0).len(), 2, "wholly covered, it goes");
+    assert_eq!(world.guides(0).len(), 2, "a wholly covered guide is removed");
     let count = world.document.undo_count();
     assert!(world.drag(Tool::Erase, &[[320.0, 270.0], [330.0, 272.0]], NONE).commit.is_none());
-    assert_eq!(world.document.undo_count(), count, "nothing lay there");
+    assert_eq!(world.document.undo_count(), count, "an eraser over nothing adds no entry");
     while world.document.undo().is_some() {}
     assert!(world.guides(0).is_empty());
 }

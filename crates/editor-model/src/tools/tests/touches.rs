@@ -28,7 +28,7 @@ fn a_click_places_one_stroke_and_a_drag_a_long_one() {
     assert_eq!(world.document.selection().active(), Some(&Item::Touch("touch".to_owned())));
     let [one] = touches(&world) else { panic!() };
     assert_eq!((one.on.as_str(), one.points.len()), ("ball", 1));
-    // As wide as the ring, and as the picture has it: the view is as large as the picture.
+    // The stroke is as wide as the ring. Its width counts in pixels of the picture, which is as large as the view here.
     assert_eq!((one.width_px, one.length_px), (14.0, 48.0));
 
     let pressed = world.press(Tool::Touch, LEFT, NONE);
@@ -74,7 +74,7 @@ fn its_width_has_keys_of_its_own() {
     world.hover(Tool::Touch, LEFT);
     let output = world.take(Tool::Touch, ToolEvent::Key(Action::LargerRadius));
     let options = output.options.unwrap();
-    assert_eq!(options.radius_px, 30.0, "the brushes stay");
+    assert_eq!(options.radius_px, 30.0, "the radius of the brushes stays");
     assert!((options.touch_radius_px - 7.7).abs() < 1e-9, "{}", options.touch_radius_px);
 }
 
@@ -96,7 +96,7 @@ fn shift_takes_touches_away_and_elsewhere_strokes() {
     let amounts = &world.document.scene().regions[0].amounts;
     assert!(amounts.len() == 1 && amounts[0].of == Amount::Density);
     assert!(amounts[0].dabs.iter().all(|dab| dab.by == 0.0));
-    // The setting of the bar swaps the two.
+    // The setting `touch_erases` swaps laying and erasing.
     world.options.touch_erases = true;
     world.drag(Tool::Touch, &[ASIDE], NONE);
     assert_eq!(touches(&world).len(), 1);

@@ -33,7 +33,7 @@ fn page(source: Source, choose: Choose, ask: FileAsk, start: &Path) -> Harness<'
 fn wait(harness: &mut Harness<'_, Page>, is_done: impl Fn(&Harness<'_, Page>) -> bool) {
     let since = Instant::now();
     while !is_done(harness) {
-        assert!(since.elapsed() < Duration::from_secs(10), "it never came");
+        assert!(since.elapsed() < Duration::from_secs(10), "not done after ten seconds");
         harness.step();
         sleep(Duration::from_millis(10));
     }
@@ -120,7 +120,7 @@ fn a_dialog_that_hangs_can_be_replaced_or_cancelled() {
     };
     let mut harness = page(Source::Desktop, choose, FileAsk::Open, Path::new("/"));
     harness.step();
-    assert!(harness.query_by_label("Choose here instead").is_none(), "the desktop has the word at first");
+    assert!(harness.query_by_label("Choose here instead").is_none(), "the sheet is offered too soon");
     wait_for_offer(&mut harness);
     harness.get_by_label("Choose here instead").click();
     wait(&mut harness, has_sheet);

@@ -99,7 +99,7 @@ fn a_file_is_picked_by_the_keyboard_alone() {
     let (mut harness, home) = sheet(FileAsk::Open, "");
     type_in(&mut harness, "sti");
     press(&mut harness, Key::Tab);
-    assert_eq!(field(&harness), "still_", "as far as there is one way on");
+    assert_eq!(field(&harness), "still_", "Tab must complete what both names begin with, and no more");
     type_in(&mut harness, "w");
     press(&mut harness, Key::Tab);
     assert_eq!(field(&harness), "still_water.ron");
@@ -124,12 +124,12 @@ fn tab_goes_on_where_nothing_can_be_completed() {
     assert!(is_in_field(&harness));
     type_in(&mut harness, "zzz");
     press(&mut harness, Key::Tab);
-    assert!(!is_in_field(&harness), "no trap for the keyboard");
+    assert!(!is_in_field(&harness), "the focus stays in the field after Tab");
     harness.get_by_label("File name").focus();
     harness.run();
     harness.key_press_modifiers(Modifiers::SHIFT, Key::Tab);
     harness.run();
-    assert!(!is_in_field(&harness), "nor backwards");
+    assert!(!is_in_field(&harness), "the focus stays in the field after Shift Tab");
 }
 
 #[test]

@@ -1,5 +1,5 @@
-//! Keys of the user's own as the file has them: commands and keys in words. Whatever cannot be read is left out, told,
-//! and stays in the file as it is: a newer Impasto may have written it.
+//! The user's own keys as the preferences file has them: names of commands and of keys. An entry that cannot be read is
+//! not used, is reported ([`OwnKeysText::fault`]), and stays in the file: a newer Impasto may have written it.
 
 use impasto_editor_model::keymap::{Chord, CommandId, OwnKeys};
 use ron::Value;
@@ -17,12 +17,12 @@ impl Default for OwnKeysText {
 }
 
 impl OwnKeysText {
-    /// What can be read of it.
+    /// The keys that can be read.
     pub fn keys(&self) -> OwnKeys {
         self.read().0
     }
 
-    /// What cannot be read of it, in words; `None` if all can.
+    /// Which entries cannot be read and why, in words; `None` if all can.
     pub fn fault(&self) -> Option<String> {
         let (_, faults) = self.read();
         let first = faults.first()?;
@@ -33,12 +33,12 @@ impl OwnKeysText {
         Some(format!("Some of your own keys cannot be read, and are left out: {first}{more}"))
     }
 
-    /// Takes these keys in place of those that can be read.
+    /// Replaces the keys that can be read by `own`; entries that cannot be read stay.
     pub fn set(&mut self, own: &OwnKeys) {
         let read = self.keys();
         let mut map = match std::mem::replace(&mut self.0, Value::Unit) {
             Value::Map(map) => map,
-            // It stays beside the keys, under a name that no command has.
+            // A value that is no map is kept in the new map, under `()`, which is the name of no command.
             other => std::iter::once((Value::Unit, other)).collect(),
         };
         let name_of = |id: CommandId| Value::String(id.name());
@@ -50,7 +50,8 @@ impl OwnKeysText {
             map.insert(name_of(id), Value::Seq(texts));
         }
         self.0 = Value::Map(map);
-        // What another command's keys kept out is not to come to life once that has others.
+        // An entry may have been refused only because another command had its keys. Now that this command has other
+        // keys, the entry would take effect unasked, so it is removed.
         loop {
             let is_extra = |id: &CommandId| own.iter().all(|(other, _)| other != *id);
             let extra = self.keys().iter().map(|(id, _)| id).find(is_extra);
@@ -79,7 +80,7 @@ impl OwnKeysText {
     }
 }
 
-/// A command with its keys; in words why there is none.
+/// A command with its keys, read from an entry; the error says in words why the entry cannot be used.
 fn entry(name: &Value, keys: &Value) -> Result<(CommandId, Vec<Chord>), String> {
     let Value::String(name) = name else {
         return Err("the name of a command must be a text".to_owned());

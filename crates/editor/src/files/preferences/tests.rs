@@ -13,7 +13,7 @@ fn read(text: &str) -> (Loaded, tempfile::TempDir) {
     (load(folder.path()), folder)
 }
 
-/// These keys of a command's own.
+/// Own keys with one entry: the command `name` has `keys`.
 fn own(name: &str, keys: &[&str]) -> OwnKeys {
     let mut own = OwnKeys::default();
     own.note(
@@ -145,7 +145,7 @@ fn keys_that_cannot_be_read_lose_nothing_else() {
         let mut changed = own_keys.clone();
         changed.set(&own("Fill direction", &["Ctrl L"]));
         assert_eq!(changed.keys(), own("Fill direction", &["Ctrl L"]));
-        // Except what only the keys of another command kept out: it would come to life.
+        // Except an entry that was refused only because another command had its keys: it would take effect now.
         let stays = own_keys.fault().filter(|fault| !fault.contains("has the keys of"));
         assert_eq!(changed.fault(), stays, "{text}");
         let folder = tempfile::tempdir().expect("a temporary folder");
@@ -161,7 +161,7 @@ fn keys_that_cannot_be_read_lose_nothing_else() {
         assert_eq!(own_keys.fault().is_some(), text != "{}", "{text}");
         own_keys.set(&own("Comb", &["Ctrl L"]));
         assert_eq!(own_keys.keys(), own("Comb", &["Ctrl L"]), "{text}");
-        assert_eq!(own_keys.fault().is_some(), text != "{}", "it stays: {text}");
+        assert_eq!(own_keys.fault().is_some(), text != "{}", "the faulty value must stay: {text}");
         let kept = Preferences { own_keys, ..Preferences::default() };
         save(folder.path(), &kept).expect("saved");
         assert_eq!(load(folder.path()).preferences, kept, "{text}");

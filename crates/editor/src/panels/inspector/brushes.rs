@@ -12,7 +12,7 @@ use crate::widgets::{self, Tip};
 
 /// What the brushes are chosen for.
 pub(super) struct BrushRow<'a> {
-    /// The layer of paint that they are of, which the names of the buttons end with; empty for the strokes themselves.
+    /// The layer of paint that has these brushes; the buttons' names end with it. Empty for the strokes themselves.
     pub(super) of: &'a str,
     /// The brushes that are used now; one named twice is taken twice as often.
     pub(super) mix: &'a [String],
@@ -20,8 +20,8 @@ pub(super) struct BrushRow<'a> {
     pub(super) is_own: bool,
 }
 
-/// One radio button for each brush; with Shift or Ctrl, a click adds a brush to the mix or takes it out. `set` gives the
-/// command for a mix, or for none to reset it.
+/// One radio button for each brush; with Shift or Ctrl, a click adds a brush to the mix or takes it out. `set` gives
+/// the command for a mix, or for none to reset it.
 pub(super) fn show(
     ui: &mut Ui,
     asker: &mut Asker<'_, '_>,

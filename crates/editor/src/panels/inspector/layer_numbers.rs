@@ -39,21 +39,21 @@ impl EditedLayer {
         }
     }
 
-    /// What is stated for it; nothing but its name if nothing is.
+    /// What `own` states for the layer; if it states nothing, settings with only the layer's name.
     pub(super) fn stated(self, own: &StrokeSettings) -> LayerSettings {
         let known = own.layers.iter().find(|layer| layer.name == self.name());
         let empty = LayerSettings { name: self.name().to_owned(), ..LayerSettings::default() };
         known.cloned().unwrap_or(empty)
     }
 
-    /// These settings with `change` applied to what they state for the layer.
+    /// A copy of `own` with `change` applied to what it states for the layer.
     fn without(self, own: &StrokeSettings, change: impl Fn(&mut LayerSettings)) -> StrokeSettings {
         let mut settings = own.clone();
         settings.layers.iter_mut().filter(|layer| layer.name == self.name()).for_each(change);
         settings
     }
 
-    /// Whether its eye is shut, where `resolved` follows from `own`.
+    /// Whether the layer is hidden (its eye is shut). `resolved` must be what `own` resolves to.
     pub(super) fn is_hidden(self, resolved: &ResolvedStrokes, own: &StrokeSettings) -> bool {
         match self {
             Self::Paint(kind) => resolved.layer_of(kind).hidden,
@@ -61,7 +61,8 @@ impl EditedLayer {
         }
     }
 
-    /// The command that opens its eye, or shuts it. What the scene decides already is not stated in a region.
+    /// The command that shows the layer if it is hidden, else hides it. If the wanted state would hold without being
+    /// stated here, nothing is stated.
     pub(super) fn toggle(self, asker: &Asker<'_, '_>, place: &EditedStrokes<'_>) -> Command {
         let wanted = !self.is_hidden(&place.resolved[1], place.own[1]);
         let unstated = self.without(place.own[1], |layer| layer.hidden = None);
@@ -108,7 +109,7 @@ impl EditedLayer {
 }
 
 impl EditedStrokes<'_> {
-    /// The command that states this for a layer of paint.
+    /// The command that makes `layer` what is stated for the layer of that name.
     pub(super) fn set_layer(&self, layer: LayerSettings) -> Command {
         self.set(StrokeChange::PaintLayer(Box::new(layer)))
     }

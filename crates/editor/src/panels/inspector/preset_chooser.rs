@@ -1,4 +1,4 @@
-//! The control that chooses the preset of a region or of the scene: one of the house, or one of the user's own.
+//! The control that chooses the preset of a region or of the scene: a built-in one, or one of the user's own.
 
 use egui::{Popup, ScrollArea, Ui};
 use impasto_editor_model::command::StrokeChange;
@@ -57,7 +57,7 @@ fn list(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, chose
     if is_region && widgets::choice_row(ui, AS_SCENE, chosen == AS_SCENE).clicked() {
         asker.ask(place.set(StrokeChange::Preset(None)));
     }
-    // The source paper's rule holds only for a whole scene.
+    // The rule of the published paper holds only for a whole scene.
     for name in presets::names().filter(|name| !is_region || *name != presets::PAPER_PRESET) {
         if widgets::choice_row(ui, name, chosen == name).clicked() && chosen != name {
             asker.ask(place.set(StrokeChange::Preset(Some(name.to_owned()))));

@@ -47,7 +47,7 @@ fn the_most_likely_command_comes_first() {
 
 #[test]
 fn every_command_that_is_declared_is_found_by_its_name() {
-    // A test of the menus holds that they list all but those of a running gesture.
+    // A test in `menus` checks that these are all actions but a few, such as those of a running gesture.
     for action in menus::actions().into_iter().filter(|action| *action != Action::Palette) {
         let is_found = with_entries(object(), |_, entries| {
             let mut found = found(action.name(), entries).into_iter();
@@ -126,7 +126,7 @@ fn every_control_of_the_inspector_is_found_with_its_section() {
             let named = controls.iter().filter(|control| control.name == name);
             named.map(|control| control.section.as_str()).collect()
         };
-        assert_eq!(sections("Coverage"), ["Strokes", "Strokes over time"], "each in its section");
-        assert_eq!(sections("Swing"), ["Advanced"], "of a section that is folded");
+        assert_eq!(sections("Coverage"), ["Strokes", "Strokes over time"], "each control has its section");
+        assert_eq!(sections("Swing"), ["Advanced"], "a control in a folded section is listed too");
     });
 }

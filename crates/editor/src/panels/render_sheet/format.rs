@@ -65,7 +65,7 @@ fn menu(ui: &mut Ui, scene: &Scene, choice: &mut AovChoice) {
     }
 }
 
-/// An AOV, after the words that it has in its group.
+/// The label of an AOV within its group, and the AOV.
 type Named = (&'static str, &'static AovRow);
 
 /// The columns of a group; the first has its label.

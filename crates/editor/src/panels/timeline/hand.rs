@@ -1,5 +1,5 @@
-//! Selects and moves keys by the pointer over the timeline's lanes. Its events are handled one by one, so that none is
-//! lost when several come in one pass.
+//! Selects and moves keys by the pointer over the timeline's lanes. The pointer's events are handled one by one, so
+//! that none is lost when several come in one pass.
 
 use egui::{Event, PointerButton, Popup, Pos2, Rect, Ui};
 use impasto_editor_model::timeline::{KeyAt, KeysEvent, Lane, LanePosition, TimelineEvent};
@@ -47,7 +47,7 @@ impl LaneLayout<'_> {
 #[derive(Clone, Debug, Default)]
 struct Memory {
     down: bool,
-    /// What the menu is about that was opened last.
+    /// The menu that was opened last.
     menu: Option<KeyMenu>,
     /// The keys that were copied.
     copied: Vec<KeyAt>,

@@ -1,4 +1,4 @@
-//! Draws lines and icons for suns and the shot camera, which have no surface of their own.
+//! Draws a line for each sun, and lines and an icon for the shot camera: these have no surface of their own.
 
 use egui::{Align2, Color32, Stroke};
 use glam::DVec3;

@@ -27,7 +27,8 @@ impl Server {
         Some(Self { connection, pressure })
     }
 
-    /// The pressure axis of the device that moves the pointer now: while a device does, the pointer has its axes.
+    /// The pressure axis of the device that moves the pointer now. While a device does so, the X server gives the
+    /// pointer the axes of that device.
     pub(super) fn pressure_axis(&self) -> Option<PressureAxis> {
         let asked = self.connection.xinput_xi_query_device(u16::from(bool::from(Device::ALL_MASTER)));
         let pointers = asked.ok()?.reply().ok()?.infos.into_iter();

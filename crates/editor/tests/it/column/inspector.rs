@@ -126,7 +126,7 @@ fn the_wheel_scrolls_the_column_and_steps_only_a_field_with_the_focus_or_with_ct
     let place = top(&harness);
     turn_the_wheel(&mut harness, "Length", 1.0, Modifiers::NONE);
     assert!(length(&harness).expect("a step") > by_ctrl);
-    assert_eq!(top(&harness), place, "what turns the number does not scroll");
+    assert_eq!(top(&harness), place, "the wheel steps the number and scrolls too");
 }
 
 #[test]
@@ -247,7 +247,7 @@ fn a_drag_on_length_previews_and_is_one_entry() {
     assert_eq!(column.document.undo_text(), Some(format!("Length {wanted} px").as_str()));
     assert!(
         std::sync::Arc::ptr_eq(column.document.shown(), column.document.loaded()),
-        "nothing is under the hand"
+        "the preview is still shown"
     );
 }
 
@@ -412,7 +412,7 @@ fn a_double_click_resets_a_pose_and_selects_the_whole_of_a_number_without_a_defa
     assert!(place(&harness) != 0.0);
     double_click(&mut harness, "Move Y");
     harness.run();
-    assert!(harness.query_by_role_and_label(Role::TextInput, "Move Y").is_none(), "it is not typed");
+    assert!(harness.query_by_role_and_label(Role::TextInput, "Move Y").is_none(), "the field waits for text");
     assert!(place(&harness).abs() < 1e-9, "{}", place(&harness));
     harness.state_mut().document.select(Selection::only(Item::Camera));
     harness.run();
@@ -421,7 +421,7 @@ fn a_double_click_resets_a_pose_and_selects_the_whole_of_a_number_without_a_defa
     harness.run();
     harness.key_press(Key::Enter);
     harness.run();
-    assert_eq!(harness.state().document.scene().camera.keys[0].eye[0], 7.0, "what is typed takes its place");
+    assert_eq!(harness.state().document.scene().camera.keys[0].eye[0], 7.0, "the old number is still there");
 }
 
 #[test]

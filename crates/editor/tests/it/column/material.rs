@@ -61,9 +61,9 @@ fn name_file(harness: &mut Harness<'_, Column>, field: &str, file: &str) {
     harness.run();
 }
 
-/// Drags over the field of colours of the picker that is open under a square.
+/// Opens the picker of a square of colour by a click, drags over its field of colours, and closes it.
 fn pick_colour(harness: &mut Harness<'_, Column>, square: &str) {
-    // egui's picker has a button with a sign that no font of the window has; it is drawn empty.
+    // A button of egui's picker has a sign that no font of the window has. This draws an empty box for it.
     harness.ctx.set_missing_glyph_policy(egui::MissingGlyphPolicy::Tofu);
     let at = harness.get_by_label(square).rect();
     click(harness, square);
@@ -105,7 +105,7 @@ fn colour_texture_and_gloss_are_saved_as_a_person_writes_them_and_read_again() {
     let mut harness = opened(&folder, "leaf.ron");
     name_file(&mut harness, "Texture file", "skin.png");
     assert_eq!(log(&harness), Some("Texture of leaf"));
-    assert!(harness.state().document.shown().textures.contains_key("skin.png"), "it is painted with");
+    assert!(harness.state().document.shown().textures.contains_key("skin.png"), "the texture is not loaded");
     type_in(&mut harness, "Gloss", "0.6");
     pick_colour(&mut harness, "Material colour");
     let stated = material(&harness).expect("an override");

@@ -56,7 +56,7 @@ fn name_of(of: &StrokesOf) -> &str {
 impl Column {
     pub fn open(scene: &str) -> Self {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(scene);
-        let document = Document::open(&path, &LoadOptions::default()).expect("the scene of the house opens");
+        let document = Document::open(&path, &LoadOptions::default()).expect("the shipped scene opens");
         Self::of(document)
     }
 

@@ -154,7 +154,7 @@ fn shift_adds_to_the_selection_and_a_search_narrows_the_tree() {
     harness.event(egui::Event::Text("RIM".to_owned()));
     harness.run();
     assert!(harness.query_by_label("jug rim, region, around").is_some());
-    assert!(harness.query_by_label("jug, object").is_some(), "what it lies on stays");
+    assert!(harness.query_by_label("jug, object").is_some(), "the object of the found region stays");
     assert!(harness.query_by_label("apple, object").is_none());
 }
 

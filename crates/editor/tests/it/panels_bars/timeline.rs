@@ -195,9 +195,9 @@ fn keys_are_copied_and_pasted_at_another_frame_from_the_menu() {
     let places = keys(&harness);
     let per_frame = (places[3].1.x - places[0].1.x) / 96.0;
     right_click(&mut harness, places[1].1);
-    assert_eq!(harness.state().time.keys.selected(), [apple(37.0)], "what it is about is selected");
+    assert_eq!(harness.state().time.keys.selected(), [apple(37.0)], "the clicked key is selected");
     click(&mut harness, "Copy key");
-    assert!(harness.query_by_label("Copy key").is_none(), "it closes");
+    assert!(harness.query_by_label("Copy key").is_none(), "the menu closes");
     let at = places[0].1 + vec2(80.0 * per_frame, 2.0);
     right_click(&mut harness, at);
     click(&mut harness, "Paste key at 80");

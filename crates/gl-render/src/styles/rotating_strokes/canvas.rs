@@ -9,8 +9,9 @@ pub(super) const SIDE: u32 = 288;
 /// Distance from one thread to the next, pixels: 80 threads in a tile.
 const PITCH_PX: f32 = 3.6;
 
-/// How much threads differ in thickness; and how far they stray from a straight line, in threads' distances.
+/// How much threads differ in thickness: a standard deviation, as a share of the mean.
 const THREAD_JITTER: f32 = 0.18;
+/// How far threads stray from a straight line, in distances from thread to thread.
 const WANDER: f32 = 0.35;
 
 /// How often a thread strays and returns in one tile.
@@ -54,7 +55,7 @@ fn height(x: usize, y: usize) -> f32 {
     warp.max(weft)
 }
 
-/// How far a thread strays here, in threads' distances; repeats with the tile.
+/// How far a thread strays here, in distances from thread to thread; repeats with the tile.
 fn wander(which: u32, x: f32, y: f32) -> f32 {
     let scale = WANDER_CYCLES as f32 / SIDE as f32;
     let (u, v) = (x * scale, y * scale);

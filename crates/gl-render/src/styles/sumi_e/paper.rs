@@ -6,8 +6,9 @@ use impasto_core::presence::smoothstep;
 /// Side of the tile in texels. At the scene's own size, a texel covers one pixel.
 pub(super) const SIDE: u32 = 512;
 
-/// Fibres in a tile: how many, and how long they are in texels.
+/// How many fibres a tile has.
 const FIBRES: u32 = 1100;
+/// How long fibres are at least and at most, in texels.
 const LENGTH: [f32; 2] = [14.0, 90.0];
 
 /// The tile, four bytes a texel, bottom row first. The first three channels are clouds, fibres and tooth, each with a

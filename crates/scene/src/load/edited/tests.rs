@@ -79,7 +79,7 @@ fn problems_name_their_field() {
         scene.regions.push(Region::new("r", Selector::Group("apple".to_owned(), "frnt".to_owned())));
         scene.camera.keys[0].roll_deg = f64::NAN;
     });
-    let Err(Report(problems)) = refused else { panic!("taken") };
+    let Err(Report(problems)) = refused else { panic!("a faulty scene was taken") };
     let fatal: Vec<_> = problems.iter().filter(|problem| problem.severity.is_fatal()).collect();
     let said = |field_path: &str, message: &str| {
         let found = fatal.iter().find(|problem| &*problem.field_path == field_path);

@@ -67,5 +67,5 @@ fn pictures_of_brushes_lie_in_its_folder_and_nowhere_else() {
     let nested = format!("(version: 1, height_px: 720, strokes: {})", "(".repeat(100_000));
     std::fs::write(&path, nested).unwrap();
     assert!(load(&path).is_err());
-    assert!(load(&folder).is_err(), "a folder is no file");
+    assert!(load(&folder).is_err(), "a folder was read as a preset");
 }
