@@ -48,13 +48,6 @@ const float GATHER_PX = 34.0;
 // How far from itself a contour stroke looks for the end of its body, pixels of the scene's own size.
 const float OUTLINE_PX = 20.0;
 
-// The depth of the stroke's own plane this far from its centre.
-float plane_depth(vec2 offset_px) {
-    vec3 n = mat3(view_from_world) * normal_and_bow.xyz;
-    float slant = max(abs(n.z), 0.2);
-    return place.z + dot(n.xy, offset_px) * units_per_px(place.z) / (n.z < 0.0 ? -slant : slant);
-}
-
 // A stroke that other bodies hide in part is there as a whole while more than this share of it is to be seen.
 const float WHOLE = 0.75;
 
@@ -265,9 +258,10 @@ void main() {
     float across_px = max(BLUR[kind] * size.y, clamp(1.4 * px_scale, LEAST_BLUR_PX, 1.4));
     mat2 blur_px = mat2(clamp(0.16 * size.x, across_px, 2.5 * across_px), 0.0, 0.0, across_px);
     if (kind == TOUCHES) blur_px = mat2(across_px, 0.0, 0.0, across_px);
-    vec4 found = own_color(kind == LIGHTS ? place.xy + moved : place.xy, own.y, turn * blur_px);
+    float free = kind == LIGHTS ? 0.0 : freedom(own.y);
+    vec4 found = own_color(kind == LIGHTS ? place.xy + moved : place.xy, own.y, turn * blur_px, free);
     // Only the picture has highlights, not the stroke's own lit albedo.
-    float known = kind == LIGHTS ? 1.0 : found.w * (1.0 - smoothstep(THIN.x, THIN.y, thinness(place.xy, own)));
+    float known = kind == LIGHTS ? 1.0 : found.w * (1.0 - smoothstep(THIN.x, THIN.y, thinness(place.xy, own, free)));
     vec3 color = known == 1.0 ? found.rgb : mix(color_of_own(), found.rgb, known);
     vec3 lab = oklab_from_linear(color);
     Mixing mixing = mixing_of(bytes.y);
@@ -282,7 +276,7 @@ void main() {
         if (kind == TOUCHES) fitted.z = oklab_from_linear(resolved.rgb).x;
         return;
     }
-    vec3 wide = kind == ACCENTS ? mix(lab, wide_mean(place.xy, own.y, lab), known) : lab;
+    vec3 wide = kind == ACCENTS ? mix(lab, wide_mean(place.xy, own.y, lab, free), known) : lab;
     lab = mixed(lab, wide, kind, mixing, uvec2(marks.x, floatBitsToUint(reach.y)));
 #ifdef DRAFT
     there = max(there - LEAST, 0.0) / (1.0 - LEAST);

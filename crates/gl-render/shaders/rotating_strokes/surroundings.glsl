@@ -2,8 +2,20 @@
 // fades and never switches.
 uniform sampler2D reference_color;
 uniform sampler2D depth_and_id;
+uniform sampler2D normal;        // of the surface, world space, towards the eye
 uniform sampler2D detail;        // in blocks: change of colour, outline, highlight, body id and half its share
 uniform float block_px;          // side of a block
+
+// How far around a stroke it matters whether its face is thin.
+const float AROUND_PX = 8.0;
+
+// Cosine of the angle between a pixel's normal and the stroke's: below the first the pixel shows another face of the body, from
+// the second on the stroke's own.
+const vec2 SAME_FACE = vec2(0.8, 0.97);
+
+// How far before the stroke's plane its body covers the stroke: from the first depth on in part, from the second wholly. Less
+// comes from coarse meshes.
+const vec2 COVERS_PX = vec2(2.0, 6.0);
 
 // Depth and body id of the pixel at a place.
 vec2 surface_at(vec2 at_px) {
@@ -11,12 +23,42 @@ vec2 surface_at(vec2 at_px) {
     return texelFetch(depth_and_id, texel, 0).xy;
 }
 
-// How far around a stroke it matters whether its body is thin.
-const float AROUND_PX = 8.0;
+// The depth of the stroke's own plane this far from its centre.
+float plane_depth(vec2 offset_px) {
+    vec3 n = mat3(view_from_world) * normal_and_bow.xyz;
+    float slant = max(abs(n.z), 0.2);
+    return place.z + dot(n.xy, offset_px) * units_per_px(place.z) / (n.z < 0.0 ? -slant : slant);
+}
 
-// Colour interpolated between those of four pixels that show the body; w says how many do. The plain render has hard edges, and
-// a tap on a single pixel would jump at them.
-vec4 own_color_at(vec2 at_px, float id) {
+// How far the stroke's centre is free of other parts of its own body, 0..1. Where it is free, only pixels of its own face count,
+// so that a narrow face takes no colour from the wide one beside it, nor a leaf from the leaf behind it. Where it is covered, it
+// has the colour of what covers it.
+float freedom(float id) {
+    vec2 at = place.xy - 0.5;
+    ivec2 corner = ivec2(floor(at));
+    ivec2 last = textureSize(depth_and_id, 0) - 1;
+    vec2 part = at - vec2(corner);
+    float covered = 0.0;
+    for (int index = 0; index < 4; index++) {
+        ivec2 offset = ivec2(index & 1, index >> 1);
+        vec2 there = texelFetch(depth_and_id, clamp(corner + offset, ivec2(0), last), 0).xy;
+        if (there.y != id) continue;
+        float before_px = (plane_depth(vec2(offset) - part) - there.x) / units_per_px(place.z);
+        vec2 near = mix(1.0 - part, part, vec2(offset));
+        covered += near.x * near.y * smoothstep(COVERS_PX.x, COVERS_PX.y, before_px);
+    }
+    return 1.0 - covered;
+}
+
+// How far a pixel of the stroke's own body shows another face than that of the stroke, 0..1.
+float other_face(ivec2 texel) {
+    float cosine = dot(texelFetch(normal, texel, 0).xyz, normalize(normal_and_bow.xyz));
+    return 1.0 - smoothstep(SAME_FACE.x, SAME_FACE.y, cosine);
+}
+
+// Colour interpolated between those of four pixels that show the body, `free` of its other faces; w says how many do. The plain
+// render has hard edges, and a tap on a single pixel would jump at them.
+vec4 own_color_at(vec2 at_px, float id, float free) {
 #ifdef DRAFT
     ivec2 nearest = clamp(ivec2(at_px), ivec2(0), textureSize(reference_color, 0) - 1);
     return texelFetch(depth_and_id, nearest, 0).y == id ? vec4(texelFetch(reference_color, nearest, 0).rgb, 1.0) : vec4(0.0);
@@ -31,7 +73,8 @@ vec4 own_color_at(vec2 at_px, float id) {
         ivec2 texel = clamp(corner + offset, ivec2(0), last);
         if (texelFetch(depth_and_id, texel, 0).y != id) continue;
         vec2 near = mix(1.0 - part, part, vec2(offset));
-        sum += vec4(texelFetch(reference_color, texel, 0).rgb, 1.0) * (near.x * near.y);
+        float weight = near.x * near.y * (1.0 - free * other_face(texel));
+        sum += vec4(texelFetch(reference_color, texel, 0).rgb, 1.0) * weight;
     }
     return sum;
 }
@@ -42,19 +85,21 @@ vec2 direction(int index, int count) {
     return vec2(cos(angle), sin(angle));
 }
 
-// 1 at a place where the stroke's own body has ended; 0 where it shows or something in front hides it.
-float is_past(vec2 at_px, vec2 own) {
+// How far the stroke's own face has ended at a place, 0..1: wholly where its body has ended, or turns away as at an edge; not
+// where something in front hides it.
+float is_past(vec2 at_px, vec2 own, float free) {
     vec2 there = surface_at(at_px);
-    return there.y != own.y && (there.y == 0.0 || there.x > own.x) ? 1.0 : 0.0;
+    if (there.y == own.y) return free * other_face(clamp(ivec2(at_px), ivec2(0), textureSize(normal, 0) - 1));
+    return there.y == 0.0 || there.x > own.x ? 1.0 : 0.0;
 }
 
-// How thin the stroke's own body is, 0..1: in how many directions it ends nearby on both sides.
-float thinness(vec2 center_px, vec2 own) {
+// How thin the stroke's own face is, 0..1: in how many directions it ends nearby on both sides.
+float thinness(vec2 center_px, vec2 own, float free) {
     float sum = 0.0;
     for (int index = 0; index < 12; index++) {
         float angle = 0.52359878 * float(index % 6);
         vec2 offset_px = vec2(cos(angle), sin(angle)) * (index < 6 ? AROUND_PX : 0.55 * AROUND_PX);
-        sum += is_past(center_px + offset_px, own) * is_past(center_px - offset_px, own);
+        sum += is_past(center_px + offset_px, own, free) * is_past(center_px - offset_px, own, free);
     }
     return sum / 12.0;
 }
@@ -62,7 +107,7 @@ float thinness(vec2 center_px, vec2 own) {
 // Mean colour on the stroke's own body: a Gaussian with this standard deviation, on two rings and the centre, longer along the
 // stroke, so that a shadow that sweeps over it takes several frames. The less of the body is found there, the more a wider
 // surrounding counts. w is how much of the colour is known, 0..1.
-vec4 own_color(vec2 center_px, float id, mat2 sigma_px) {
+vec4 own_color(vec2 center_px, float id, mat2 sigma_px, float free) {
 #ifdef DRAFT
     const int TAPS = 6;
 #else
@@ -74,12 +119,12 @@ vec4 own_color(vec2 center_px, float id, mat2 sigma_px) {
     vec4 sum = vec4(0.0);
     float need = 1.0;
     for (int widening = 0; widening < 3 && need > 0.0; widening++) {
-        vec4 found = own_color_at(center_px, id) * 0.7;
+        vec4 found = own_color_at(center_px, id, free) * 0.7;
         for (int index = 0; index < TAPS; index++) {
             float radius = index < 6 ? 1.0 : 1.9;
             float angle = 1.0471976 * (float(index) + (index < 6 ? 0.0 : 0.5));
             vec2 tap_px = center_px + sigma_px * vec2(cos(angle), sin(angle)) * radius;
-            found += own_color_at(tap_px, id) * (index < 6 ? 0.60 : 0.17);
+            found += own_color_at(tap_px, id, free) * (index < 6 ? 0.60 : 0.17);
         }
         sum += found * need;
         need = clamp(1.0 - sum.a / ENOUGH, 0.0, 1.0);
@@ -89,12 +134,12 @@ vec4 own_color(vec2 center_px, float id, mat2 sigma_px) {
 }
 
 // The mean colour of the wider surroundings on the stroke's own body, Oklab.
-vec3 wide_mean(vec2 center_px, float id, vec3 lab) {
+vec3 wide_mean(vec2 center_px, float id, vec3 lab, float free) {
     const float REACH_PX = 10.0;
     vec3 sum = vec3(0.0);
     for (int index = 0; index < 8; index++) {
         vec2 tap_px = center_px + direction(index, 8) * (REACH_PX * px_scale);
-        vec4 found = own_color_at(tap_px, id);
+        vec4 found = own_color_at(tap_px, id, free);
         sum += found.a > 1e-3 ? mix(lab, oklab_from_linear(found.rgb / found.a), found.a) : lab;
     }
     return sum / 8.0;

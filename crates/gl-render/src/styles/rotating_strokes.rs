@@ -141,6 +141,7 @@ impl RotatingStrokes {
                 .set(lens.set(self.programs(frame.quality).resolve.bind(), &LENS_UNIFORMS))
                 .texture("reference_color", &input.reference.color)
                 .texture("depth_and_id", &input.reference.depth_and_id)
+                .texture("normal", &input.reference.normal)
                 .texture("detail", &targets.detail[0])
                 .set("block_px", targets.block_px as f32)
                 .texture("palettes", &palettes)

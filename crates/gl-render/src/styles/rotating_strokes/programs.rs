@@ -120,6 +120,7 @@ const RESOLVE: ProgramSource<'static> = ProgramSource {
             &[
                 "reference_color",
                 "depth_and_id",
+                "normal",
                 "detail",
                 "block_px",
                 "palettes",
