@@ -210,11 +210,9 @@ fn filters(ask: FileAsk) -> Vec<(&'static str, Vec<String>)> {
         FileAsk::Missing => &[],
         FileAsk::ChoosePicture => &[("Pictures", &[PICTURES])],
         FileAsk::SavePreset | FileAsk::LoadPreset => &[("Presets", &[&["strokes.ron", "ron"]])],
-        FileAsk::RenderOutput { .. } => &[
-            ("Pictures and movies", &[RENDERED, MOVIES]),
-            ("Pictures", &[RENDERED]),
-            ("Movies", &[MOVIES]),
-        ],
+        FileAsk::RenderOutput { .. } => {
+            &[("Pictures and movies", &[RENDERED, MOVIES]), ("Pictures", &[RENDERED]), ("Movies", &[MOVIES])]
+        }
     };
     // Some desktops tell capitals from small letters.
     let both = |ending: &str| [ending.to_owned(), ending.to_ascii_uppercase()];
