@@ -68,6 +68,18 @@ fn surfaces_are_told_where_they_are_kept_and_missing_where_not() {
 }
 
 #[test]
+fn what_one_renderer_drew_is_read_after_another_has_drawn() {
+    let few = |name: &str| painting_with(name, &[("objects[0].particles", "2000")]);
+    let [apple, noise] = ["sumi_e_apple", "noise_displace"]
+        .map(|name| few(name).in_style(Style::Reference).at(0.0, &FrameOptions::new(SIZES_PX[0])));
+    let [mut first, mut other] = [renderer(Driver::Egl), renderer(Driver::Egl)];
+    let drawn = told(&mut first, &apple, Keeps::Everything);
+    assert!(told(&mut other, &noise, Keeps::Everything).depth != drawn.depth);
+    let again = first.read_reference();
+    assert!(again.depth == drawn.depth && again.body_id == drawn.body_id);
+}
+
+#[test]
 fn only_huge_pictures_are_kept_in_part() {
     assert_eq!(Keeps::of_size([4096, 4096], false), Keeps::Everything);
     assert_eq!(Keeps::of_size([7680, 4320], false), Keeps::Picture);

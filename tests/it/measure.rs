@@ -410,6 +410,20 @@ fn a_whole_run_on_a_scene_of_one_ball() {
 }
 
 #[test]
+fn two_frames_are_too_few_for_what_compares_three() {
+    let metrics = vec![Metric::M10, Metric::M15, Metric::M16, Metric::M17];
+    let options = MeasureOptions { size_px: Some(SMALL), pairs: 1, metrics, driver: Driver::Egl };
+    let mut short = LoadedScene::clone(&ball());
+    short.scene.timeline.last = 1;
+    short.scene.objects[0].particles = Some(40);
+    let report = measure(&Arc::new(short), &options, &mut |_| ()).unwrap();
+    for row in &report.rows {
+        let why = Verdict::NotApplicable("the shot has fewer than three frames".to_owned());
+        assert_eq!(row.verdict, why, "{}", report.table());
+    }
+}
+
+#[test]
 fn the_command_measures_models_and_tells_by_its_exit_code() {
     let folder = tempfile::tempdir().unwrap();
     let mut obj = String::new();

@@ -311,6 +311,35 @@ fn alpha_cuts_holes_and_wrapping_goes_on_beyond_the_texture() {
 }
 
 #[test]
+fn the_picture_of_a_glowing_surface_lies_where_its_own_transform_says() {
+    let home = tempfile::tempdir().unwrap();
+    let path = home.path().join("card.glb");
+    write_card(&path, "OPAQUE", 10497);
+    let across = |path: &Path| {
+        let card = loaded(path);
+        let mesh = &card.meshes[&card.scene.objects[0].mesh].mesh;
+        let us = mesh.uvs.iter().map(|uv| uv.x);
+        us.fold((f32::MAX, f32::MIN), |(least, most), u| (least.min(u), most.max(u)))
+    };
+    assert_eq!(across(&path), (0.0, 2.0));
+    let moved =
+        |by: f64| json!({ "index": 0, "extensions": { "KHR_texture_transform": { "offset": [by, 0] } } });
+    for (emission, wanted) in [(1.0, (0.25, 2.25)), (0.1, (0.5, 2.5))] {
+        glb::edit(&path, |root: &mut Value, _: &mut Vec<u8>| {
+            root["extensionsUsed"] =
+                json!(["KHR_texture_transform", "KHR_animation_pointer", "KHR_node_visibility"]);
+            root["materials"][0] = json!({
+                "name": "Lamp", "emissiveFactor": [emission, emission, emission], "emissiveTexture": moved(0.25),
+                "pbrMetallicRoughness": {
+                    "baseColorFactor": [0.2, 0.2, 0.2, 1], "baseColorTexture": moved(0.5),
+                },
+            });
+        });
+        assert_eq!(across(&path), wanted, "emission {emission}");
+    }
+}
+
+#[test]
 fn one_animation_of_several_plays_and_what_hides_is_hidden() {
     let home = tempfile::tempdir().unwrap();
     let path = home.path().join("card.glb");

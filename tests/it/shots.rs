@@ -149,6 +149,23 @@ fn a_scene_overrides_a_shot_by_name_and_what_is_gone_stays_in_the_file() {
 }
 
 #[test]
+fn a_light_of_the_shot_that_was_deleted_stays_dark() {
+    let home = Home::new();
+    let shot = loaded(&home.at("shot.glb"));
+    let mut edited = shot.scene.clone();
+    let sun = edited.lights.iter().position(|light| light.kind == LightKind::Sun).unwrap();
+    let name = edited.lights.remove(sun).name;
+    let text = save::to_ron(&edited);
+    let again = home.scene(&text);
+    assert_eq!(again.scene.lights.len(), shot.scene.lights.len());
+    for light in motion::lights_at(&again.scene, 10.0) {
+        assert_eq!(light.intensity == 0.0, light.name == name, "{light:?}");
+        assert_ne!(light.kind, LightKind::Sun, "a dark sun would still be the light that casts shadows");
+    }
+    assert_eq!(save::to_ron(&again.scene), text);
+}
+
+#[test]
 fn a_camera_of_several_is_chosen_by_name() {
     let home = Home::new();
     let text = std::fs::read(home.at("shot.glb")).unwrap();

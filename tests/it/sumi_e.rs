@@ -438,7 +438,7 @@ fn paper_that_follows_the_camera_moves_with_what_it_looks_at() {
 }
 
 #[test]
-fn a_picture_twice_as_large_has_lines_twice_as_wide() {
+fn a_picture_three_times_as_large_has_lines_three_times_as_wide() {
     let mut renderer = renderer(Driver::Egl);
     let scene = || scene_in(SumiE { bleed: 0.0, dryness: 0.0, blur_px: 3.0, ..wash() });
     let painting = painting(scene(), [shapes::sphere(96, 48)]);

@@ -145,13 +145,11 @@ impl Editor {
 
     /// Switches to another document; interactions and the view start over.
     pub fn open(&mut self, document: Document) {
-        let session = Session {
-            frame: reference_frame(document.scene()),
-            frame_before_paint: None,
-            ..self.session.clone()
-        };
         let (keymap, version) = (self.keymap.clone(), self.version + 1);
-        *self = Self { session, keymap, version, ..Self::new(document) };
+        let fresh = Self::new(document);
+        let frame = fresh.session.frame;
+        let session = Session { frame, frame_before_paint: None, ..self.session.clone() };
+        *self = Self { session, keymap, version, ..fresh };
     }
 
     /// The scene as it is to be shown, and a number that changes with it.

@@ -353,7 +353,7 @@ fn output_file(typed: &str, folder: &Path) -> Result<PathBuf, String> {
         return Err("a name cannot hold this character".to_owned());
     }
     if FileEnding::of(&name).is_none() {
-        let words = "let the name end in .png or .exr, or in .mp4, .mov or .webm for a movie";
+        let words = "let the name end in .png or .exr, or in .mp4, .mov, .webm or .mkv for a movie";
         return Err(words.to_owned());
     }
     let path = folder.join(typed);

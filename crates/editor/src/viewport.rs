@@ -6,6 +6,7 @@ use glam::DVec2;
 use impasto_editor_model::Session;
 use impasto_editor_model::camera_rig::AxisView;
 use impasto_editor_model::editor::PointerEvent;
+use impasto_editor_model::keymap::Keymap;
 use impasto_scene::motion::CameraPose;
 
 mod chips;
@@ -35,6 +36,8 @@ pub struct ViewportInput<'a> {
     pub pictures: &'a Pictures,
     /// Mode, shading, overlays.
     pub session: &'a Session,
+    /// The key bindings in use; tooltips take the texts of keys from them.
+    pub keymap: &'a Keymap,
     /// The camera of the first picture, before it is widened to the viewport.
     pub camera: &'a CameraPose,
     /// Whether the viewport looks through the shot camera.

@@ -200,6 +200,38 @@ fn what_is_within_another_body_is_seen_through_it() {
     assert!((linear(pixel[0]) - 0.5).abs() < 0.01 && (linear(pixel[2]) - 0.5).abs() < 0.01, "{pixel:?}");
 }
 
+#[test]
+fn what_has_bent_into_another_body_is_seen_through_it() {
+    let ball = |name: &str, scale: f64, tint: [f32; 3], opacity: f64| {
+        let mut object = shapes::object(name, 100);
+        // The inner ball's middle is nearer to the eye.
+        object.keys = vec![ObjectKey {
+            translation: [0.0, 0.0, 0.1 - 0.1 * scale],
+            scale: impasto_scene::document::Scale::even(scale),
+            ..ObjectKey::at(0.0)
+        }];
+        let surface = SurfaceNoise { layer_count: 1, tint: Color(tint), opacity, ..Default::default() };
+        object.material = material(NoiseDisplace { vertex: None, surface: Some(surface), period_secs: None });
+        object
+    };
+    let mut scene = sheet(SurfaceNoise::default());
+    let mut inner = ball("inner", 0.5, [0.0, 0.0, 1.0], 1.0);
+    inner.morph = Some("target.obj".to_owned());
+    inner.keys[0].morph = 1.0;
+    scene.objects = vec![inner, ball("outer", 0.9, [1.0, 0.0, 0.0], 0.5)];
+    // At rest the inner ball is beside the outer one.
+    let round = shapes::sphere(24, 12);
+    let beside = shapes::moved(&round, |at| at + glam::DVec3::X * 8.0);
+    let mut loaded = LoadedScene::clone(&shapes::morphing(scene.clone(), [beside, round.clone()]));
+    let both = shapes::loaded(scene, [round.clone(), round]);
+    let outer = &both.scene.objects[1].mesh;
+    loaded.meshes.insert(outer.clone(), both.meshes[outer].clone());
+    let painting = prepare(std::sync::Arc::new(loaded)).unwrap();
+    let picture = renderer(Driver::Egl).render(&painting.at(0.0, &FrameOptions::new([SIDE, SIDE]))).unwrap();
+    let pixel = &picture.rgba8[((48 * SIDE + 48) * 4) as usize..][..3];
+    assert!((linear(pixel[0]) - 0.5).abs() < 0.01 && (linear(pixel[2]) - 0.5).abs() < 0.01, "{pixel:?}");
+}
+
 /// The sheet with a texture of one grey.
 fn grey(surface: SurfaceNoise, grey: u8, renderer: &mut Renderer) -> Picture {
     let scene = sheet(SurfaceNoise { texture: Some("grey.png".to_owned()), ..surface });

@@ -69,7 +69,7 @@ pub enum Arrange {
         /// What was done, in words: *Move*.
         verb: &'static str,
     },
-    /// Stretches an object along its own axes, and its guides with it.
+    /// Stretches an object along its own axes, and its guides and touches with it.
     Stretch {
         /// The object.
         object: String,
@@ -276,7 +276,7 @@ fn has_ancestor_among(scene: &Scene, index: usize, objects: &[String]) -> bool {
     false
 }
 
-/// Converts what is stated in an object's own space (guides, dabs, directions) when that space changes.
+/// Converts what is stated in an object's own space (guides, dabs, directions, touches) when that space changes.
 fn carry_along(scene: &mut Scene, object: &str, new_from_old: DMat3) {
     let normal_matrix = new_from_old.inverse().transpose();
     let point = |at: &mut [f64; 3]| *at = (new_from_old * DVec3::from(*at)).map(tidy).to_array();
@@ -314,6 +314,12 @@ fn carry_along(scene: &mut Scene, object: &str, new_from_old: DMat3) {
                 point(&mut view.target);
             }
             guide.radius *= factor;
+        }
+    }
+    for touch in scene.touches.iter_mut().filter(|touch| touch.on == object) {
+        for place in &mut touch.points {
+            point(&mut place.at);
+            normal(&mut place.normal);
         }
     }
 }

@@ -274,6 +274,21 @@ fn a_mesh_in_an_edited_scene_without_a_file_gives_it_a_folder_and_a_camera() {
     assert_eq!(editor.document().scene().camera, camera);
 }
 
+#[test]
+fn a_shot_that_begins_late_opens_at_its_first_frame() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/apple.ron");
+    let late = LoadOptions {
+        overrides: vec![("timeline.first".to_owned(), "20".to_owned())],
+        ..LoadOptions::default()
+    };
+    let document = || Document::open(&path, &late).expect("a shipped scene opens");
+    assert_eq!(Editor::new(document()).session.frame, 20.0);
+    let mut editor = with_apple();
+    editor.session.frame = 50.0;
+    editor.open(document());
+    assert_eq!(editor.session.frame, 20.0, "in place of another scene it opens as the first one does");
+}
+
 /// A place of the picture where the wall shows.
 fn on_the_wall(editor: &Editor) -> DVec2 {
     let view = view(editor);

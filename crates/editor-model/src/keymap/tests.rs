@@ -230,10 +230,12 @@ fn menus_write_keys_as_people_do() {
         assert!(!action.name().is_empty());
         for keymap in keymaps() {
             let text = keymap.shortcut_text(action);
-            let digit = matches!(action, Action::Arrange | Action::Paint | Action::Animate);
+            // Modes lose their digits where these choose views.
+            let digit = matches!(action, Action::Arrange | Action::Paint | Action::Animate)
+                && keymap.digits == Digits::NumPad;
             // These have no key: they are only in the menu and the command search.
             let rare = matches!(action, Action::SaveCopy | Action::Revert | Action::ExportMovie);
-            assert_eq!(text.is_none(), rare || digit && text.is_none(), "{action:?}");
+            assert_eq!(text.is_none(), rare || digit, "{action:?} in {keymap:?}");
         }
     }
 }

@@ -46,6 +46,7 @@ fn faults_are_reported_at_their_fields() {
         (output(""), Field::Output, "name a file"),
         (output("out/"), Field::Output, "name a file"),
         (output("film.avi"), Field::Output, ".png"),
+        (output("film.avi"), Field::Output, ".mp4, .mov, .webm or .mkv"),
         (RenderSettings { transparent: true, ..output("film.mp4") }, Field::Output, ".webm"),
     ] {
         let fault = settings.plan(&document, 0.0).unwrap_err();

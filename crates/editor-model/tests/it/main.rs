@@ -2,6 +2,7 @@
 //! because linking several takes longer.
 
 mod any_command;
+mod arrange;
 mod history;
 mod hostile;
 mod killed;

@@ -54,6 +54,7 @@ impl EditorApp {
         let input = ViewportInput {
             pictures: &self.picture_flow.pictures,
             session: &self.editor.session,
+            keymap: &self.editor.keymap,
             camera: first.camera,
             through_shot: self.editor.looking == Looking::Shot,
             marks: &marks,

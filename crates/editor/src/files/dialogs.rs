@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use egui::{Align2, Area, Context, Frame, Id, Margin, RichText, vec2};
 
 use super::file_ask::FileAsk;
-use super::incoming::PICTURES;
+use super::incoming::{MOVIES, PICTURES};
 use super::path_sheet::{PathSheet, Picked};
 use crate::theme::{Theme, measure, type_face};
 use crate::widgets::Button;
@@ -196,22 +196,35 @@ fn has_session_bus() -> bool {
     is_set("XDG_RUNTIME_DIR").is_some_and(|folder| PathBuf::from(folder).join("bus").exists())
 }
 
+/// The lists that the desktop's dialog offers: the words of each, and the endings of its files.
+fn filters(ask: FileAsk) -> Vec<(&'static str, Vec<String>)> {
+    const SCENES: &[&str] = &["ron"];
+    const MESHES: &[&str] = &["obj", "gltf", "glb"];
+    const RENDERED: &[&str] = &["png", "exr"];
+    let filters: &[(&str, &[&[&str]])] = match ask {
+        FileAsk::Open => {
+            &[("Scenes and meshes", &[SCENES, MESHES]), ("Scenes", &[SCENES]), ("Meshes", &[MESHES])]
+        }
+        FileAsk::ImportMesh | FileAsk::LocateMesh => &[("Meshes", &[MESHES])],
+        FileAsk::SaveAs | FileAsk::SaveCopy => &[("Scenes", &[SCENES])],
+        FileAsk::Missing => &[],
+        FileAsk::ChoosePicture => &[("Pictures", &[PICTURES])],
+        FileAsk::SavePreset | FileAsk::LoadPreset => &[("Presets", &[&["strokes.ron", "ron"]])],
+        FileAsk::RenderOutput { .. } => {
+            &[("Pictures and movies", &[RENDERED, MOVIES]), ("Pictures", &[RENDERED]), ("Movies", &[MOVIES])]
+        }
+    };
+    // Some desktops tell capitals from small letters.
+    let both = |ending: &str| [ending.to_owned(), ending.to_ascii_uppercase()];
+    let endings = |lists: &[&[&str]]| lists.iter().copied().flatten().copied().flat_map(both).collect();
+    filters.iter().map(|(words, lists)| (*words, endings(lists))).collect()
+}
+
 fn choose_on_desktop(ask: FileAsk, start: &Path) -> Option<PathBuf> {
     let mut dialog = rfd::FileDialog::new().set_title(ask.title());
-    dialog = match ask {
-        FileAsk::Open => dialog
-            .add_filter("Scenes and meshes", &["ron", "obj", "OBJ", "gltf", "glb", "GLB"])
-            .add_filter("Scenes", &["ron"])
-            .add_filter("Meshes", &["obj", "OBJ", "gltf", "glb", "GLB"]),
-        FileAsk::ImportMesh | FileAsk::LocateMesh => {
-            dialog.add_filter("Meshes", &["obj", "OBJ", "gltf", "glb", "GLB"])
-        }
-        FileAsk::SaveAs | FileAsk::SaveCopy => dialog.add_filter("Scenes", &["ron"]),
-        FileAsk::Missing => dialog,
-        FileAsk::ChoosePicture => dialog.add_filter("Pictures", PICTURES),
-        FileAsk::SavePreset | FileAsk::LoadPreset => dialog.add_filter("Presets", &["strokes.ron", "ron"]),
-        FileAsk::RenderOutput { .. } => dialog.add_filter("Pictures", &["png", "exr"]),
-    };
+    for (words, endings) in filters(ask) {
+        dialog = dialog.add_filter(words, &endings);
+    }
     if !ask.is_save() {
         return dialog.set_directory(start).pick_file();
     }

@@ -192,10 +192,7 @@ impl Preferences {
         self.recent.truncate(MAX_RECENT);
         self.last_seen.truncate(MAX_LAST_SEEN);
         for seen in &mut self.last_seen {
-            seen.view = seen.view.filter(|view| {
-                let numbers = view.eye.iter().chain(&view.target).chain([&view.roll_deg]);
-                view.eye != view.target && numbers.copied().all(f64::is_finite)
-            });
+            seen.view = seen.view.filter(LastView::is_sound);
         }
     }
 }

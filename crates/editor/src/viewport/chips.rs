@@ -28,7 +28,7 @@ pub(super) fn show(ui: &Ui, area: Rect, input: &ViewportInput<'_>, events: &mut 
         chip(ui, |ui| looks(ui, input, events));
     });
     float(ui, "overlays", area, Align2::RIGHT_TOP, |ui| {
-        chip(ui, |ui| overlays(ui, input.session, events));
+        chip(ui, |ui| overlays(ui, input, events));
     });
     float(ui, "badge", area, Align2::LEFT_BOTTOM, |ui| {
         chip(ui, |ui| badge(ui, input, events));
@@ -71,7 +71,11 @@ fn looks(ui: &mut Ui, input: &ViewportInput<'_>, events: &mut ViewportEvents) {
     }
 }
 
-fn overlays(ui: &mut Ui, session: &Session, events: &mut ViewportEvents) {
+fn overlays(ui: &mut Ui, input: &ViewportInput<'_>, events: &mut ViewportEvents) {
+    let session = input.session;
+    let [directions_key, trust_key, compare_key] =
+        [Action::CycleDirections, Action::ToggleTrust, Action::Compare]
+            .map(|action| input.keymap.shortcut_text(action).unwrap_or_default());
     let mut wanted = session.clone();
     let shown = &mut wanted.overlays;
     let paints = session.mode == Mode::Paint;
@@ -84,16 +88,18 @@ fn overlays(ui: &mut Ui, session: &Session, events: &mut ViewportEvents) {
     let before = direction_lines;
     let effect = if paints { "Short lines along the strokes." } else { "Directions show in Paint." };
     ui.add_enabled_ui(paints, |ui| {
-        toggle(ui, icons::DIRECTIONS, ("Directions", "O", effect), &mut direction_lines)
+        toggle(ui, icons::DIRECTIONS, ("Directions", directions_key.as_str(), effect), &mut direction_lines)
     });
     if direction_lines != before {
         shown.direction_lines = if direction_lines { DirectionLines::Plain } else { DirectionLines::Off };
     }
-    toggle(ui, icons::TRUST, ("Trust", "Shift O", "How far each turn can be trusted."), &mut shown.trust);
+    let trust = ("Trust", trust_key.as_str(), "How far each turn can be trusted.");
+    toggle(ui, icons::TRUST, trust, &mut shown.trust);
     toggle(ui, icons::REGIONS, ("Regions overlay", "", "Regions in their colours."), &mut shown.regions);
     toggle(ui, icons::GRID, ("Grid", "", "The floor."), &mut shown.grid);
     let mut compare = wanted.compare;
-    toggle(ui, icons::COMPARE, ("Compare", "K", "The reference beside this frame."), &mut compare);
+    let comparison = ("Compare", compare_key.as_str(), "The reference beside this frame.");
+    toggle(ui, icons::COMPARE, comparison, &mut compare);
     if wanted != *session {
         events.asks.push(Ask::Session(Box::new(wanted)));
     }

@@ -254,9 +254,17 @@ fn tools_are_taken_up_and_keep_their_settings() {
     harness.state_mut().session.mode = Mode::Arrange;
     harness.run();
     click(&mut harness, "Add light");
-    click(&mut harness, "Sky");
     assert_eq!(harness.state().session.object_tool, Tool::AddLight);
-    assert_eq!(harness.state().session.options.light, LightKind::Ambient);
+    let kinds = [
+        ("Sun", LightKind::Sun),
+        ("Spot", LightKind::Spot),
+        ("Lamp", LightKind::Point),
+        ("Sky", LightKind::Ambient),
+    ];
+    for (name, kind) in kinds {
+        click(&mut harness, name);
+        assert_eq!(harness.state().session.options.light, kind);
+    }
 }
 
 #[test]

@@ -14,8 +14,8 @@ use impasto_editor::viewport::{
 use impasto_editor::window::keep_pressures;
 use impasto_editor_model::Session;
 use impasto_editor_model::editor::{PointerEvent, PointerKind};
-use impasto_editor_model::keymap::{Action, Button};
-use impasto_editor_model::session::{Overlays, Shading};
+use impasto_editor_model::keymap::{Action, Button, CommandId, Keymap};
+use impasto_editor_model::session::{Mode, Overlays, Shading};
 use impasto_editor_model::tools::{Needle, Ring};
 use impasto_scene::document::Lens;
 use impasto_scene::motion::CameraPose;
@@ -25,6 +25,7 @@ const SCENE: (u32, u32) = (1280, 720);
 /// A page with nothing but a viewport.
 struct Page {
     session: Session,
+    keymap: Keymap,
     badge: Badge,
     compare: bool,
     drawn: Drawn,
@@ -56,6 +57,7 @@ impl Page {
     fn new(badge: Badge) -> Self {
         Self {
             session: Session::default(),
+            keymap: Keymap::default(),
             badge,
             compare: false,
             drawn: Drawn::default(),
@@ -84,6 +86,7 @@ impl Page {
         let input = ViewportInput {
             pictures: &Pictures::default(),
             session: &self.session,
+            keymap: &self.keymap,
             camera: &camera,
             through_shot: !matches!(self.badge, Badge::Free(_)),
             marks: &marks,
@@ -279,6 +282,28 @@ fn chips_ask_for_what_they_say() {
     harness.get_by_role_and_label(Role::Button, "To the shot").click();
     harness.run();
     assert_eq!(harness.state().last.look, Some(CameraChoice::Shot));
+}
+
+#[test]
+fn tooltips_of_chips_name_the_keys_that_are_in_use() {
+    let mut page = Page::new(Badge::Reference(0.0));
+    page.session.mode = Mode::Paint;
+    for (command, keys) in
+        [("Directions", "Ctrl 7"), ("Trust", "Ctrl 8"), ("Compare with the reference", "Ctrl 9")]
+    {
+        let id = CommandId::named(command).expect("there is such a command");
+        page.keymap = page.keymap.with(id, vec![keys.parse().expect("a key")]);
+    }
+    for (name, keys) in [("Directions", "Ctrl 7"), ("Trust", "Ctrl 8"), ("Compare", "Ctrl 9")] {
+        let keymap = page.keymap.clone();
+        let session = page.session.clone();
+        let mut harness = harness(Page { session, keymap, ..Page::new(Badge::Reference(0.0)) });
+        let at = harness.get_by_role_and_label(Role::Button, name).rect().center();
+        harness.hover_at(at);
+        // A tooltip comes up once the pointer has rested for half a second.
+        harness.run_steps(12);
+        assert!(harness.query_by_label(keys).is_some(), "{name} does not name {keys}");
+    }
 }
 
 #[test]

@@ -194,46 +194,63 @@ fn set_layers<'a>(bound: Bound<'a>, layers: &NoiseLayers, travelled: Vec2, tiles
         .set("threshold", layers.threshold)
 }
 
-/// Indices of the bodies to draw, in drawing order: the farthest centre first, except that a body inside another is
-/// drawn before that other. Fully transparent bodies are left out.
-fn farthest_first(frame: &Frame, bodies: &[DrawnBody<'_>]) -> Vec<usize> {
-    let depth = |DrawnBody { body, mesh, .. }: &DrawnBody<'_>| {
+/// A body among those that are put in order.
+struct Placed<'a> {
+    index: usize,
+    body: &'a FrameBody,
+    /// How far its centre is from the eye.
+    depth: f32,
+    /// The box that decides whether it is within another body.
+    bounds: Option<(Vec3, Vec3)>,
+}
+
+impl<'a> Placed<'a> {
+    fn of(index: usize, drawn: &DrawnBody<'a>, frame: &Frame) -> Self {
+        let (body, mesh) = (drawn.body, &drawn.mesh);
         let bounds = match &body.bent {
             Some(bent) => body.surface.mesh.bounds_at(&bent.vertices.positions),
             None => mesh.bounds,
         };
         let (low, high) = bounds.unwrap_or_default();
         let center = body.world_from_model.transform_point3((low + high) * 0.5);
-        -frame.view.view_from_world.transform_point3(center).z
-    };
+        let depth = -frame.view.view_from_world.transform_point3(center).z;
+        // Noise swings about the surface at rest, and the order must not swing with it.
+        let is_displaced = body.noise.as_ref().is_some_and(|noise| noise.noise.vertex.is_some());
+        Self { index, body, depth, bounds: if is_displaced { mesh.bounds } else { bounds } }
+    }
+
+    /// Whether its bounding box lies in that of `outer`, which may be exceeded by a twentieth of its size.
+    fn is_within(&self, outer: &Self) -> bool {
+        let (Some((low, high)), Some((outer_low, outer_high))) = (self.bounds, outer.bounds) else {
+            return false;
+        };
+        let outer_from_inner = outer.body.world_from_model.inverse() * self.body.world_from_model;
+        let slack = (outer_high - outer_low) * 0.05;
+        (0..8).all(|corner| {
+            let pick = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
+            let at = outer_from_inner.transform_point3(Vec3::new(pick(0), pick(1), pick(2)));
+            at.cmpge(outer_low - slack).all() && at.cmple(outer_high + slack).all()
+        })
+    }
+}
+
+/// Indices of the bodies to draw, in drawing order: the farthest centre first, except that a body inside another is
+/// drawn before that other. Fully transparent bodies are left out.
+fn farthest_first(frame: &Frame, bodies: &[DrawnBody<'_>]) -> Vec<usize> {
     let shows = |body: &FrameBody| !body.hidden && layers(body).is_some_and(|layers| layers.opacity > 0.0);
-    let mut order: Vec<(usize, f32)> = bodies
+    let mut order: Vec<Placed<'_>> = bodies
         .iter()
         .enumerate()
         .filter(|(_, drawn)| shows(drawn.body))
-        .map(|(index, drawn)| (index, depth(drawn)))
+        .map(|(index, drawn)| Placed::of(index, drawn, frame))
         .collect();
-    order.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let mut sorted: Vec<usize> = Vec::with_capacity(order.len());
-    for (index, _) in order {
-        let outer = sorted.iter().position(|&other| is_within(&bodies[index], &bodies[other]));
-        sorted.insert(outer.unwrap_or(sorted.len()), index);
+    order.sort_by(|a, b| b.depth.total_cmp(&a.depth));
+    let mut sorted: Vec<Placed<'_>> = Vec::with_capacity(order.len());
+    for placed in order {
+        let outer = sorted.iter().position(|other| placed.is_within(other));
+        sorted.insert(outer.unwrap_or(sorted.len()), placed);
     }
-    sorted
-}
-
-/// Whether the bounding box of `inner` lies in that of `outer`, which may be exceeded by a twentieth of its size.
-fn is_within(inner: &DrawnBody<'_>, outer: &DrawnBody<'_>) -> bool {
-    let (Some((low, high)), Some((outer_low, outer_high))) = (inner.mesh.bounds, outer.mesh.bounds) else {
-        return false;
-    };
-    let outer_from_inner = outer.body.world_from_model.inverse() * inner.body.world_from_model;
-    let slack = (outer_high - outer_low) * 0.05;
-    (0..8).all(|corner| {
-        let pick = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
-        let at = outer_from_inner.transform_point3(Vec3::new(pick(0), pick(1), pick(2)));
-        at.cmpge(outer_low - slack).all() && at.cmple(outer_high + slack).all()
-    })
+    sorted.into_iter().map(|placed| placed.index).collect()
 }
 
 impl Programs {

@@ -98,7 +98,8 @@ impl Renderer {
 
     /// Depth and body of every pixel of the last frame.
     pub fn read_reference(&self) -> ReferencePixels {
-        let Some(targets) = &self.targets else {
+        let targets = self.targets.as_ref().filter(|_| self.context.gpu().make_current().is_ok());
+        let Some(targets) = targets else {
             return ReferencePixels { depth: Vec::new(), body_id: Vec::new() };
         };
         let values = targets.read_depth_and_id();

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use impasto_painting::Rotation;
 use impasto_scene::motion;
 
-use super::ONE_FRAME;
+use super::FEW_FRAMES;
 use super::turns::uses_horn;
 use crate::context::MeasureContext;
 use crate::jitter::Jitter;
@@ -25,7 +25,7 @@ pub(super) fn row(context: &mut MeasureContext<'_>) -> Result<Row, MeasureError>
     );
     let timeline = &context.loaded.scene.timeline;
     if timeline.last - timeline.first < 2 {
-        return Ok(row.not_applicable(ONE_FRAME.replace("one frame", "fewer than three frames")));
+        return Ok(row.not_applicable(FEW_FRAMES));
     }
     let ours = jitter(context, Rotation::On)?;
     let random = jitter(context, Rotation::Random)?;

@@ -24,6 +24,9 @@ use crate::report::{Row, Series};
 /// The reason to give where a metric needs several frames and the shot has only one.
 pub(crate) const ONE_FRAME: &str = "the shot has one frame";
 
+/// The reason to give where a metric needs three frames and the shot has fewer.
+pub(crate) const FEW_FRAMES: &str = "the shot has fewer than three frames";
+
 /// Measures one metric; may add series over the frames of the shot.
 pub(crate) fn row(
     metric: Metric,

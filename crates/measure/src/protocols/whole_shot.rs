@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use impasto_painting::Rotation;
 
-use super::ONE_FRAME;
+use super::FEW_FRAMES;
 use crate::chatter::{Place, Share};
 use crate::context::{DrawnFrame, MeasureContext};
 use crate::figures::Spread;
@@ -115,7 +115,7 @@ pub(super) fn chatter(
         format!("{TAKEN_ON}; strokes whose luma reverses by more than 0.02"),
         "≤ 3 % of the stroke-frames of each layer of each object",
     );
-    let Some(shot) = whole(context)? else { return Ok(row.not_applicable(ONE_FRAME)) };
+    let Some(shot) = whole(context)? else { return Ok(row.not_applicable(FEW_FRAMES)) };
     let found = &shot.chatter;
     let all = found.whole();
     row.counts = Counts { strokes: all.of, pixels: 0, frames: shot.frames };
@@ -152,7 +152,7 @@ pub(super) fn steps(context: &mut MeasureContext<'_>, series: &mut Vec<Series>) 
         ),
         "≤ 0.01 % of stroke-frames; highlights ≤ 1 %, half of them live 12 frames",
     );
-    let Some(shot) = whole(context)? else { return Ok(row.not_applicable(ONE_FRAME)) };
+    let Some(shot) = whole(context)? else { return Ok(row.not_applicable(FEW_FRAMES)) };
     let found = &shot.steps;
     let of = found.by_layer.values().map(|share| share.of).sum::<usize>();
     row.counts = Counts { strokes: of, pixels: 0, frames: shot.frames };
@@ -205,7 +205,7 @@ pub(super) fn flicker(
         ),
         "99.9 % of pixels ≤ 0.018; above 6 of 255 ≤ 0.01 %",
     );
-    let Some(shot) = whole(context)? else { return Ok(row.not_applicable(ONE_FRAME)) };
+    let Some(shot) = whole(context)? else { return Ok(row.not_applicable(FEW_FRAMES)) };
     let found = &shot.flicker;
     row.counts = Counts { strokes: 0, pixels: found.pixels, frames: shot.frames };
     let share = found.flickering as f64 / found.pixels.max(1) as f64;

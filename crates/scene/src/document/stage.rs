@@ -100,7 +100,7 @@ pub trait Brought: Debug + Send + Sync {
     fn enter(self: Arc<Self>, scene: &mut Scene) -> Vec<Lost>;
 
     /// The document as it is saved: without what comes from the shot alone. An object of the shot that was deleted is
-    /// stated as hidden, since it would come back otherwise.
+    /// stated as hidden, and a light as one of intensity 0, since they would come back otherwise.
     fn left(&self, scene: &Scene) -> Scene;
 }
 

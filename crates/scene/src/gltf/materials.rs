@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use impasto_core::color::srgb_from_linear;
-use impasto_gltf::{AlphaMode, Gltf, Material as Stated, Sampler};
+use impasto_gltf::{AlphaMode, Gltf, Material as Stated, Sampler, TextureUse};
 
 use crate::mesh_file::{Material, Texture};
 use crate::problem::{Problem, Severity};
@@ -29,8 +29,7 @@ pub(super) fn of(path: &Path, gltf: &Gltf, warnings: &mut Vec<Problem>) -> Vec<M
     let mut materials: Vec<Material> = Vec::with_capacity(gltf.materials.len() + 1);
     for stated in &gltf.materials {
         let glows = glows(stated);
-        let used = if glows { stated.emissive_texture } else { stated.base_color_texture };
-        let used = used.map(|used| &gltf.textures[used.texture]);
+        let used = shown_picture(stated).map(|used| &gltf.textures[used.texture]);
         let texture = used.and_then(|used| used.image).and_then(|image| picture(image, warnings));
         let sampler = used.map_or(Sampler::default(), |used| used.sampler);
         // Alpha is in the base colour's picture, which a glowing surface does not show. Only a cutoff that hides all
@@ -69,6 +68,11 @@ fn unseen(path: &Path, index: usize, name: &str) -> Problem {
         ),
         mend: "to paint it, make its alpha at least 0.5, or give its object a colour in the scene".to_owned(),
     }
+}
+
+/// The picture that the surface shows: that of its emission if it glows, else that of its colour.
+pub(super) fn shown_picture(stated: &Stated) -> Option<TextureUse> {
+    if glows(stated) { stated.emissive_texture } else { stated.base_color_texture }
 }
 
 /// Whether the surface's emission is brighter than its colour.

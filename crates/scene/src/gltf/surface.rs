@@ -10,6 +10,7 @@ use impasto_gltf::{Mesh, Node, Primitive};
 use super::GltfFile;
 use super::bend::{self, Run};
 use super::joints::blended;
+use super::materials;
 use crate::mesh_file::MeshFile;
 use crate::surface::{Builder, Built, Geometry};
 
@@ -168,10 +169,12 @@ impl Vertices {
     }
 }
 
-/// Texture coordinates of the base colour's picture, or else of the emission's: V up, moved as the material says.
+/// Texture coordinates of the picture that shows, or else of the base colour's or the emission's: V up, moved as the
+/// material says.
 fn uvs_of(file: &GltfFile, primitive: &Primitive) -> Option<Vec<Vec2>> {
     let material = &file.gltf.materials.get(primitive.material?)?;
-    let used = material.base_color_texture.or(material.emissive_texture)?;
+    let used = materials::shown_picture(material);
+    let used = used.or(material.base_color_texture).or(material.emissive_texture)?;
     let list = primitive.uvs[used.uv_set].as_ref()?;
     let moved = |&uv: &[f32; 2]| {
         let [u, v] = used.transform.apply(uv);

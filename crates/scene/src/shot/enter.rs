@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::Shot;
-use crate::document::{Color, Lost, Object, Scene, Stage, Timeline};
+use crate::document::{Color, Light, LightKind, Lost, Object, Scene, Stage, Timeline};
 use crate::nearest::nearest;
 
 /// Whether a scene leaves rate and frames to its shot.
@@ -78,6 +78,11 @@ pub(super) fn left(shot: &Shot, scene: &Scene) -> Scene {
         .chain(scene.stage.lost.iter().cloned())
         .collect();
     left.lights.retain(|light| shot.lights.iter().all(|(brought, _)| brought != light));
+    // A light of another kind than the shot's never follows it; this one casts no shadow either.
+    let dark = |name: &str| Light { intensity: 0.0, ..Light::new(name, LightKind::Ambient) };
+    let is_gone = |brought: &&Light| scene.lights.iter().all(|light| light.name != brought.name);
+    let brought = shot.lights.iter().map(|(brought, _)| brought);
+    left.lights.extend(brought.filter(is_gone).map(|brought| dark(&brought.name)));
     if shot.sky() == Some(scene.background) {
         left.background = Color::default();
     }

@@ -144,3 +144,21 @@ fn one_dialog_at_a_time() {
     harness.run();
     assert!(harness.query_by_label("Save").is_none() && harness.query_by_label("Open").is_some());
 }
+
+#[test]
+fn the_desktop_lists_whatever_fits() {
+    let lists = |ask: FileAsk, name: &str| {
+        filters(ask)[0].1.iter().any(|ending| name.ends_with(&format!(".{ending}")))
+    };
+    let output = FileAsk::RenderOutput { ending: "png" };
+    for name in ["a.png", "a.exr", "a.mp4", "a.mov", "a.webm", "a.mkv", "A.MKV"] {
+        assert!(lists(output, name), "{name}");
+    }
+    assert!(!lists(output, "a.jpg"), "no frame becomes a JPEG");
+    for ask in [FileAsk::Open, FileAsk::ImportMesh, FileAsk::LocateMesh] {
+        for name in ["a.obj", "A.OBJ", "a.gltf", "A.GLTF", "a.glb", "A.GLB"] {
+            assert!(lists(ask, name), "{ask:?}: {name}");
+        }
+    }
+    assert!(filters(FileAsk::Missing).is_empty(), "any file may be the one that is missing");
+}

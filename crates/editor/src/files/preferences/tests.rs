@@ -84,15 +84,17 @@ fn a_file_that_cannot_be_used_is_kept_beside() {
 
 #[test]
 fn hand_written_numbers_come_into_range() {
-    let view = "Some((eye: (NaN, 0.0, 0.0), target: (0.0, 0.0, 0.0)))";
-    let text = format!(
-        "(scale: 90.0, window_size: (NaN, 3.0), copy_after_secs: 40000, last_seen: [(file: \"/a.ron\", view: {view})])"
-    );
+    let seen = |file: &str, x: &str| {
+        format!("(file: \"/{file}.ron\", view: Some((eye: ({x}, 0.0, 0.0), target: (0.0, 0.0, 0.0))))")
+    };
+    let seen = [seen("a", "NaN"), seen("b", "0.0"), seen("c", "1e12"), seen("d", "1e6")].join(", ");
+    let text = format!("(scale: 90.0, window_size: (NaN, 3.0), copy_after_secs: 40000, last_seen: [{seen}])");
     let (loaded, _folder) = read(&text);
     assert_eq!(loaded.note, None);
     let Preferences { scale, window_size, copy_after_secs, last_seen, .. } = loaded.preferences;
     assert_eq!((scale, window_size, copy_after_secs), (3.0, (1280.0, 440.0), 7200));
-    assert_eq!(last_seen[0].view, None);
+    let kept: Vec<bool> = last_seen.iter().map(|seen| seen.view.is_some()).collect();
+    assert_eq!(kept, [false, false, false, true]);
 }
 
 #[test]

@@ -205,6 +205,7 @@ pub(super) fn of(tool: Tool, options: &ToolOptions, has_pen: bool) -> Vec<Settin
             choice!(light: [
                 LightKind::Sun => "Sun", "Sun";
                 LightKind::Point => "Lamp", "Lamp";
+                LightKind::Spot => "Spot", "Spot";
                 LightKind::Ambient => "Sky", "Sky";
             ]),
         ))),

@@ -93,7 +93,11 @@ impl<'a> FileCache<'a> {
             let read =
                 self.meshes.entry(name.to_owned()).or_insert_with(|| mesh(path, name, scene, self.options));
             match read.clone() {
-                Ok((mesh, _)) => drop(found.real.insert(name.to_owned(), mesh)),
+                Ok((mesh, warnings)) => {
+                    if found.real.insert(name.to_owned(), mesh).is_none() {
+                        found.warnings.extend(warnings);
+                    }
+                }
                 Err(problem) => self.refuse(&mut found, problem, name, &field_path, located),
             }
         }
@@ -110,7 +114,12 @@ impl<'a> FileCache<'a> {
                 .entry(name.clone())
                 .or_insert_with(|| read_texture(path, name, folders).map(super::super::shared));
             match read.clone() {
-                Ok((texture, _)) => drop(found.textures.insert(name.clone(), texture)),
+                Ok((texture, warnings)) => {
+                    // Several materials may name the same picture.
+                    if found.textures.insert(name.clone(), texture).is_none() {
+                        found.warnings.extend(warnings);
+                    }
+                }
                 Err(problem) => self.refuse(&mut found, problem, name, &field_path, located),
             }
         }
@@ -120,7 +129,11 @@ impl<'a> FileCache<'a> {
                 .entry(name.to_owned())
                 .or_insert_with(|| read_brush(path, name, folders).map(super::super::shared));
             match read.clone() {
-                Ok((brush, _)) => drop(found.brushes.insert(name.to_owned(), brush)),
+                Ok((brush, warnings)) => {
+                    if found.brushes.insert(name.to_owned(), brush).is_none() {
+                        found.warnings.extend(warnings);
+                    }
+                }
                 Err(problem) => self.refuse(&mut found, problem, name, &field_path, located),
             }
         }

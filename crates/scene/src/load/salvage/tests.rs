@@ -70,6 +70,35 @@ fn a_scene_without_errors_loses_nothing() {
 }
 
 #[test]
+fn warnings_of_all_files_are_kept_and_each_is_told_once() {
+    let folder = Folder::new();
+    // A mesh that refers to texture coordinates that it lacks, and a picture without an opaque pixel.
+    let odd = CUBE.replace("f 1 4 3 2", "f 1/7 4/7 3/7 2/7");
+    fs::write(folder.0.path().join("meshes/bent.obj"), odd).expect("written");
+    for name in ["skin.png", "brush.png"] {
+        let grey = |x| if x == 1 { 255 } else { 0 };
+        let picture = image::RgbaImage::from_fn(3, 3, |x, _| image::Rgba([grey(x), grey(x), grey(x), 0]));
+        picture.save(folder.0.path().join(name)).expect("written");
+    }
+    let object = |name: &str| {
+        format!(
+            r#"    (name: "{name}", mesh: "meshes/apple.obj", morph: "meshes/bent.obj", material: (texture: "skin.png")),"#
+        )
+    };
+    let objects = [object("a"), object("b")].concat();
+    let text = scene(&objects, r#"  strokes: (brush: "brush.png"),"#);
+    let salvaged = folder.read(&text);
+    assert!(salvaged.losses.is_empty(), "{:?}", said(&salvaged));
+    let warnings = &salvaged.loaded.warnings;
+    for file in ["bent.obj", "skin.png", "brush.png"] {
+        let of_file = warnings.iter().filter(|warning| warning.path.ends_with(file));
+        assert_eq!(of_file.count(), 1, "{file}: {warnings:?}");
+    }
+    let loaded = load::load(&folder.path(), &LoadOptions::default()).expect("loads");
+    assert_eq!(*warnings, loaded.warnings);
+}
+
+#[test]
 fn an_unknown_field_is_left_out_and_one_near_it_is_a_certain_fix() {
     let folder = Folder::new();
     let text = scene(

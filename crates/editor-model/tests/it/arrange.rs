@@ -1,0 +1,52 @@
+//! What lies on an object goes with it when its own space changes.
+
+use std::path::Path;
+
+use glam::DVec3;
+use impasto_editor_model::Document;
+use impasto_editor_model::command::{Arrange, Command, Touches};
+use impasto_scene::document::{Touch, TouchPoint};
+use impasto_scene::load::LoadOptions;
+
+const AT: [f64; 3] = [0.4, 0.3, -0.2];
+
+/// Two cubes of side 0.8, with a touch on each.
+fn cubes() -> Document {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/touching_cubes.ron");
+    let mut document = Document::open(&path, &LoadOptions::default()).expect("a shipped scene opens");
+    let place = TouchPoint { at: AT, normal: [0.6, 0.8, 0.0] };
+    let touches = ["still", "turning"].map(|on| Touch::new(format!("on {on}"), on, vec![place]));
+    document.apply(&Command::Touches(Touches::Lay(touches.to_vec()))).expect("they are laid");
+    document
+}
+
+/// Does it to the cube `still`. Returns where its touch is then, with the normal.
+fn touch_after(edit: Arrange) -> [DVec3; 2] {
+    let mut document = cubes();
+    let before = document.scene().clone();
+    document.apply(&Command::Arrange(edit)).expect("it fits");
+    let [own, other] = &document.scene().touches[..] else { panic!("two touches") };
+    assert_eq!(*other, before.touches[1], "what lies on another object stays");
+    let found = [own.points[0].at, own.points[0].normal].map(DVec3::from);
+    document.undo();
+    assert_eq!(*document.scene(), before);
+    found
+}
+
+#[test]
+fn touches_go_with_an_object_that_is_stretched_scaled_or_turned_upright() {
+    let object = || "still".to_owned();
+    let at = DVec3::from(AT);
+    let slope = DVec3::new(0.6 / 2.0, 0.8, 0.0).normalize();
+    let stretched = Arrange::Stretch { object: object(), factors: DVec3::new(2.0, 1.0, 0.5) };
+    for (edit, place, normal) in [
+        (stretched, at * DVec3::new(2.0, 1.0, 0.5), slope),
+        (Arrange::ScaleTo(object(), 1.6), at * 2.0, DVec3::new(0.6, 0.8, 0.0)),
+        // What was Z is Y then, and what was Y points back.
+        (Arrange::TurnUpright(object()), DVec3::new(0.4, -0.2, -0.3), DVec3::new(0.6, 0.0, -0.8)),
+    ] {
+        let [found, turned] = touch_after(edit.clone());
+        assert!((found - place).length() < 1e-5, "{edit:?}: at {found}, not {place}");
+        assert!((turned - normal).length() < 1e-5, "{edit:?}: normal {turned}, not {normal}");
+    }
+}
