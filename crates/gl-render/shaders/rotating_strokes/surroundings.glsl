@@ -2,7 +2,7 @@
 // fades and never switches.
 uniform sampler2D reference_color;
 uniform sampler2D depth_and_id;
-uniform sampler2D normal;        // of the surface, world space, towards the eye
+uniform sampler2D normal;        // of the surface, world space, towards the eye; 0 where noise colours it
 uniform sampler2D detail;        // in blocks: change of colour, outline, highlight, body id and half its share
 uniform float block_px;          // side of a block
 
@@ -50,9 +50,12 @@ float freedom(float id) {
     return 1.0 - covered;
 }
 
-// How far a pixel of the stroke's own body shows another face than that of the stroke, 0..1.
+// How far a pixel of the stroke's own body shows another face than that of the stroke, 0..1. A body that noise colours has no
+// normals in the picture: all of it counts as one face.
 float other_face(ivec2 texel) {
-    float cosine = dot(texelFetch(normal, texel, 0).xyz, normalize(normal_and_bow.xyz));
+    vec3 shown = texelFetch(normal, texel, 0).xyz;
+    if (dot(shown, shown) < 0.25) return 0.0;
+    float cosine = dot(shown, normalize(normal_and_bow.xyz));
     return 1.0 - smoothstep(SAME_FACE.x, SAME_FACE.y, cosine);
 }
 

@@ -5,9 +5,11 @@ in float depth_along_gaze;
 
 uniform float body_id;
 
-out vec2 depth_and_id;
+layout(location = 0) out vec2 depth_and_id;
+layout(location = 1) out vec4 normal;       // 0, where the pass has it: noise colours this body, not the light on its faces
 
 void main() {
     cut_out();
     depth_and_id = vec2(depth_along_gaze, body_id);
+    normal = vec4(0.0);
 }

@@ -301,7 +301,7 @@ impl Targets {
         let glow = Rc::new(Texture::target(gpu, Format::Rgba16F, color.size_px(), Filter::Nearest)?);
         let (depth, depth_and_id) = (&reference.unlit()?.depth, &reference.depth_and_id);
         Ok(Self {
-            place_pass: Framebuffer::new(gpu, &[depth_and_id], Some(depth))?,
+            place_pass: Framebuffer::new(gpu, &[depth_and_id, &reference.normal], Some(depth))?,
             look_pass: Framebuffer::new(gpu, &[&color, &reference.glint, &glow], Some(depth))?,
             glow_pass: Framebuffer::new(gpu, &[&glow], None)?,
             color_pass: Framebuffer::new(gpu, &[&color], None)?,
