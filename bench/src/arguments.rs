@@ -21,7 +21,7 @@ pub struct Arguments {
     pub keep: bool,
     /// Whether to write the table into the docs.
     pub write_docs: bool,
-    /// Whether to install what peers need from the system.
+    /// Whether to install Debian's packages that the peers (the programs compared with) need.
     pub install: bool,
     /// Whether Python's packages may be fetched.
     pub may_fetch: bool,

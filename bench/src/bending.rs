@@ -1,5 +1,6 @@
-//! Measures what a body that bends costs in a frame, beside the floor that memory sets: its vertices moved by joints,
-//! its deformation gradients, its particles carried and solved, and a point cache.
+//! Measures what a body that bends costs in a frame: its vertices moved by joints, its deformation gradients, its
+//! particles carried and solved, and a point cache. Each is timed beside its floor, the least time that memory allows
+//! (see `floor.rs`). "In" and "Out" below count the numbers per vertex or particle that are read and written.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -65,7 +66,7 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
     let input = format!("{PARTICLES} particles, {name}");
     let sorted = SortedParticles::new(&places, &baked, |_| 0.0);
     let view = ParticleView::new(&map);
-    // As many are present as in a picture that is full of strokes.
+    // As many particles are present as in a picture that is full of strokes.
     let bounds =
         Bounds { half_px: [640.0, 360.0], near_far: [0.1, 100.0], most_per_area: 10_000.0 / 20_000.0 };
     let mut showing = 0;
@@ -126,7 +127,7 @@ fn point_cache(bench: &mut Bench) -> anyhow::Result<()> {
                 painting.bent_at(frame)
             }),
             // In: the sample as bytes and as points, and six edges of three numbers. Out: position and normal, then
-            // position and F.
+            // position and F, padded to 16 numbers.
             Streams::new(SIDE * SIDE, 3 + 3 + 6 * 3, 6 + 16).contender(),
         ];
         race(&bench.pace(false), contenders)
@@ -137,7 +138,7 @@ fn point_cache(bench: &mut Bench) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// A cloth with a cache, written and prepared without strokes.
+/// A cloth with a point cache: writes its files, and prepares the scene without strokes.
 fn cloth_of(folder: &Path) -> anyhow::Result<Painting> {
     let place =
         |index: usize| [index % SIDE, index / SIDE].map(|at| at as f32 * 4.0 / (SIDE - 1) as f32 - 2.0);

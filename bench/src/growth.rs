@@ -1,6 +1,6 @@
-//! Measures how the cost of each step grows with the number of particles, from a thousand to ten million. The scene
-//! that is prepared and drawn is the paper's largest one without its wall. The number counts the particles of its body
-//! layer; the other layers have some in addition.
+//! Measures how the cost of each step grows with the number of particles, from a thousand to ten million. The scene of
+//! the steps "prepare" and "frame as data" is the paper's largest one without its wall. Its number of particles counts
+//! those of its body layer; the other layers have some in addition.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -64,7 +64,7 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
     for curve in curves.iter().filter(|curve| !curve.name.ends_with("kiddo")) {
         let at = |count: usize| curve.secs_per_particle(count as f64);
         let Some((small, large)) = at(most / 10).zip(at(most)) else { continue };
-        // Cost per particle at the end over that at the beginning: 1 is linear growth.
+        // Cost per particle at `most` particles over the cost at a tenth of them: 1 is linear growth.
         let what = format!("growth, {}", curve.name);
         let input = format!("{} to {}", shown_count(most / 10), shown_count(most));
         let figure = Figure::new("Impasto", Unit::Ratio, Spread::exact(large / small)).noted(format!(
@@ -80,7 +80,7 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Seconds of each step at a count; `None` for steps that are left out there.
+/// Seconds of each step at a count; `None` for steps that are left out at this count.
 fn at(bench: &mut Bench, count: usize) -> anyhow::Result<[Option<f64>; 7]> {
     let mesh = bench.inputs.mesh()?;
     let (mut by_chance, mut blue) = (f64::INFINITY, f64::INFINITY);

@@ -1,5 +1,5 @@
-//! Measures neighbour searches: ours beside trees of Rust crates, C++ and Python. Each particle gets a list of its
-//! nearest neighbours, at most 50 of them within a radius that holds about 64.
+//! Measures neighbour searches: ours beside the search trees (k-d and R*) of crates, of C++ and of Python. Each
+//! particle gets a list of its nearest neighbours, at most 50 of them within a radius that holds about 64.
 
 mod answer;
 mod trees;

@@ -45,7 +45,8 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Measures ours beside nothing but the floor that memory sets: there are no neighbour lists for so many particles.
+/// Measures ours beside nothing but the floor, the least time that the memory's speed allows: there are no neighbour
+/// lists for so many particles.
 fn alone(bench: &mut Bench, cloud: &Rc<Cloud>) -> anyhow::Result<()> {
     let (reference, now) = scene::views(&mut bench.inputs)?;
     let baked = scene::facing(cloud, &reference);

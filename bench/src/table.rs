@@ -12,7 +12,7 @@ pub enum Unit {
     Seconds,
     /// Memory.
     Bytes,
-    /// Things.
+    /// A number of things.
     Count,
     /// A share or a ratio.
     Ratio,

@@ -1,5 +1,5 @@
-//! Puts a hash of the sources that preparing depends on, and of the compiler, into `IMPASTO_SOURCES`. It is part of the
-//! key of what is kept on disk, so that nothing is found there that other sources have made.
+//! Puts a hash of the sources that preparing depends on, and of the compiler, into `IMPASTO_SOURCES`. The hash is part
+//! of the key of what is kept on disk, so that a program never uses what a build of other sources has kept.
 
 use std::env;
 use std::path::{Path, PathBuf};

@@ -1,5 +1,5 @@
 //! Fuzzes `PATH=VALUE` lines as `--set` and `impasto set` take them, lists of frames, and file patterns. A value is
-//! taken or refused; a scene text that took one can be read, and the rest of it is unchanged.
+//! either refused or written into the text of a scene; that text can then be read, and the rest of it is unchanged.
 
 #![no_main]
 

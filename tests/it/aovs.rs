@@ -73,7 +73,7 @@ fn shot(renderer: &mut Renderer, painting: &Painting, number: f64, options: &Fra
     Shot { picture, planes, ids }
 }
 
-/// A sheet of side 2 that faces the camera from the origin, with plain strokes along X, seen from 4 units away.
+/// A sheet of side 2 that faces the camera from the origin, 4 units away, with the strokes of `shapes::scene`.
 fn facing_sheet(change: impl FnOnce(&mut Scene)) -> Painting {
     let mut scene = shapes::scene(vec![shapes::object("Sheet", 3000)]);
     scene.strokes.layers = shapes::body_layer_alone();

@@ -83,7 +83,7 @@ fn differences(shot: &Path, frames: &[Value]) -> [f64; 3] {
             assert_eq!(
                 hidden_at(&loaded.scene, frame)[index],
                 blender_hides,
-                "{name:?} is hidden, frame {frame}"
+                "whether {name:?} is hidden in frame {frame}: ours, Blender's"
             );
             for (&own, (in_world, blenders)) in pairs.iter().zip(places(truth, &object.name)) {
                 most_share = most_share.max(ours[own].distance(in_world) / (high - low).length());
@@ -101,7 +101,7 @@ fn differences(shot: &Path, frames: &[Value]) -> [f64; 3] {
             most_rad = most_rad.max((fov_y_deg.to_radians() - blenders).abs());
         }
     }
-    assert!(compared > 2_000, "{compared}");
+    assert!(compared > 2_000, "only {compared} vertices were compared");
     [most_px, most_rad, most_share]
 }
 
@@ -199,8 +199,8 @@ fn the_compositor_reads_passes_and_mattes() {
     let covered = stated[0].iter().zip(&stated[1]);
     let covered: Vec<f32> =
         covered.map(|(id, amount)| if id.to_bits() == bits { *amount } else { 0.0 }).collect();
-    assert!(covered.iter().sum::<f32>() > 500.0, "the sheet shows");
+    assert!(covered.iter().sum::<f32>() > 500.0, "the matte of the sheet in our file covers too few pixels");
     let off = covered.iter().zip(&matte[0]).map(|(stated, found)| (stated - found).abs()).fold(0.0, f32::max);
     println!("Blender's matte is off by at most {off}");
-    assert!(off < 1e-6, "{off}");
+    assert!(off < 1e-6, "Blender's matte is off by {off}");
 }

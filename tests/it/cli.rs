@@ -353,7 +353,7 @@ fn strokes_are_listed_as_they_are_drawn() {
     assert!(before.lines().nth(1).unwrap().contains("\"cube, \"\"big\"\"\""));
     let (before, after) = (angles(&before), angles(&after));
     let mut shared = 0;
-    // Lines of the contour lie along the outline, which follows the view.
+    // Strokes of the contour are left out: they lie along the outline, which follows the view.
     for (key, angle) in before.iter().filter(|((_, layer), _)| !layer.starts_with("contour")) {
         let Some(turned) = after.get(key) else { continue };
         let off = (turned - (angle - 30.0)).rem_euclid(360.0);

@@ -237,7 +237,7 @@ fn real_pictures_are_worn_or_left_out() {
             std::fs::copy(corpus.join(row("file")), own.join("picture.png")).unwrap();
             pictures.push((row("name"), own.join("case.obj"), row("verdict") == "bad"));
         }
-        assert!(pictures.len() > before, "no picture");
+        assert!(pictures.len() > before, "models.csv lists no picture");
     }
     let files: Vec<PathBuf> = pictures.iter().map(|(_, file, _)| file.clone()).collect();
     for ((name, file, is_bad), checked) in pictures.iter().zip(check(&files)) {

@@ -192,7 +192,7 @@ fn what_is_dragged_is_what_is_seen_in_any_view() {
                     let drag: &dyn Fn(f64) -> DVec2 = if curved { &arc } else { &straight };
                     let events: Vec<DVec2> = (0..25).map(|event| drag(f64::from(event) / 24.0)).collect();
                     let guides = bare.drag(&view, &events);
-                    assert_eq!(guides.len(), 1, "{thing}, {name}: one piece");
+                    assert_eq!(guides.len(), 1, "{thing}, {name}: the drag is not one guide");
                     assert_eq!(guides[0].view.is_none(), name == "reference");
                     let mut combed = scene(direction.clone(), guides);
                     combed.strokes.flatness = Some(flatness);

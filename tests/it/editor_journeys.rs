@@ -125,7 +125,7 @@ fn from_a_mesh_to_a_saved_film() {
     command.args(["render", "my film.ron", "--frames", &frame, "--size", "640x360", "-o", "again.png"]);
     assert!(command.current_dir(folder.path()).status().unwrap().success());
     let [window, again] = [picture, folder.path().join("again.png")].map(|path| std::fs::read(path).unwrap());
-    assert!(window == again, "the window renders what the command line does");
+    assert!(window == again, "the window and the command line render different files");
 
     let scene = read(folder.path(), "my film.ron");
     checked(folder.path(), "my film.ron");
@@ -294,7 +294,7 @@ fn amounts_are_painted() {
         scene.regions.iter_mut().for_each(|region| region.amounts.clear());
         scene
     };
-    assert_eq!(bare(painted), before, "nothing else changed");
+    assert_eq!(bare(painted), before, "something else changed too");
 }
 
 #[test]
@@ -344,5 +344,5 @@ fn touches_are_laid_by_hand() {
     assert!(laid.touches.iter().all(|touch| touch.on == "apple"));
     assert_eq!(erased.touches, std::slice::from_ref(one));
     let bare = |scene: Scene| Scene { touches: Vec::new(), ..scene };
-    assert_eq!(bare(laid), before, "nothing else changed");
+    assert_eq!(bare(laid), before, "something else changed too");
 }

@@ -196,7 +196,7 @@ fn a_typed_move_moves_just_so_far_and_undo_brings_it_back() {
     let mut moved = read(folder.path(), "apple.ron");
     assert_eq!(moved.objects[0].keys[0].translation, [0.5, 0.0, 0.0]);
     moved.objects[0].keys[0].translation = [0.0; 3];
-    assert_eq!(moved, before, "nothing else moved");
+    assert_eq!(moved, before, "more than the translation of the apple has changed");
     editor.keys(&["ctrl+z"]);
     editor.wait_for_title("apple.ron (edited) - Impasto");
     editor.rest_after(shown);

@@ -20,7 +20,7 @@ use crate::warm_prepare::{Version, versions};
 
 const OPTIONS: FrameOptions = FrameOptions::new([320, 240]);
 
-/// A folder in memory.
+/// Kept paintings in memory, by their keys: stands for the folder of `--cache`.
 #[derive(Default)]
 struct Shelf(Mutex<HashMap<KeptKey, Vec<u8>>>);
 
@@ -85,7 +85,7 @@ fn what_is_kept_equals_what_is_prepared_and_every_edit_has_a_key_of_its_own() {
             Kept::NotThere(key) | Kept::Taken(key, _) => *key,
             other => panic!("{name}: {other:?}"),
         };
-        // Nothing kept of an earlier state is taken for this one.
+        // What was kept of an earlier version is taken only for the version `nothing`, whose edit changes nothing.
         assert_eq!(is_taken(&made), *name == "nothing", "{name}");
         assert_eq!(before.is_some_and(|(other, _)| other == key), *name == "nothing", "{name}");
         before = Some((key, name));
@@ -190,7 +190,7 @@ fn a_mesh_a_texture_and_a_brush_that_change_change_the_key() {
     assert_eq!(own, key(&Arc::new(elsewhere)), "where the file lies does not matter");
 }
 
-/// A scene that is prepared quickly, but with every kind of array.
+/// A scene that is prepared quickly, but has every kind of array that is kept.
 fn small(solver: Solver) -> Arc<LoadedScene> {
     let mut scene = shapes::scene(vec![shapes::object("ball", 120)]);
     scene.style = Style::default();
@@ -321,7 +321,7 @@ fn eight_processes_share_one_folder() {
     let words = String::from_utf8_lossy(&mended.stderr);
     assert!(words.lines().count() == 1 && words.contains("made anew"), "{words}");
     assert!(mended.stdout == without && std::fs::read(&file).unwrap() == whole);
-    // The environment names a folder too.
+    // The environment variable can name the folder too.
     assert!(strokes_with(folder.path(), &[], "other").stdout == without);
     assert_eq!(names(&folder.path().join("other")), kept);
 }

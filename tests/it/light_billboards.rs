@@ -107,7 +107,7 @@ fn icons_keep_their_size_in_the_world_or_in_the_picture() {
     };
     let world = [0.0, -8.0].map(|z| width(BillboardSize::World(0.25), z));
     assert!((world[0].0 - 0.5).abs() < 1e-6 && (world[1].0 - 0.5).abs() < 1e-6, "{world:?}");
-    assert!((world[0].1 / world[1].1 - 3.0).abs() < 1e-3, "three times as far: {world:?}");
+    assert!((world[0].1 / world[1].1 - 3.0).abs() < 1e-3, "not a third as wide: {world:?}");
     let pixels = [0.0, -8.0].map(|z| width(BillboardSize::Pixels(16.0), z));
     assert!((pixels[0].1 - 32.0).abs() < 1e-2 && (pixels[1].1 - 32.0).abs() < 1e-2, "{pixels:?}");
 }
@@ -198,7 +198,7 @@ fn icons_come_and_go_without_the_picture_being_drawn_again() {
     osmesa.set_billboards(&lamps);
     assert!(osmesa.render(&frame).unwrap() == over, "EGL and OSMesa differ");
     egl.set_billboards(&[]);
-    assert!(egl.with_other_billboards().unwrap().unwrap() == bare, "they leave nothing behind");
+    assert!(egl.with_other_billboards().unwrap().unwrap() == bare, "icons that were taken away still show");
     assert!(egl.render(&frame).unwrap() == bare);
     // After a picture was given up, there is no picture to draw icons over.
     assert_eq!(egl.render_unless(&frame, &mut || true).unwrap(), None);

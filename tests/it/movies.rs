@@ -153,7 +153,7 @@ fn frames_of_every_kind_of_png_make_a_movie() {
         }
         assert_near(&folder.middles(name, &[]), &colors, name);
         assert_eq!(told(&folder.path(name), "r_frame_rate"), "24/1");
-        assert!(!told(&folder.path(name), "pix_fmt").starts_with("yuva"), "nothing is transparent");
+        assert!(!told(&folder.path(name), "pix_fmt").starts_with("yuva"), "{name} has alpha");
     }
     // Some frames, in another order, one of them twice, at another speed.
     folder.run(&["movie", "f.###.png", "-o", "b.mov", "-f", "3-1x2,-1,3", "--fps", "24000/1001", "-q"]);

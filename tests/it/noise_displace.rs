@@ -148,7 +148,7 @@ fn the_scale_is_the_amplitude() {
     let (small, large) = (of(0.1), of(0.25));
     let worst = small.iter().zip(&large).map(|(a, b)| (*a * 2.5).distance(*b)).fold(0.0, f64::max);
     assert!(worst < 1e-6, "{worst}");
-    assert!(of(0.0).iter().all(|by| *by == DVec3::ZERO), "no scale, no motion");
+    assert!(of(0.0).iter().all(|by| *by == DVec3::ZERO), "vertices move at scale 0");
 }
 
 #[test]
@@ -292,7 +292,7 @@ fn the_shadow_of_a_displaced_body_is_displaced() {
     let on_sheet = (0..320 * 180).filter(|&index| ids[index] == 2 && ids_moved[index] == 2);
     let changed =
         on_sheet.filter(|index| still.rgba8[index * 4].abs_diff(moved.rgba8[index * 4]) > 20).count();
-    assert!(changed > 100, "{changed} pixels of shadow");
+    assert!(changed > 100, "only {changed} pixels of the shadow change");
 }
 
 /// Adds a texture of one grey under this name.

@@ -35,7 +35,7 @@ fn light_in_a_canyon(renderer: &mut Renderer, half_width: f64) -> f64 {
     let painting = prepare(shapes::loaded(scene, meshes)).unwrap();
     let picture = renderer.render(&painting.at(0.0, &FrameOptions::new([SIDE_PX; 2]))).unwrap();
     let middle = SIDE_PX as usize / 2;
-    assert_eq!(renderer.read_reference().body_id[middle * SIDE_PX as usize + middle], 1, "the floor shows");
+    assert_eq!(renderer.read_reference().body_id[middle * SIDE_PX as usize + middle], 1, "no floor shows");
     let grey = Grey::of(&picture);
     (middle - 20..middle + 20).map(|y| grey.at(middle, y)).sum::<f64>() / 40.0
 }

@@ -103,8 +103,8 @@ fn a_palette_keeps_values_and_takes_its_hues_only() {
         (spread, off.fold(0.0f32, f32::max))
     };
     let (spread, off) = hues("[\"#4a6a9a\"]");
-    assert!(spread > 0.3, "one pigment still has values: {spread}");
-    assert!(off < 0.03, "one pigment has one hue: {off}");
+    assert!(spread > 0.3, "with one pigment, lightness must still vary: it varies by {spread}");
+    assert!(off < 0.03, "with one pigment, every colour must have its hue: one is off by {off}");
     let (_, off) = hues("[]");
     assert!(off > 0.08, "the measure must see other hues: {off}");
 }
@@ -300,8 +300,8 @@ fn paint_ends_at_a_crease() {
     let mean = |rows: Range<usize>| rows.clone().map(row).sum::<f64>() / rows.len() as f64;
     let (lit, dark) = (mean(104..116), mean(218..230));
     let share = |rows: Range<usize>| (mean(rows) - dark) / (lit - dark);
-    // Strokes from the other side of the crease, at row 166, would reach both ranges of rows. When they ran on, the
-    // shares were 0.87 and 0.28.
+    // Strokes from the other side of the crease, which is at row 166, would reach both ranges of rows. With strokes
+    // that run on past the crease, the shares were 0.87 and 0.28.
     assert!(share(122..150) > 0.95, "dark strokes run on over the top: {}", share(122..150));
     assert!(share(178..200) < 0.18, "light strokes run on over the front: {}", share(178..200));
 }

@@ -76,7 +76,7 @@ fn points(painting: &Painting, object: usize, frame: f64) -> [Vec3; 5] {
     std::array::from_fn(|point| {
         let mut found = of_vertex.iter().zip(&positions).filter(|(of, _)| **of == point as u32);
         let (_, at) = found.next().expect("a vertex at the point");
-        assert!(found.all(|(_, other)| other == at), "the vertices of a point are together");
+        assert!(found.all(|(_, other)| other == at), "the vertices of a point lie apart");
         *at
     })
 }
@@ -114,7 +114,7 @@ fn points_that_part_have_their_own_gradient() {
     let folder = tempfile::tempdir().expect("a folder");
     let painting = prepared(&scene(folder.path(), &raised(PARTING), &moved("plate", "")));
     let mesh = &painting.surface(0).mesh;
-    assert!(mesh.normals.iter().all(|normal| *normal == Vec3::Z), "the faces look the same way");
+    assert!(mesh.normals.iter().all(|normal| *normal == Vec3::Z), "the faces look different ways");
     // Point 4 has one triangle, with points 1 and 2. They stay while point 4 goes down.
     let below = gradient(&painting, 4, 2.0);
     assert!(below.x_axis.abs_diff_eq(DVec3::new(1.0, 0.0, 1.0), 1e-5), "{below}");
@@ -143,7 +143,7 @@ fn objects_that_share_a_mesh_have_each_their_own_motion() {
         let stands: Vec<bool> = bent.iter().map(Option::is_some).collect();
         assert_eq!(stands, [true, true, false, true], "frame {frame}");
     }
-    assert!(Arc::ptr_eq(painting.surface(0), painting.surface(1)), "twins share their surface");
+    assert!(Arc::ptr_eq(painting.surface(0), painting.surface(1)), "twins do not share their surface");
 }
 
 #[test]
@@ -165,7 +165,7 @@ fn a_rest_frame_is_the_shape_in_which_strokes_are_laid() {
     }
     let down = gradient(&painting, 3, 0.0);
     let step = down * DVec3::new(1.0, 0.0, -0.5);
-    assert!(step.abs_diff_eq(DVec3::X, 1e-5), "a step along the slope at rest is level at frame 0: {step}");
+    assert!(step.abs_diff_eq(DVec3::X, 1e-5), "a step along the slope is not level at frame 0: {step}");
 }
 
 #[test]

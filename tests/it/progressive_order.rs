@@ -7,7 +7,7 @@ use impasto_core::sampling::{Particle, Surface, hexagonal_spacing, progressive};
 use impasto_tests::shapes::{cube, sheet, sphere};
 
 /// Mean and 1st percentile of a particle's distance to its nearest neighbour on the same side, as shares of the spacing
-/// of a hexagonal lattice. It compares a few hundred particles with all others, so that it shares no code with the
+/// of a hexagonal lattice. A few hundred particles are compared with all others, so that no code is shared with the
 /// sampler.
 fn spacing(particles: &[Particle], area: f64) -> (f64, f64) {
     let stride = (particles.len() / 700).max(1);
@@ -82,7 +82,7 @@ fn particles_lie_on_the_surface_and_fill_it_evenly() {
         let [a, b, c] = mesh.corners(particle.triangle as usize);
         let expected = a * (1.0 - v - w) + b * v + c * w;
         assert!((expected - particle.position).length() < 1e-6);
-        assert!((particle.normal - particle.position.normalize()).length() < 0.02, "smooth, outward normals");
+        assert!((particle.normal - particle.position.normalize()).length() < 0.02, "a flat or inward normal");
         let sign = particle.position.cmpgt(Vec3::ZERO).bitmask();
         octants[sign as usize] += 1;
     }

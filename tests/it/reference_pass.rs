@@ -47,7 +47,7 @@ fn the_back_of_a_sheet_is_lit_as_its_front() {
     for across in [0.0, 0.7] {
         let front = middle(1.0, [across, 0.0, -1.0]);
         let back = middle(-1.0, [-across, 0.0, 1.0]);
-        assert!(front > 80.0, "the front is lit: {front}");
+        assert!(front > 80.0, "the front is not lit: {front}");
         assert!((front - back).abs() < 1.0, "the front is {front}, the back {back}");
         // Light on the far side does not shine through.
         for (side, sunshine) in [(1.0, [across, 0.0, 1.0]), (-1.0, [across, 0.0, -1.0])] {

@@ -245,7 +245,7 @@ fn strokes_can_be_kept_from_turning_and_turned_by_chance() {
             a.iter().filter_map(|(key, angle)| Some(degrees_apart(*angle, *b.get(key)?))).collect()
         };
     let still = apart(&at(0.0, Rotation::Off), &at(1.0, Rotation::Off));
-    assert!(still.len() > 500 && still.iter().all(|&off| off == 0.0), "unturned: {} strokes", still.len());
+    assert!(still.len() > 500 && still.iter().all(|&off| off == 0.0), "{} strokes, some turn", still.len());
     // In the reference pose nothing turns where the reference sees the surface well.
     let unturned = apart(&at(0.0, Rotation::Off), &at(0.0, Rotation::On));
     let same = unturned.iter().filter(|&&off| off < 1e-3).count();
@@ -253,7 +253,7 @@ fn strokes_can_be_kept_from_turning_and_turned_by_chance() {
     let turned = apart(&at(1.0, Rotation::Off), &at(1.0, Rotation::On));
     assert!(
         turned.iter().filter(|&&off| off > 20.0).count() * 2 > turned.len(),
-        "the camera has rolled by 30 degrees"
+        "most strokes must turn by over 20 degrees when the camera rolls by 30"
     );
     let random = apart(&at(0.0, Rotation::Random), &at(1.0, Rotation::Random));
     let mean = random.iter().sum::<f64>() / random.len() as f64;

@@ -150,7 +150,7 @@ fn a_stroke_goes_out_from_its_ends_and_below_a_quarter_as_a_whole() {
         }
         before = paint;
     }
-    // It is shorter, and in one piece.
+    // A stroke of presence 0.4 is shorter, and in one piece.
     let painted =
         |columns: &[f64]| -> Vec<usize> { (0..200).filter(|&x| columns[x] - empty[x] > 300.0).collect() };
     let half = painted(&columns(0.4).0);
@@ -159,7 +159,7 @@ fn a_stroke_goes_out_from_its_ends_and_below_a_quarter_as_a_whole() {
     assert!(half.windows(2).all(|pair| pair[1] == pair[0] + 1), "islands at {half:?}");
 }
 
-/// Two bodies of one flat colour each, side by side and over each other.
+/// Two bodies of one flat colour each, side by side, the right one partly in front of the left one.
 fn two_bodies() -> Scene {
     let mut left = shapes::object("left", 8000);
     left.material = unlit([1.0, 0.0, 0.0]);

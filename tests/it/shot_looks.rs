@@ -108,7 +108,7 @@ fn the_world_lights_and_shows_as_its_sidecar_tells() {
         let shown = linear(lit.scene.background.0[channel]);
         assert!((shown - world[channel]).abs() < 0.005, "{channel}: {shown}");
     }
-    assert!((light(&lit)[0] - sun).abs() < 1e-3, "the sun is what it was");
+    assert!((light(&lit)[0] - sun).abs() < 1e-3, "the world has changed the sun");
     // With a black world, only the light that surfaces give each other is left. A very bright world dims the sun.
     let [_, dark, sky] = light(&with_world([0.0; 3]));
     assert!((dark / sun - 0.11 * linear_peak()).abs() < 1e-3 && sky == 0.0, "{dark} {sky}");
@@ -345,7 +345,7 @@ fn one_animation_of_several_plays_and_what_hides_is_hidden() {
     let path = home.path().join("card.glb");
     write_card(&path, "OPAQUE", 10497);
     let of_both: f64 = painted(&path, &[], 24.0).iter().sum();
-    assert!(of_both < 0.05, "hidden for a second: {of_both}");
+    assert!(of_both < 0.05, "the card shows in the second in which it is hidden: {of_both}");
     let scene = home.path().join("s.ron");
     let text = |animation: &str| {
         format!(

@@ -169,7 +169,7 @@ impl Asking {
     fn hear(&mut self, events: &[&str]) -> Value {
         loop {
             let mut line = String::new();
-            assert!(self.1.read_line(&mut line).unwrap() > 0, "it has ended");
+            assert!(self.1.read_line(&mut line).unwrap() > 0, "impasto serve has ended");
             let value: Value = serde_json::from_str(&line).unwrap();
             if events.contains(&value["event"].as_str().unwrap()) {
                 return value;

@@ -432,7 +432,7 @@ fn paper_that_follows_the_camera_moves_with_what_it_looks_at() {
             .sum();
         f64::from(sum) / (180.0 * 250.0)
     };
-    assert!(off(32) < 0.6, "the paper has slid by as much: {}", off(32));
+    assert!(off(32) < 0.6, "the paper did not slide by 32 pixels, as the camera did: off by {}", off(32));
     assert!(off(0) > 2.0, "the measure must see a slide: {}", off(0));
     assert!(after_slide(CanvasFollows::Picture, x) == after_slide(CanvasFollows::Picture, 0.0));
 }

@@ -81,7 +81,7 @@ fn a_straight_touch_on_a_plane_lies_where_its_points_are_from_any_view() {
                 let wanted = shown(&view, from.lerp(to, step as f64 / (found.len() - 1) as f64));
                 assert!(at.distance(wanted) < 0.01, "{eye:?} at {roll_deg}°, {step}: {at}, not {wanted}");
             }
-            // Its width is that of the picture, whatever the view.
+            // The width in pixels is the same in every view: that which a new touch states.
             let stroke = frame.strokes.last().unwrap();
             assert_eq!(stroke.width_px, 14.0);
             let strip = frame.lines.strips[0];
@@ -102,7 +102,7 @@ fn a_touch_turns_with_its_object_and_is_gone_where_that_faces_away() {
         let view = camera([0.0, 0.0, 4.0], [0.0; 3]);
         let found = middle(&seen(&painting, &view));
         if turn_deg > 90.0 {
-            assert!(found.is_empty(), "it lies on the other side of the sheet");
+            assert!(found.is_empty(), "a touch on the far side of the sheet is shown");
             continue;
         }
         let before = middle(&seen(&still, &view));
@@ -180,7 +180,7 @@ fn touches_hold_on_a_mesh_that_was_exported_again_and_change_no_other_stroke() {
         (last.kind, last.count as usize),
         (LayerKind::Touches, with.strokes.len() - without.strokes.len())
     );
-    // Another touch before it in the list does not change it.
+    // A touch stays the same if another one comes before it in the list.
     let more = vec![Touch { name: "other".to_owned(), ..on_plane(&[[0.0, 0.0]]) }, touch()];
     let two = seen(&painted(scene(more), shapes::sheet(9)), &view);
     assert_eq!(two.strokes.last(), with.strokes.last());
@@ -282,7 +282,7 @@ fn a_touch_goes_behind_its_own_body_and_its_paint_lies_on_top() {
     let strips = frame.lines.strips.len();
     assert!(strips >= 1 && frame.lines.vertices.iter().all(|v| v.at_px.iter().all(|at| at.is_finite())));
     let on_front = shown(&view, DVec3::new(-0.3, 0.2, (1.0f64 - 0.13).sqrt()));
-    assert!(redness(&picture, on_front) > 60, "it is not seen on the front");
+    assert!(redness(&picture, on_front) > 60, "the touch is not seen on the front");
     // A place of the front that has no touch.
     let behind = shown(&view, DVec3::new(0.5, -0.3, 0.8));
     assert!(redness(&picture, behind) < 30);

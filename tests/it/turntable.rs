@@ -39,7 +39,7 @@ fn objects_keep_pose_scale_and_morph_of_the_reference() {
     }
     let camera = motion::camera_at(&turned, 6.0);
     assert!(camera.eye.abs_diff_eq(motion::camera_at(&loaded.scene, 6.0).eye, 1e-9));
-    assert!(motion::camera_at(&turned, 186.0).eye.z < -4.0, "half a turn later it looks from behind");
+    assert!(motion::camera_at(&turned, 186.0).eye.z < -4.0, "half a turn later it is not behind the object");
 }
 
 /// The parade has joints, shape keys and a point cache.
@@ -56,6 +56,6 @@ fn bodies_that_bend_stay_in_the_shape_of_the_reference() {
         }
     }
     let parted = motion::bends_at(&loaded.scene, 0.0) != motion::bends_at(&loaded.scene, 13.0);
-    assert!(parted, "the parade moves");
+    assert!(parted, "the parade does not move, so that this test shows nothing");
     let _ = prepare(Arc::new(turned)).expect("it is a good scene");
 }

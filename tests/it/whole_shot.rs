@@ -1,5 +1,6 @@
-//! Tests of steadiness over a whole shot: chatter, steps and flicker are measured, boil and keys keep their limits, and
-//! paint covers pixels in part.
+//! Tests of steadiness from frame to frame: measures of chatter, steps and flicker see what is made to flash or blink;
+//! strokes that turn beat fixed angles; boil lets no stroke come or go, and keys let none pop; light, background and
+//! palette follow their keys; and paint covers a pixel as far as its body does.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -170,7 +171,7 @@ fn boil_lays_strokes_anew_on_twos_and_lets_none_come_or_go() {
     }
     assert!(moved > 400 && first.len().abs_diff(unmoved.len()) < unmoved.len() / 20, "{moved}");
     assert!(most_px > 0.02 && most_px < 0.5, "{most_px}");
-    // Measures turn boil off.
+    // A scene that is prepared to be measured has no boil.
     let measured = painted(
         &ball(|scene| {
             scene.objects[0].keys.clear();

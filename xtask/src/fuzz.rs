@@ -59,7 +59,7 @@ const TARGETS: [Target; 9] = [
 /// Runs the named targets, or all, for so many minutes each.
 ///
 /// # Errors
-/// A target that does not exist, a step that failed, or an input that a target fell over; then its file is named.
+/// A target that does not exist, a step that failed, or inputs on which a target failed, with their folder.
 pub fn run(root: &Path, own: &[String]) -> anyhow::Result<()> {
     let (mut minutes, mut names) = (MINUTES, Vec::new());
     let mut words = own.iter();

@@ -45,8 +45,8 @@ pub fn run(root: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Every use of one crate by another that the rules do not allow, and every row of the layers table that is missing or
-/// too many, each as a sentence.
+/// Every use of one crate by another that the rules do not allow, and every row that the layers table lacks or has for
+/// no crate of ours, each as a sentence.
 fn findings(graph: &Graph, rules: &Rules) -> Vec<String> {
     let mut findings = Vec::new();
     for name in graph.ours() {

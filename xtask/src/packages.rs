@@ -95,7 +95,7 @@ pub const PACKAGING: &[Need] = &[
 /// What the tests of movies need.
 const MOVIE_TESTS: &[Need] = &[program_of("ffmpeg", &["ffmpeg"])];
 
-/// Models of others, for the tests of readers.
+/// Models that others made, for the tests that read mesh files.
 const MODELS: &[Need] = &[Need {
     what: "the models of assimp",
     package: "assimp-testmodels",
@@ -272,7 +272,7 @@ mod tests {
         let names = |packages: bool| -> Vec<&str> {
             wanted(vec![&OSMESA, &EGL], |_| packages).iter().map(|need| need.package).collect()
         };
-        assert_eq!(names(false), ["libegl1"], "also where there is no apt");
+        assert_eq!(names(false), ["libegl1"], "only the retired package is left out");
         assert_eq!(names(true), ["libegl1", "libosmesa6"]);
         assert!(wanted(vec![&OSMESA], |_| false).is_empty());
     }

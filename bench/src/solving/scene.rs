@@ -144,12 +144,13 @@ impl SolveScene {
         (0..self.positions.len()).into_par_iter().map(one).collect()
     }
 
-    /// The sum with the weights w = z_neighbour / z_stroke, which ours equals in closed form.
+    /// The angles of the sum with the weights w = z_neighbour / z_stroke. Our solve gives the same angles in closed
+    /// form.
     pub fn weighted(&self) -> Vec<f32> {
         self.angles(|_, pairs| turn_of(pairs.iter().map(|&(p, c, weight)| (p, c * weight))))
     }
 
-    /// The sum with p and c measured from their means over the neighbours.
+    /// The angles of the sum with p and c measured from their means over the neighbours.
     pub fn centred(&self) -> Vec<f32> {
         self.angles(|_, pairs| {
             let count = pairs.len() as f64;
@@ -159,8 +160,8 @@ impl SolveScene {
         })
     }
 
-    /// Checks for a sample of particles that the gather's angles equal those of the paper's formula with matrices, in
-    /// double precision.
+    /// Checks for a sample of particles that the given angles, computed by `gather.rs`, equal those of the paper's
+    /// formula with matrices, in double precision.
     pub fn check_by_matrices(&self, angles_rad: &[f32]) -> anyhow::Result<()> {
         let clip = |map: &ScreenMap| ClipView {
             // The rows give pixels from the centre, which in a picture of 2 × 2 pixels are clip coordinates.

@@ -1,4 +1,5 @@
-// One sample of the brush times the stroke's colour, into both targets.
+// The fragment shader of the bare draw that our stroke pass is timed beside: writes one sample of the brush, times the
+// stroke's colour, to both targets.
 in vec2 mark_at;
 flat in vec4 color;
 flat in vec2 mark;

@@ -1,4 +1,4 @@
-// Four corners of a stroke, and nothing else: what any painter of billboards has to do.
+// Places the four corners of a stroke, and does nothing else: the least that drawing billboards takes, to compare with.
 layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
 layout(location = 1) in vec4 size;           // length and width in px, unused
 layout(location = 2) in uvec4 marks;         // unused, mark
@@ -8,7 +8,7 @@ uniform vec2 size_px;
 uniform float mark_rows;
 out vec2 mark_at;
 flat out vec4 color;
-flat out vec2 mark;                          // its number, level of detail
+flat out vec2 mark;                          // number of the mark, level of detail
 const float MARGIN = 1.0 / 0.84;
 void main() {
     if (resolved.a <= 0.004) {

@@ -1,4 +1,5 @@
-//! What a picture knows beside its colour, as channels of a file: data of the scene, data of the paint, layers, mattes.
+//! Reads a drawn picture as channels of an EXR file: its colour and its AOVs, which are data of the scene, data of the
+//! paint, layers and mattes.
 //!
 //! ```text
 //! a renderer's last picture ─▶ of_scene: depth, normals, motion, light   (any style)

@@ -1,4 +1,4 @@
-//! Data of the scene: depth, normals, places, motion, light, numbers of objects.
+//! The AOVs of the scene's surfaces: depth, normals, positions, motion, light, and which object a pixel shows.
 
 use glam::{Mat4, Vec3, Vec4};
 use half::f16;
@@ -129,7 +129,7 @@ fn places(frame: &Frame, depth: &[f32]) -> Vec<[f32; 3]> {
     places
 }
 
-/// The place in view space at a depth along the gaze, on the ray through a place of the picture.
+/// The point in view space at this depth along the gaze, on the ray through the point `[x, y]` of the picture, −1..1.
 fn at_depth(view_from_clip: &Mat4, [x, y]: [f32; 2], depth: f32) -> Vec3 {
     let on_plane = |z: f32| {
         let place: Vec4 = *view_from_clip * Vec4::new(x, y, z, 1.0);

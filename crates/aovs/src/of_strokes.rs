@@ -13,7 +13,7 @@ use crate::cryptomatte::id_bits;
 use crate::drawn::{Drawn, Found};
 use crate::planes::in_steps;
 
-/// The share that a layer shows is rounded to a multiple of this.
+/// The share of a pixel in which a layer shows is rounded to a multiple of this.
 const ALPHA_STEP: f32 = 1.0 / 512.0;
 
 pub(crate) fn add(

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-/// How many pixels one task finds.
+/// How many pixels one task handles.
 const RUN: usize = 4096;
 
 /// `count` planes; `find` sets the values of a pixel, which are 0 before.
@@ -39,7 +39,7 @@ pub(crate) fn in_steps(value: f32, step: f32) -> f32 {
     (value / step).round() * step
 }
 
-/// Rounds to 17 significant bits: less than one part in 100,000.
+/// Rounds to 17 significant bits; the error is less than one part in 100,000.
 pub(crate) fn short(value: f32) -> f32 {
     const DROPPED: u32 = 7;
     let bits = value.to_bits();

@@ -33,9 +33,9 @@ pub(crate) enum Failure {
     NoWindow(String),
     /// Some frames failed; the others are written.
     SomeFrames { failed: u64, done: u64 },
-    /// A frame could not be written, in words, after so many were.
+    /// A frame could not be written, for the reason in `words`, after `done` frames were written.
     NotWritten { words: String, done: u64 },
-    /// A signal came after so many frames were written.
+    /// A signal came after `done` frames were written.
     Interrupted { done: u64 },
 }
 

@@ -111,7 +111,7 @@ fn job(arguments: &FarmArguments) -> Result<Job, Failure> {
             return Err(Failure::Usage(words.to_owned()));
         }
     }
-    // One frame gets a number too: chunks of one frame are usual here.
+    // The file of a single frame has a number in its name too: on a farm it is usually one of many.
     let pattern = Pattern::parse(&arguments.output, list.count().max(2));
     let text = |path: &Path| {
         let words = || Failure::Usage(format!("{}: the name is not UTF-8", path.display()));
@@ -146,7 +146,8 @@ fn tell_frames_beyond(list: &FrameList, first: i64, last: i64) {
     }
 }
 
-/// Refuses further arguments that `impasto render` would refuse, so that they fail here and not on a hundred machines.
+/// Refuses arguments after `--` that `impasto render` would refuse, so that they fail here and not on a hundred
+/// machines.
 fn check_further(arguments: &FarmArguments) -> Result<(), Failure> {
     let own = ["impasto", "render", "-o", &arguments.output, "--"].map(OsString::from);
     let [program, command, flag, output, end] = own;

@@ -47,7 +47,7 @@ mod tests {
         for wanted in ["impasto.1", "impasto-render.1", "impasto-doctor.1", "impasto-completions.1"] {
             assert!(names.contains(&wanted), "{wanted} in {names:?}");
         }
-        assert!(!names.contains(&"impasto-man.1"), "it is hidden");
+        assert!(!names.contains(&"impasto-man.1"), "the hidden command man has a page");
         let (_, render) = pages.iter().find(|(name, _)| name == "impasto-render.1").unwrap();
         let render = String::from_utf8_lossy(render);
         assert!(render.contains("impasto render") && render.contains("skip\\-existing"), "{render}");

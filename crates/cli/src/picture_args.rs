@@ -1,4 +1,4 @@
-//! The options of a picture as a file: how deep it is, how bright it is shown, and what goes beside the colour.
+//! The command line options for picture files: bits per channel, exposure, and the data that goes beside the colour.
 
 use std::fmt::Write as _;
 

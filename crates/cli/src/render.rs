@@ -266,7 +266,7 @@ impl Plan {
                             foreign.push(path);
                         }
                     }
-                    // A folder that is full or away takes no further frame either.
+                    // This ends the command: a folder that is full or gone would take no further frame either.
                     FileOutcome::Failed(FrameError::Write(error)) => {
                         let words = format!("frame {frame_number}: {}: {error}", path.display());
                         return Err(Failure::NotWritten { words, done });

@@ -110,7 +110,8 @@ impl Server<'_> {
         let loaded = session::read_scene(of_scene, true)?;
         let inputs = loaded.inputs();
         // The stamp of the scene file is from before it was read, so that a change during reading shows the next time.
-        // The other files are known only now. They are expected to be replaced as a whole.
+        // The other files are known only now, after reading, so a change of one during reading goes unnoticed. Each is
+        // expected to be replaced as a whole.
         let mut stamps: Vec<Stamp> = inputs.iter().map(|path| stamp_of(path)).collect();
         if let Some(first) = stamps.first_mut() {
             *first = begun;
@@ -199,7 +200,7 @@ impl Server<'_> {
                 }
             };
             tell(&line)?;
-            // The program that asked removes each file once it has read it. Waits, so that not too many lie about.
+            // The program that asked removes each file once it has read it. This waits for it if many files are left.
             current.wait_until_taken(out, order.ahead);
             Ok::<(), Failure>(())
         })

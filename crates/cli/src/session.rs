@@ -52,7 +52,7 @@ pub(crate) fn read_scene(arguments: &SceneArguments, quiet: bool) -> Result<Load
 /// A scene that was prepared.
 pub(crate) struct Prepared {
     pub(crate) painting: Painting,
-    /// Stores it in the cache on another thread. Dropping this waits until that is done.
+    /// Stores the painting in the cache on another thread. Dropping this waits until it is stored.
     pub(crate) storing: Storing,
 }
 

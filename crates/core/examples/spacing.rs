@@ -12,8 +12,8 @@ use impasto_core::sampling::{Particle, Surface, hexagonal_spacing, progressive};
 /// Shares of the count. Some are uneven (0.11, 0.37, 0.71), so that no level of the order ends there.
 const BEGINNINGS: [f64; 7] = [0.02, 0.11, 0.25, 0.37, 0.5, 0.71, 1.0];
 
-/// The mean distance to the nearest neighbour, and the distance below which one particle in a thousand is, both over
-/// the spacing of the hexagonal lattice.
+/// Mean of the particles' distances to their nearest neighbours, and the distance that only one particle in a thousand
+/// falls below. Both are divided by the spacing of the hexagonal lattice.
 fn spacing(particles: &[Particle], area: f64) -> [f64; 2] {
     let hexagonal = hexagonal_spacing(area, particles.len());
     let (positions, normals): (Vec<Vec3>, Vec<Vec3>) =

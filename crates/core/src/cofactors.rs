@@ -29,7 +29,7 @@ mod tests {
         let expected = matrix.inverse().transpose() * matrix.determinant();
         assert!(cofactors(matrix).abs_diff_eq(expected, 1e-12));
         assert!(cofactors_f32(matrix.as_mat3()).abs_diff_eq(expected.as_mat3(), 1e-6));
-        // A matrix that flattens leaves the normal of the plane.
+        // The cofactors of a matrix that flattens space onto a plane still give the normal of that plane.
         let flat = DMat3::from_cols(matrix.x_axis, matrix.y_axis, DVec3::ZERO);
         assert_eq!(cofactors(flat) * DVec3::Z, matrix.x_axis.cross(matrix.y_axis));
     }

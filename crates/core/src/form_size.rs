@@ -17,7 +17,8 @@ const LEAST_COSINE: f32 = 0.906;
 /// same way.
 const MOST_RISE: f32 = 0.22;
 
-/// The form ends at the radius at which it fills only this share of the disc; a right-angled corner of a plane fills 0.25.
+/// The form ends at the radius at which it fills only this share of the disc with that radius; a right-angled corner of
+/// a plane fills 0.25.
 const LEAST_SHARE: f32 = 0.2;
 
 /// The first radius that is looked at, in spacings of the samples: within a smaller one there are too few samples.
@@ -198,7 +199,7 @@ fn size_ln_from(beyond: &[f32], first_radius: f32, density: f32) -> f32 {
             counts[step] += 1;
         }
     }
-    // ln of the radius, and ln of the area covered there over a fifth of the disc.
+    // For the last radius: its ln, and the ln of the ratio of the area covered to a fifth of the disc.
     let mut last: Option<[f32; 2]> = None;
     let mut covered = 0;
     for (step, count) in counts.iter().enumerate() {
@@ -207,8 +208,8 @@ fn size_ln_from(beyond: &[f32], first_radius: f32, density: f32) -> f32 {
         let fill_ln = (covered as f32 / (density * LEAST_SHARE * std::f32::consts::PI * radius_sq)).ln();
         let radius_ln = 0.5 * radius_sq.ln();
         if fill_ln < 0.0 {
-            // Interpolated between the last radius and this one; below the first, the radius of the disc of which the
-            // samples found cover a fifth.
+            // Interpolated between the last radius and this one. If even the first one is too large: the radius of the
+            // disc of which the samples found cover a fifth.
             let [last_radius_ln, last_fill_ln] = last.unwrap_or([radius_ln + 0.5 * fill_ln, 0.0]);
             let part = if last.is_some() { last_fill_ln / (last_fill_ln - fill_ln) } else { 0.0 };
             return last_radius_ln + part * (radius_ln - last_radius_ln);

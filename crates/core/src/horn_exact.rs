@@ -22,8 +22,9 @@ impl ClipView {
 }
 
 /// The angle by which a stroke turns from the reference to this frame, radians: `arg Σ p̄ c` over its neighbours. As
-/// complex numbers, p and c are a neighbour's offset from the stroke in the reference picture and in this frame. Each point is
-/// given where it is in the reference and where it is now, model space. 0 when there are no neighbours or the sum is not finite.
+/// complex numbers, p and c are a neighbour's offset from the stroke in the reference picture and in this frame. Each
+/// point is given as a pair: where it is in the reference, and where it is now, model space. 0 when there are no
+/// neighbours or the sum is not finite.
 pub fn turn_rad(
     center: [DVec3; 2],
     neighbours: impl Iterator<Item = [DVec3; 2]>,
@@ -73,7 +74,8 @@ mod tests {
         assert_eq!(turn_rad([then, now], std::iter::empty(), &VIEW, &VIEW), 0.0);
     }
 
-    /// One neighbour goes from the right to above, and a nearer one stays: the longer offsets count more, as the square of their length.
+    /// One neighbour goes from the right to above, and a nearer one stays: the longer offsets count more, as the square
+    /// of their length.
     #[test]
     fn neighbours_count_by_their_offsets() {
         let neighbours = [[DVec3::X, DVec3::Y], [DVec3::X * 0.5, DVec3::X * 0.5]];

@@ -6,8 +6,8 @@ use glam::{DVec3, Vec3};
 use crate::hash;
 use crate::wide::{Wide, widest};
 
-/// Two octaves of value noise at each point, with mean 0 and a standard deviation of about 1. The first octave has one lattice cell
-/// per unit, the second about two. `noise` must be as long as `at`.
+/// Two octaves of value noise at each point, with mean 0 and a standard deviation of about 1. The first octave has one
+/// lattice cell per unit, the second about two. `noise` must be as long as `at`.
 pub fn slow(seed: u32, at: &[DVec3], noise: &mut [f32]) {
     widest(Slow { seed, at, noise });
 }

@@ -4,8 +4,8 @@
 //! position ─▶ lookup: S·v·NV + (t, t) ─▶ tile: N, repeated ─▶ v + (saturate(N) − ½)·NS
 //! ```
 //!
-//! v is the vertex, S its pose (where the noise stands still in the world), NV the textures per unit, t how far the
-//! noise has travelled, N the noise, and NS the scale of the displacement.
+//! v is the vertex, S its pose if the noise stands still in the world (else the identity), NV the textures per unit, t
+//! how far the noise has travelled, N the noise, and NS the scale of the displacement.
 
 mod built_in;
 mod tile;

@@ -23,9 +23,9 @@ pub struct ScreenMap {
 /// The linear part of a pose that does not scale all directions alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UnevenPose {
-    /// What it does to steps.
+    /// What the pose does to steps on the surface.
     pub world_from_model: DMat3,
-    /// What it does to normals, except to their length.
+    /// What the pose does to normals, except to their length.
     pub world_from_normal: DMat3,
 }
 

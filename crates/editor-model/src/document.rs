@@ -327,7 +327,7 @@ impl Document {
         self.file.as_deref()
     }
 
-    /// Its name in the title bar: *still_life.ron*, *Untitled*.
+    /// The document's name in the title bar: *still_life.ron*, *Untitled*.
     pub fn name(&self) -> String {
         let file = self.file.as_ref().and_then(|file| file.file_name());
         file.map_or_else(|| "Untitled".to_owned(), |name| name.to_string_lossy().into_owned())

@@ -29,7 +29,7 @@ const RING_PIECES: usize = 64;
 pub struct Handle {
     /// What a drag of it is constrained to.
     pub constraint: Constraint,
-    /// What it does.
+    /// What a drag of it does to the object.
     pub operation: Operation,
     /// How it is drawn.
     pub shape: HandleShape,
@@ -62,7 +62,7 @@ pub enum HandleShape {
     },
     /// The dot in the middle.
     Centre {
-        /// Where.
+        /// Where its middle is.
         at_px: DVec2,
     },
 }

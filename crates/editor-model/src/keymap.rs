@@ -1,5 +1,6 @@
 //! The keymap: what each key does, in two presets (Blender's keys and Maya's). `Editor::key` decides which scope holds.
-//! A modal tool takes every key; in the other scopes, keys without a binding of their own do what they do everywhere.
+//! A modal tool takes every key. In the other scopes, keys without a binding there do what they do everywhere; while
+//! text is typed, only keys that text fields have no use for.
 
 mod own;
 mod table;
@@ -413,7 +414,7 @@ pub enum Button {
     Left,
     /// The wheel's own button.
     Middle,
-    /// The other button.
+    /// The secondary button.
     Right,
     /// Turns of the wheel.
     Wheel,

@@ -35,16 +35,16 @@ pub struct Hit {
     pub triangle: u32,
     /// Weights of the triangle's three corners, sum 1.
     pub barycentric: [f64; 3],
-    /// Where on the surface at rest, in the object's own space.
+    /// The point of the surface at rest, in the object's own space.
     pub position_in_model: DVec3,
     /// Smooth normal of the painted side, unit. A sheet is painted on both sides: there, the normal of the side that
     /// was met.
     pub normal_in_model: DVec3,
     /// Normal of the flat triangle on the same side, unit.
     pub face_normal_in_model: DVec3,
-    /// Where, in world space.
+    /// The same point as it is now, in world space.
     pub position_in_world: DVec3,
-    /// From the ray's origin, world units.
+    /// Distance from the ray's origin, world units.
     pub distance: f64,
     /// Whether the painted side was met: false inside a closed surface.
     pub front: bool,
@@ -63,7 +63,7 @@ impl Picker {
             .iter()
             .enumerate()
             .map(|(index, (surface, shape))| {
-                // The same index is tried first. Then all are, because an added or removed object shifts the others.
+                // The tree of the same index is tried first, then all: an added or removed object shifts the others.
                 let all = kept.get(index).into_iter().chain(&kept).chain(&offered);
                 let known = all.into_iter().find(|tree| tree.is_of(surface, shape));
                 known.map_or_else(

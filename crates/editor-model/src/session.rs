@@ -252,7 +252,7 @@ pub struct Session {
     pub lock_to_view: bool,
     /// Whether the lanes of keys are open: in Animate, and in the other modes.
     pub lanes: [bool; 2],
-    /// Whether a pen that tells its pressure was seen.
+    /// Whether a pen that reports its pressure was seen.
     pub has_pen: bool,
 }
 

@@ -49,7 +49,7 @@ pub struct Surroundings<'a> {
     pub view: &'a View,
     /// The objects' `world_from_model` at the frame that is shown.
     pub poses: &'a [DAffine3],
-    /// That frame.
+    /// The frame that is shown.
     pub frame: f64,
     /// The objects' surfaces.
     pub picker: &'a Picker,
@@ -101,7 +101,7 @@ pub enum ToolEvent {
         at_px: DVec2,
         /// When.
         at_secs: f64,
-        /// With what held.
+        /// Which modifier keys are held.
         held: Modifiers,
         /// How hard a pen presses, 0..=1; 1 without a pen.
         pressure: f64,
@@ -112,7 +112,7 @@ pub enum ToolEvent {
         at_px: DVec2,
         /// When.
         at_secs: f64,
-        /// With what held.
+        /// Which modifier keys are held.
         held: Modifiers,
         /// How hard a pen presses, 0..=1; 1 without a pen.
         pressure: f64,
@@ -155,7 +155,7 @@ pub struct ToolOutput {
     pub comb_preview: Option<CombPreview>,
     /// The line of a curve that is being drawn, or that the pointer is on.
     pub line_px: Vec<DVec2>,
-    /// Handles of that line.
+    /// Handles of the line in `line_px`.
     pub handles_px: Vec<DVec2>,
     /// The label beside the ring once the pointer rests: *10°  trust 0.97*.
     pub label: Option<String>,
@@ -170,7 +170,7 @@ pub(crate) struct Paintable {
     pub(crate) target: RegionTarget,
     /// Name of the region, or of the object for a new one.
     pub(crate) name: String,
-    /// The object's name, where the region covers more than one.
+    /// The object's name, where the region may cover other objects too.
     pub(crate) object_name: Option<String>,
 }
 

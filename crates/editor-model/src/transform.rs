@@ -55,7 +55,7 @@ pub enum TransformDelta {
     Move(DVec3),
     /// A turn about an axis of its space, counter-clockwise as seen from the tip of the axis.
     Turn {
-        /// Unit.
+        /// The axis, a unit vector.
         axis: DVec3,
         /// Radians.
         angle_rad: f64,
@@ -71,7 +71,7 @@ pub enum TransformEvent {
     Move {
         /// Where it is now, pixels.
         at_px: DVec2,
-        /// In steps while Ctrl is held.
+        /// Whether values go in steps, as they do while Ctrl is held.
         snap: Snap,
     },
     /// X, Y or Z.
@@ -84,7 +84,7 @@ pub enum TransformEvent {
     Backspace,
     /// Keeps the result: Enter, a press or, if a handle of the gizmo is dragged, its release.
     Keep,
-    /// Esc, a right press, or the loss of the window's focus cancels it.
+    /// Cancels the transform: Esc, a right press, or the loss of the window's focus.
     Back,
 }
 
@@ -120,7 +120,7 @@ pub struct Transforming {
     first_space: Axes,
     typed: Typed,
     view: View,
-    /// The object's pose when it began.
+    /// The object's pose when the transform began.
     world_from_model: DAffine3,
     from_px: DVec2,
     /// Where the pointer was last, pixels.
@@ -149,7 +149,7 @@ pub struct TransformStart {
     pub view: View,
     /// The pointer, pixels.
     pub at_px: DVec2,
-    /// The space of the axes that the options name.
+    /// The space of the axes, as the options state it.
     pub space: Axes,
 }
 
@@ -361,8 +361,8 @@ impl Transforming {
         if self.snap == Snap::Steps { (by / STEP).round() * STEP } else { by }
     }
 
-    /// How far along an axis, from the pivot, the point of the axis lies that shows nearest to a pixel. 0 if the axis
-    /// points at the eye, or the pivot does not show.
+    /// Of all points of an axis through the pivot, finds the one that shows nearest to a pixel; returns how far it lies
+    /// from the pivot. 0 if the axis points at the eye, or the pivot does not show.
     fn along_axis(&self, at_px: DVec2, along: DVec3) -> f64 {
         let [jx, jy] = self.view.map(DAffine3::IDENTITY).jacobian(self.pivot());
         let shown = DVec2::new(jx.dot(along), -jy.dot(along));

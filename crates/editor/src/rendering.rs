@@ -95,7 +95,7 @@ impl Rendering {
         &self.plan
     }
 
-    /// Its progress.
+    /// The progress of the rendering.
     pub fn progress(&self) -> RenderProgress {
         let mut progress = self.shared.board().progress.clone();
         if progress.outcome.is_none() {
@@ -171,7 +171,7 @@ fn run(
     wake: &dyn Fn(),
 ) -> Result<Outcome, String> {
     plan.ready().map_err(|error| error.to_string())?;
-    // Said before anything is painted: ffmpeg may be missing, or lack what this kind of movie needs.
+    // Checked before anything is painted: ffmpeg may be missing, or lack what this kind of movie needs.
     let encoding = encoding(plan).map_err(|error| error.to_string())?;
     let driver = match plan.driver {
         RenderDriver::Automatic => Driver::Auto,

@@ -12,7 +12,7 @@ use impasto_scene::whole_file::WholeFile;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-/// The list of the files, in the pack beside them.
+/// The name of the file that lists the files of a pack; it lies beside them.
 pub const LIST_NAME: &str = "pack.json";
 
 /// The time that a `.tar` states for every file: 1980-01-01, which all archive formats can hold.
@@ -196,7 +196,7 @@ pub fn check(folder: &Path) -> Result<PackList, PackError> {
 fn what_changed(folder: &Path, known: &PackedFile) -> Option<String> {
     let read = || -> io::Result<(u64, String)> {
         let file = File::open(folder.join(&known.path))?;
-        // However long the file is now, at most one byte more is read than it had.
+        // However long the file is now, at most one byte more is read than it had when it was packed.
         let mut summed = Summed::new(file.take(known.bytes.saturating_add(1)));
         io::copy(&mut summed, &mut io::sink())?;
         Ok(summed.finish())

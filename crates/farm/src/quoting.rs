@@ -1,6 +1,6 @@
 //! Quotes text for shells and for YAML.
 
-/// A word of a shell: as it is where it holds nothing special, else in quotes.
+/// A text as a word of a shell command: unchanged if it holds nothing special, else in quotes.
 pub(crate) fn of_shell(text: &str) -> String {
     let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "/._-+:,=@%#".contains(letter);
     if !text.is_empty() && text.chars().all(is_plain) && !text.starts_with('#') {

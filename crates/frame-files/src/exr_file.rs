@@ -69,7 +69,7 @@ pub enum Note {
 pub struct ExrPicture {
     /// Width and height in pixels.
     pub size_px: [u32; 2],
-    /// Its channels; each has another name.
+    /// Its channels; no two have the same name.
     pub channels: Vec<Channel>,
     /// Frames per second.
     pub fps: f64,
@@ -80,7 +80,7 @@ pub struct ExrPicture {
     pub notes: Vec<(String, Note)>,
 }
 
-/// Deflate, the compression of ZIP, makes at most this many bytes of one.
+/// Deflate, the compression of ZIP, shrinks at most this many bytes to one.
 const MOST_SHRUNK: u64 = 1032;
 
 /// Rec. 709 with the white of D65.
@@ -280,7 +280,7 @@ mod tests {
                 _ => panic!("{name} has another type"),
             }
         }
-        // The library stores custom notes in the layer.
+        // When it reads a file, the library puts custom notes into the layer's attributes.
         let other = &image.layer_data.attributes.other;
         assert_eq!(other.get(&text("Scene")), Some(&AttributeValue::Text(text("Café.ron"))));
         assert_eq!(other.get(&text("note 4")), Some(&AttributeValue::Text(text("Äpfel 日"))));

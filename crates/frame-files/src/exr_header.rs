@@ -60,7 +60,7 @@ pub(crate) fn text(path: &Path, name: &str) -> Option<String> {
 fn head(file: &mut File) -> Option<(Vec<u8>, Vec<Range<usize>>, usize)> {
     let length = file.metadata().ok()?.len();
     let mut head = Vec::new();
-    // Most heads are short; with a manifest they may be long.
+    // Most heads are short; the list of names of a Cryptomatte may make them long.
     let mut wanted = 64 << 10;
     loop {
         file.by_ref().take(wanted - head.len() as u64).read_to_end(&mut head).ok()?;

@@ -29,8 +29,8 @@ pub(crate) struct BodyProgram {
 /// Rounding a pose to single precision makes squares of lengths differ by less than this share.
 const UNEVEN: f64 = 1e-4;
 
-/// What takes normals from model space to the world: the pose itself, or, where that scales directions differently, its inverse
-/// transpose.
+/// What takes normals from model space to the world: the pose itself, or, where that scales directions differently, its
+/// inverse transpose.
 fn world_from_normal(body: &FrameBody) -> Mat3 {
     let pose = Mat3::from_mat4(body.world_from_model);
     if is_uneven(pose.as_dmat3(), UNEVEN) { pose.inverse().transpose() } else { pose }

@@ -1,4 +1,4 @@
-//! What drawing gives: pictures, strokes as they were painted, measures of every pixel, what it cost.
+//! The results of drawing: pictures, strokes as they were painted, data of every pixel, and what the drawing cost.
 
 use half::f16;
 
@@ -16,7 +16,7 @@ pub struct Picture {
 pub struct ResolvedStroke {
     /// Display-linear colour.
     pub color_linear: [f32; 3],
-    /// How far the stroke is there: its presence, less as far as bodies hide it, 0..=1.
+    /// How far the stroke is there: its presence, reduced as far as bodies hide it, 0..=1.
     pub alpha: f32,
     /// Centre in pixels, origin at the lower left, moved along the stroke so that it lies on its body.
     pub center_px: [f32; 2],

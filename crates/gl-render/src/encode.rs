@@ -1,4 +1,4 @@
-//! The last pass: encodes what a style has painted for a display, for files of 8 bits and for windows.
+//! The last pass: encodes a style's finished picture as sRGB bytes, for files of 8 bits a channel and for windows.
 
 use std::rc::Rc;
 
@@ -8,8 +8,8 @@ use crate::gl::{
 };
 use crate::shader_files::SHARED;
 
-/// A style's target, the finished picture: display-linear with straight alpha, 32 bits a channel, so that it loses nothing on the
-/// way to a file of any depth.
+/// A style's target, the finished picture: display-linear with straight alpha, 32 bits a channel, so that it loses
+/// nothing on the way to a file of any depth.
 pub(crate) struct Painted {
     pub(crate) color: Rc<Texture>,
     pub(crate) pass: Framebuffer,
@@ -43,7 +43,7 @@ impl Output<'_> {
     }
 }
 
-/// The pass, and the target that it was last used with.
+/// The encoding pass, and the target that it was last used with.
 pub(crate) struct Encoder {
     gpu: Gpu,
     program: Program,

@@ -1,6 +1,7 @@
-//! What every stroke lays in every pixel. While a picture is painted, the paint shader notes each of its fragments in a buffer (pixel,
-//! stroke, alpha, colour); here they are put in order and laid over each other again, so that one knows for each pixel which
-//! strokes show in it, and how much. The notes are taken of the very fragments that make the picture: nothing is painted twice.
+//! What every stroke lays in every pixel. While a picture is painted, the paint shader notes each of its fragments in a
+//! buffer (pixel, stroke, alpha, colour). Here these notes are put in order and laid over each other again, which tells
+//! for each pixel which strokes show in it, and how much. They are of the very fragments that make the picture: nothing
+//! is painted twice.
 
 use half::f16;
 use impasto_painting::frame::{LayerKind, LayerRun};
@@ -8,16 +9,16 @@ use rayon::prelude::*;
 
 use crate::gl::{Buffer, BufferUse, GlError, Gpu};
 
-/// What a fragment takes: pixel; stroke and alpha; colour.
+/// Bytes of a noted fragment, in three words: its pixel; its stroke and alpha; its colour.
 const FRAGMENT_BYTES: usize = 12;
 
-/// The number of fragments, which the buffer begins with.
+/// Bytes of the number of fragments, with which the buffer begins.
 const COUNT_BYTES: usize = 4;
 
-/// The most that fragments may take on the graphics card at a time.
+/// The most bytes that fragments may take on the graphics card at a time.
 const MOST_BYTES: usize = 32 << 20;
 
-/// Bits of the alpha in its word; the others hold the stroke.
+/// Bits of the alpha in the word that it shares with the stroke's index, which has the other bits.
 const ALPHA_BITS: u32 = 10;
 
 /// The most strokes of a picture that can be told apart.
@@ -72,11 +73,11 @@ impl PixelShares {
 pub struct PaintedLayer {
     /// The `layer` of its strokes' regions.
     pub order: i32,
-    /// Which layer.
+    /// Which of the layers of paint it is.
     pub kind: LayerKind,
     /// Its paint alone, premultiplied, display-linear; top row first.
     pub rgba: Vec<[f16; 4]>,
-    /// Which strokes show in it where nothing lies over it.
+    /// How much of each pixel its strokes would show if no later layer lay over it.
     pub shares: PixelShares,
 }
 
@@ -85,7 +86,7 @@ pub(crate) struct FragmentGatherer {
     buffer: Buffer,
     /// How many fragments the buffer holds.
     capacity: usize,
-    /// Those of the layer under way.
+    /// The fragments noted so far of the layer that is being painted.
     fragments: Vec<[u32; 3]>,
     layers: Vec<PaintedLayer>,
 }
@@ -168,7 +169,8 @@ fn color(word: u32) -> [f32; 3] {
     [root(11, 0), root(11, 11), root(10, 22)].map(|root| root * root * BRIGHTEST)
 }
 
-/// Lays the fragments of a layer over each other, in the order of their strokes. Fragments count pixels from the bottom row.
+/// Lays the fragments of a layer over each other, in the order of their strokes. The pixels that fragments name are
+/// counted from the bottom row.
 fn laid_over(fragments: &[[u32; 3]], size_px: [u32; 2]) -> (Vec<[f16; 4]>, PixelShares) {
     let [width, height] = size_px.map(|side| side as usize);
     // Sorts by pixel; the order within a pixel is found below.
@@ -212,7 +214,7 @@ fn laid_over(fragments: &[[u32; 3]], size_px: [u32; 2]) -> (Vec<[f16; 4]>, Pixel
     (rgba, PixelShares::from_rows(rows))
 }
 
-/// The colour of a pixel from its fragments, the topmost first; adds what shows of each stroke.
+/// The colour of a pixel from its fragments, the topmost first. Adds the share of each stroke to `shares`.
 fn pixel(fragments: &[[u32; 2]], shares: &mut Vec<Share>) -> [f16; 4] {
     let mut sum = [0.0f32; 4];
     let mut through = 1.0;

@@ -6,8 +6,8 @@ use impasto_painting::frame::Style;
 /// all targets to the end of the picture takes twice the memory.
 const HUGE_PX: u64 = 16 << 20;
 
-/// What can be read of a picture beside its colour, its depth and its bodies, once it is drawn. The less is kept, the less memory a
-/// picture takes: each target is let go as soon as it has served. The picture is the same.
+/// What can be read of a picture beside its colour, its depth and its bodies, once it is drawn. The less is kept, the
+/// less memory a picture takes: each target is let go as soon as it has served. The picture is the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Keeps {
     /// All there is, and the targets stay for the next picture.
@@ -15,7 +15,7 @@ pub enum Keeps {
     Everything,
     /// Its surfaces: unlit colour, normals, light.
     Surfaces,
-    /// Nothing more.
+    /// Nothing beside its colour, its depth and its bodies.
     Picture,
 }
 
@@ -35,7 +35,7 @@ impl Keeps {
     /// each axis.
     pub fn bytes_per_px(self, style: &Style, samples: u32) -> u64 {
         let fine = if samples > 1 { u64::from(samples * samples) * 12 } else { 0 };
-        // The body in the middle of each pixel and its share, found from the samples.
+        // Bytes for the body in the middle of each pixel and its share, found from the samples.
         let surface = if samples > 1 { 8 } else { 0 };
         // The ink style reads the unlit targets of the reference pass.
         let (paint, reads_unlit) = match style {
@@ -43,9 +43,9 @@ impl Keeps {
             Style::SumiE(_) => (33, true),
             Style::Reference => (0, false),
         };
-        // Of `UnlitTargets`, of the other targets of the reference pass, and of the finished picture.
+        // Bytes of `UnlitTargets`, of the other targets of the reference pass, and of the finished picture.
         let [unlit, lit, picture] = [13, 26, 16];
-        // Strokes, what is read back, and what the driver needs beside.
+        // Bytes for strokes, for what is read back, and for what the driver needs beside.
         let else_taken = 8;
         let drawn = match self {
             Self::Everything => unlit + lit + fine + surface + paint + picture,

@@ -32,7 +32,7 @@ pub(crate) struct LensSetup {
 
 impl LensSetup {
     pub(crate) fn new(view: &FrameView, size_px: [u32; 2]) -> Self {
-        // How far the lens shifts the picture after the division by w: it stands in the matrix's column that gives w.
+        // The shift of the picture by the lens, after the division by w. It is read from the column that w comes from.
         let shift = if view.orthographic { view.clip_from_view.w_axis } else { -view.clip_from_view.z_axis };
         let size = UVec2::from(size_px).as_vec2();
         Self {

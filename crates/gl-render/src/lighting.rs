@@ -33,7 +33,7 @@ fn column(place: Vec4, radiance: Vec3, cone: Option<&Cone>) -> [Vec4; ROWS] {
     [place, radiance.extend(slope), cone.axis.extend(-cone.outer_cosine * slope)]
 }
 
-/// The values of these uniforms in one frame.
+/// The values of [`LIGHT_UNIFORMS`] in one frame.
 pub(crate) struct LightSetup {
     /// A column for each light: see [`column`].
     lights: Texture,
@@ -72,7 +72,7 @@ impl LightSetup {
             lights: Texture::from_texels(gpu, Format::Rgba32F, size_px, bytemuck::cast_slice(&texels))?,
             light_count: count as i32,
             shadowed_light: match lamp {
-                // Lamps stand behind the suns, of which there are none.
+                // The texture lists suns before lamps. Here there are no suns, so a lamp's index is the same there.
                 Some(lamp) => lamp as i32,
                 None => lights.suns.first().map_or(-1, |_| 0),
             },

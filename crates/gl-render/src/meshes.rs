@@ -1,5 +1,5 @@
-//! Surfaces on the GPU: each is uploaded once and stays until no frame uses it any more. The vertices of a body that is not at rest are
-//! uploaded for each frame; every pass draws from them.
+//! Surfaces on the GPU: each is uploaded once and stays until no frame uses it any more. The vertices of a body that is
+//! not at rest are uploaded for each frame; every pass draws from them.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -23,10 +23,10 @@ pub(crate) struct DrawnBody<'a> {
 
 /// One uploaded surface.
 pub(crate) struct MeshOnGpu {
-    /// The vertices at rest.
+    /// The shader inputs with the vertices at rest.
     array: Rc<VertexArray>,
     pub(crate) parts: Vec<Part>,
-    /// At rest.
+    /// Positions and normals of the vertices at rest.
     vertices: Buffer,
     uvs: Buffer,
     /// 1 minus the colour of each vertex, linear; `None` where the mesh has no colours of its own.
@@ -76,7 +76,7 @@ pub(crate) struct MeshCache {
 /// The vertices of a body that is not at rest.
 struct BentOnGpu {
     mesh: RcWeak<MeshOnGpu>,
-    /// What the buffer holds.
+    /// The body as bent whose vertices the buffer holds.
     bent: Weak<Bent>,
     vertices: Buffer,
     array: Rc<VertexArray>,
@@ -242,7 +242,7 @@ impl MeshCache {
             }
         };
         let entry = &mut self.bent[index];
-        // Empty during the upload, so that one that failed half-way is not taken for these vertices.
+        // Empty during the upload, so that what a failed upload leaves is not taken for these vertices.
         entry.bent = Weak::new();
         let BodyVertices { positions, normals } = &bent.vertices;
         entry.vertices.upload(bytemuck::cast_slice(&interleaved(positions, normals)))?;
@@ -345,7 +345,8 @@ impl MeshCache {
     }
 }
 
-/// Gives texels without alpha the mean colour of the others, so that what a file hides there does not fringe the borders.
+/// Gives texels without alpha the mean colour of the others, so that the colours that a file hides there do not fringe
+/// the borders.
 fn color_of_holes(texels: &mut [[u8; 4]]) {
     let mut sum = [0u64; 3];
     let mut count = 0;

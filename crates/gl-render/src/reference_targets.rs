@@ -32,7 +32,7 @@ pub(crate) struct UnlitTargets {
     pub(crate) depth: Rc<Texture>,
     /// Colour without light; alpha is 1 where the surface is lit, 0 where it is unlit.
     pub(crate) albedo: Rc<Texture>,
-    /// How open each place is to ambient light; half the size.
+    /// Ambient occlusion, 0 enclosed to 1 open; half the picture's size.
     openness: Rc<Texture>,
     pub(crate) surface_pass: Framebuffer,
     pub(crate) openness_pass: Framebuffer,

@@ -28,7 +28,7 @@ pub enum RenderError {
     /// The picture is larger than the driver can draw.
     #[error("a picture of {} x {} pixels: this driver's limit is {limit_px} a side; use a smaller --size", size_px[0], size_px[1])]
     TooLarge {
-        /// What was asked for.
+        /// The size that was asked for.
         size_px: [u32; 2],
         /// The longest side that works.
         limit_px: u32,

@@ -26,8 +26,8 @@ pub(crate) struct StyleInput<'a> {
 
 /// Draws frames in one style.
 pub(crate) trait StyleRenderer {
-    /// Runs the style's passes. The last one writes the picture into `output`: display-linear, straight alpha. Where `input` says
-    /// that not everything is kept, targets are let go as soon as they have served.
+    /// Runs the style's passes. The last one writes the picture into `output`: display-linear, straight alpha. Where
+    /// `input` says that not everything is kept, targets are let go as soon as they have served.
     fn draw(
         &mut self,
         input: &StyleInput<'_>,
@@ -41,7 +41,7 @@ pub(crate) trait StyleRenderer {
     }
 
     /// What the resolve pass found for each stroke of the last frame, eight floats each: colour and alpha, its centre
-    /// in pixels, and two more. Empty for styles without strokes.
+    /// in pixels, and two numbers whose meaning depends on the style. Empty for styles without strokes.
     fn read_resolved(&self) -> Vec<[f32; 8]> {
         Vec::new()
     }

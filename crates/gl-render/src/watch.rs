@@ -1,4 +1,4 @@
-//! Watches the drawing of a picture: after each pass, takes its time and asks the caller whether to stop.
+//! Watches the drawing of a picture: after each pass, notes how long it took, and asks the caller whether to stop.
 
 use crate::gl::{Gpu, Halt};
 

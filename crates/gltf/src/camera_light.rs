@@ -73,9 +73,9 @@ pub struct LightValues {
     pub intensity: f64,
     /// Where a point or spot light ends, in metres; `None`: nowhere.
     pub range_m: Option<f64>,
-    /// From the axis of a spot to where it begins to fade, radians; less than the outer one.
+    /// Angle from the axis of a spot light to where it begins to fade, radians; less than `outer_cone_rad`.
     pub inner_cone_rad: f64,
-    /// From the axis of a spot to where it ends, radians, at most π/2.
+    /// Angle from the axis of a spot light to where it ends, radians, at most π/2.
     pub outer_cone_rad: f64,
 }
 

@@ -125,7 +125,7 @@ impl<'p, 't> Cursor<'p, 't> {
         }
     }
 
-    /// This index into a list of `count` things, which are named for people.
+    /// This index into a list of `count` things; `what` names them in a message.
     pub fn index(&self, count: usize, what: &str) -> Checked<usize> {
         let index = self.whole()?;
         usize::try_from(index).ok().filter(|&index| index < count).ok_or_else(|| {

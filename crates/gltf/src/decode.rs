@@ -247,7 +247,7 @@ impl Reading {
         Self { component: accessor.component, is_normalized }
     }
 
-    /// One number.
+    /// A number of the file as `f32`; if it is normalised, divided by the largest number of its type.
     fn value(self, raw: f32) -> f32 {
         let scale = match self.component {
             _ if !self.is_normalized => return raw,
@@ -286,7 +286,7 @@ impl Reading {
             }
         }
         let differs = |stated: Option<&Vec<f64>>, found: [f32; N]| {
-            // Texts of numbers are often written with fewer digits than f32 has.
+            // The JSON text often states a bound with fewer digits than f32 has.
             let is_off = |(&stated, found): (&f64, f32)| {
                 (self.value(stated as f32) - found).abs() > 1e-4 * found.abs().max(1e-2)
             };

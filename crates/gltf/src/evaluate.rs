@@ -71,8 +71,8 @@ pub struct Posed {
 }
 
 impl Posed {
-    /// For each joint of a skin, the matrix from the space in which the mesh was bound to the world. A vertex stands at
-    /// the weighted mean of where its joints put it, wherever the node of the mesh is.
+    /// For each joint of a skin, the matrix into the world from the space in which the mesh was bound. A vertex stands
+    /// at the weighted mean of where its joints put it, wherever the node of the mesh is.
     pub fn world_from_bound(&self, skin: &Skin) -> Vec<DAffine3> {
         let matrix_of = |(&joint, inverse_bind): (&usize, &glam::Mat4)| {
             self.world_from_node[joint] * DAffine3::from_mat4(inverse_bind.as_dmat4())

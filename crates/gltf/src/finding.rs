@@ -56,7 +56,8 @@ impl fmt::Display for Finding {
 /// What most errors ask of the user.
 pub(crate) const EXPORT_ANEW: &str = "export the file anew, or check it with the Khronos glTF validator";
 
-/// The most findings that are told of one file. A file of a million faults is as broken as one of fifty.
+/// The most errors, and the most warnings, that are listed for one file. A file of a million faults is as broken as one
+/// of fifty.
 const MOST_TOLD: usize = 50;
 
 /// The findings of a file while it is read. Errors and warnings are counted apart, so that many warnings never hide an
@@ -87,7 +88,7 @@ impl Findings {
         result.map_err(|finding| self.add(*finding)).ok()
     }
 
-    /// Whether so much is wrong that nothing more would be told.
+    /// Whether there are so many errors that no more would be listed.
     pub fn is_full(&self) -> bool {
         self.fatal.len() >= MOST_TOLD
     }

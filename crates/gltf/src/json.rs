@@ -25,7 +25,7 @@ pub(crate) enum Json<'t> {
 }
 
 impl Json<'_> {
-    /// What it is, for people.
+    /// What kind of value it is, in words for users.
     pub fn kind(&self) -> &'static str {
         match self {
             Json::Null => "null",

@@ -1,11 +1,11 @@
-//! Between which keys a time lies, and the values there.
+//! Finds between which keys a time lies, and the values of tracks at that time.
 
 use std::array;
 
 use crate::animation::{Interpolation, Track};
 
-/// A key that lies after the time that is asked for by at most this share of the key's time counts as reached: files
-/// round the times of frames to 32 bits, half of them upwards. Only stepped values depend on it.
+/// A key counts as reached a little before its time: by at most this share of that time. Files round the times of
+/// frames to 32 bits, half of them upwards. Only stepped values depend on it.
 const ROUNDED: f64 = 2.0 * f32::EPSILON as f64;
 
 /// A time among the keys of a clock.
@@ -13,7 +13,7 @@ const ROUNDED: f64 = 2.0 * f32::EPSILON as f64;
 pub(crate) struct Place {
     /// The key at or before the time; the first, if the time is before all.
     pub before: usize,
-    /// The key whose value a stepped track has: `before`, or the next key if only rounding puts the time before that.
+    /// The key whose value a stepped track has: `before`, or the next key if the time is before it by rounding alone.
     pub reached: usize,
     /// From the key before to the one after, seconds; 0 at or beyond the ends.
     span_s: f64,
@@ -22,7 +22,7 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    /// The place of a time among increasing times, of which there is at least one.
+    /// The place of a time among increasing times; `times_s` is not empty.
     pub fn at(times_s: &[f32], time_s: f64) -> Self {
         let last = times_s.len().saturating_sub(1);
         let time = |key: usize| f64::from(times_s[key]);

@@ -241,7 +241,7 @@ fn material(cursor: &Cursor<'_, '_>, textures: usize, findings: &mut Findings) -
         base_color_texture = texture_use(&pbr, "baseColorTexture", textures, findings)?;
         metallic_roughness_texture = texture_use(&pbr, "metallicRoughnessTexture", textures, findings)?;
     }
-    // Not painted, but an index that leads nowhere tells of a broken file.
+    // These two textures are not used, but an index out of range shows that the file is broken.
     texture_use(cursor, "normalTexture", textures, findings)?;
     texture_use(cursor, "occlusionTexture", textures, findings)?;
     let emissive_texture = texture_use(cursor, "emissiveTexture", textures, findings)?;

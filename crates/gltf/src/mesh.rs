@@ -22,7 +22,7 @@ pub struct Mesh {
 /// A part of a mesh with one material. Lists that several primitives read from one accessor are one list in memory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Primitive {
-    /// Which of the file's primitives of the mesh it is.
+    /// Its index in the file's list of the mesh's primitives, from which some may be left out here.
     pub index: usize,
     /// One position per vertex, finite, in the space of the node.
     pub positions: Arc<Vec<[f32; 3]>>,

@@ -30,7 +30,8 @@ pub struct Node {
     pub is_visible: bool,
     /// Where it stands, when no animation says otherwise.
     pub local: LocalTransform,
-    /// Where copies of its mesh stand, in the space of the node (EXT_mesh_gpu_instancing). `None`: one, at the node.
+    /// Where copies of its mesh stand, in the space of the node (EXT_mesh_gpu_instancing). `None`: its mesh stands
+    /// once, at the node.
     pub instances: Option<Arc<Vec<Trs>>>,
 }
 
@@ -39,18 +40,18 @@ pub struct Node {
 pub enum LocalTransform {
     /// Parts that can be animated.
     Trs(Trs),
-    /// A matrix that has shear, and so no such parts.
+    /// A matrix that has no such parts, because it has shear or flattens an axis.
     Matrix(DAffine3),
 }
 
-/// Scaled, then turned, then moved.
+/// A transform in parts. Points are scaled, then turned, then moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trs {
-    /// Moved by.
+    /// How far points are moved, in the parent's space.
     pub translation: DVec3,
-    /// Turned by: of unit length.
+    /// How points are turned; of unit length.
     pub rotation: DQuat,
-    /// Scaled by, along the node's own axes. May be negative or zero.
+    /// Factors along the node's own axes; may be negative or zero.
     pub scale: DVec3,
 }
 

@@ -14,7 +14,7 @@ use crate::{Gltf, accessor, camera_light, container, extensions, images, json, m
 /// Reads a glTF 2.0 file, `.gltf` or `.glb`, from its bytes. Opens nothing itself: buffers and pictures in files beside
 /// it are asked of `open`, with names that were checked to stay in the folder.
 ///
-/// No list is made longer than the bytes hold, or, where the format lets a file claim zeros, than a limit allows
+/// No list is made longer than the bytes hold. Where the format lets a file claim zeros without bytes, a limit holds
 /// ([`crate::SPARE_BYTES`]). The second result are warnings, which say what was replaced or left out.
 ///
 /// # Errors

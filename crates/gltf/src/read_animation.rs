@@ -99,7 +99,7 @@ fn animation(
     Ok(Animation { name, tracks })
 }
 
-/// `None` (after a warning): its times are not in the file.
+/// Reads a sampler; `None` (after a warning) if its times are not in the file.
 fn sampler<'p, 't>(
     cursor: &'p Cursor<'p, 't>,
     accessors: &mut Accessors<'_, '_, '_>,
@@ -150,7 +150,7 @@ fn sampler<'p, 't>(
     Ok(Some(Sampler { times_s, interpolation, output }))
 }
 
-/// What a channel drives; `None` if it drives nothing or, after a warning, what is not read.
+/// What a channel drives; `None` if it drives nothing or, after a warning, something that is not read.
 fn target(cursor: &Cursor<'_, '_>, driven: &Driven<'_>, findings: &mut Findings) -> Checked<Option<Target>> {
     let path = cursor.required("path")?;
     let extensions = cursor.object("extensions")?;
@@ -255,7 +255,7 @@ fn track(
     const ANY: [Component; 5] =
         [Component::F32, Component::I8, Component::U8, Component::I16, Component::U16];
     let output = &sampler.output;
-    // Numbers of an element, and elements of a value.
+    // The shape of an element, and how many elements make a value.
     let (shape, elements) = match target {
         Target::Node(node, NodeProperty::Weights) => (Shape::Scalar, target_count(node, driven)),
         Target::Node(_, NodeProperty::Rotation) | Target::Material(_, MaterialProperty::BaseColor) => {
@@ -271,7 +271,7 @@ fn track(
         _ => &ANY,
     };
     let index = accessors.expect(output, &[shape], components)?;
-    // Truth is written as plain bytes.
+    // True and false are written as plain bytes, which are not normalised.
     let is_truth = matches!(target, Target::Node(_, NodeProperty::Visible));
     let integers = if is_truth { Integers::AsStated } else { Integers::Normalized };
     let per_key = if sampler.interpolation == Interpolation::CubicSpline { 3 } else { 1 };
@@ -319,7 +319,7 @@ fn check_rotations(
     findings: &mut Findings,
 ) -> Checked<()> {
     let mut is_off = false;
-    // With splines, the second of three is the value.
+    // With splines, a key has three elements: in-tangent, value, out-tangent.
     for (key, quaternion) in values.chunks_exact(4).skip(per_key / 2).step_by(per_key).enumerate() {
         let length_squared: f32 = quaternion.iter().map(|number| number * number).sum();
         if !(length_squared > 1e-12 && length_squared.is_finite()) {

@@ -147,7 +147,7 @@ pub(crate) fn nodes(
             nodes[child].parent = Some(parent);
         }
     }
-    // With one parent at most for each, whoever cannot be reached from a root is in a circle or under one.
+    // Each node has at most one parent, so a node that no root leads to is in a circle of nodes or under one.
     let reached = parents_first(&nodes);
     if reached.len() < nodes.len() {
         let mut is_reached = vec![false; nodes.len()];

@@ -6,10 +6,10 @@ use impasto_painting::frame::LayerKind;
 
 use crate::strokes::{StrokeKey, StrokesByKey};
 
-/// Luma (0..1) that goes one way by more than this and then back by more than this reverses.
+/// A reversal is counted if luma (0..1) goes one way by more than this, and then back by more than this.
 const REVERSAL: f64 = 0.02;
 
-/// Fainter strokes are hardly seen.
+/// Strokes with less alpha than this are left out, because they are hardly seen.
 const LEAST_ALPHA: f64 = 0.25;
 
 /// Where something was found, to be looked up in the picture.

@@ -24,7 +24,7 @@ pub struct Flicker {
     counts: Vec<usize>,
     /// Pixels whose points were seen in three frames.
     pub pixels: usize,
-    /// Those that flicker visibly.
+    /// Those of these pixels that flicker by more than [`SEEN`].
     pub flickering: usize,
     /// The pixel with the largest second difference.
     pub worst: Option<Place>,

@@ -7,11 +7,11 @@ use crate::steps::Steps;
 /// What was found on a whole shot.
 #[derive(Clone, Debug, Default)]
 pub struct WholeShot {
-    /// M15.
+    /// The result of metric M15.
     pub chatter: Chatter,
-    /// M16.
+    /// The result of metric M16.
     pub steps: Steps,
-    /// M17.
+    /// The result of metric M17.
     pub flicker: Flicker,
     /// How many frames were drawn.
     pub frames: usize,

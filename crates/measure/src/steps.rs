@@ -176,7 +176,7 @@ mod tests {
                 .map(|(particle, alpha)| (key(LayerKind::Lights, particle), a_stroke([50.0; 2], alpha, 0.5)))
                 .collect()
         };
-        // One was there at the beginning, one lives for two frames, one is still there.
+        // One is there at the beginning, one lives for two frames, and one is still there at the end.
         let frames = [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 1.0, 1.0], [0.0, 0.0, 1.0]].map(frame);
         let mut found = Steps::default();
         for (number, pair) in frames.windows(2).enumerate() {

@@ -1,9 +1,9 @@
-//! Painted amounts: how far dabs of a brush make strokes wider, longer, denser and flatter, particle by particle. All is read off the
-//! surface at rest, so that no view changes it.
+//! Painted amounts: how far dabs of a brush make strokes wider, longer, denser and flatter, particle by particle. All
+//! is read off the surface at rest, so that no view changes it.
 //!
-//! A dab of radius R that states a factor b multiplies by `1 + (b − 1) w`, with `w = (1 − (r/R)²)² s(n·m)` at a distance r on a surface
-//! with the normal n; m is the normal at the dab, and s rises smoothly from 0 at 90° to 1 at 60°. Outside the dab the
-//! factor is 1.
+//! A dab of radius R that states a factor b multiplies by `1 + (b − 1) w`, with `w = (1 − (r/R)²)² s(n·m)` at a
+//! distance r on a surface with the normal n; m is the normal at the dab, and s rises smoothly from 0 at 90° to 1 at
+//! 60°. Outside the dab the factor is 1.
 
 use std::collections::HashMap;
 

@@ -96,12 +96,12 @@ pub(crate) struct BakedBody {
 }
 
 impl BakedBody {
-    /// From what was kept.
+    /// Puts a body together from what a file kept.
     pub(crate) fn of_kept(baked: BakedParticles, base_angle_rad: Vec<f32>) -> Self {
         Self { baked, base_angle_rad }
     }
 
-    /// The base angles of all particles, or none.
+    /// The base angles of all particles; empty with the solver `Tangent`.
     pub(crate) fn base_angles_rad(&self) -> &[f32] {
         &self.base_angle_rad
     }

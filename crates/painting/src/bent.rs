@@ -26,7 +26,7 @@ pub struct Bent {
 }
 
 impl Bent {
-    /// What carries places of the surface.
+    /// What carries places of the surface at rest to where they are now.
     pub(crate) fn carrier(&self) -> &Carrier {
         made_once(&self.carrier, || {
             let positions = &self.vertices.positions;

@@ -34,7 +34,7 @@ pub(crate) struct BodyCache {
 }
 
 impl BodyBend {
-    /// Of a mesh file, with the mesh of the same topology that it may morph into.
+    /// What bends the mesh of `file`. `morph` is a mesh of the same topology that it may morph into.
     pub(crate) fn new(
         file: &MeshFile,
         morph: Option<&MeshFile>,

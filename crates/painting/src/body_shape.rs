@@ -27,11 +27,11 @@ pub struct NoiseLayers {
     pub count: u32,
     /// How fast layers move; also how far apart they begin.
     pub speed: f32,
-    /// Texture coordinates times this, plus `offset`.
+    /// Factors on the texture coordinates.
     pub tiling: Vec2,
-    /// See `tiling`.
+    /// What is added to the texture coordinates after `tiling`.
     pub offset: Vec2,
-    /// Which way the first layer goes, 1 or −1; each one goes against the one before.
+    /// Which way the first layer goes, 1 or −1; each later layer goes against the one before it.
     pub first_way: f32,
     /// The power that the product is raised to.
     pub exponent: f32,
@@ -43,7 +43,7 @@ pub struct NoiseLayers {
     pub alpha_is_grey: bool,
     /// How much of what is brighter than `threshold` is spread as a glow.
     pub bloom: f32,
-    /// See `bloom`.
+    /// The brightness above which the surface glows.
     pub threshold: f32,
 }
 

@@ -5,13 +5,13 @@
 
 use impasto_core::hash;
 
-/// What boil changes at full strength, as standard deviations. Of the place: along in lengths, across in widths.
+/// Standard deviation of the shift at full strength: along the stroke in its lengths, across it in its widths.
 const PLACE: [f32; 2] = [0.10, 0.22];
-/// Of the logarithms of length and width.
+/// Standard deviations of the logarithms of length and width at full strength.
 const SIZE: [f32; 2] = [0.16, 0.12];
-/// Of the direction, radians.
+/// Standard deviation of the direction at full strength, radians.
 const ANGLE_RAD: f32 = 0.14;
-/// Of the slow noise of colour, in its own standard deviation.
+/// Standard deviation of what is added to the slow noise of colour at full strength, in that noise's own deviations.
 const DRIFT: f32 = 1.6;
 
 /// How strokes are laid while one drawing holds.

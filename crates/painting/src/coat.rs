@@ -34,7 +34,7 @@ pub(crate) struct Coat {
     /// Indices of the rules that apply to any of its particles.
     pub(crate) used: Arc<Vec<u16>>,
     pub(crate) traits: Arc<Traits>,
-    /// What is painted onto its particles.
+    /// The painted amounts at its particles.
     pub(crate) amounts: Arc<CoatAmounts>,
     pub(crate) baked: Arc<BakedBody>,
     /// The particles in the order of their triangles; made when the body first bends.
@@ -82,7 +82,7 @@ impl Coat {
         bent.carrier().carry(&self.surface.mesh, places, &self.baked.baked, self.heights())
     }
 
-    /// One baked particle, carried likewise: position, normal and the columns of its lift.
+    /// One particle of [`Self::carried`]: position, normal and the columns of its lift.
     pub(crate) fn carried_one(&self, bent: &Bent, index: usize) -> [Vec3; 4] {
         let place = self.sampled.particles.places()[index];
         let baked = (&self.baked.baked, index);
@@ -145,7 +145,7 @@ pub(crate) struct SampleInputs {
 }
 
 impl SampleInputs {
-    /// Of a coat that is to have `count` particles.
+    /// The inputs of a coat that is to have `count` particles.
     pub(crate) fn new(
         context: &Context<'_>,
         object: ObjectInputs<'_>,

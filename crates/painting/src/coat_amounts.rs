@@ -16,7 +16,7 @@ pub(crate) struct CoatAmounts {
     painted: Vec<Painted>,
     /// Factors on the flatness; empty where none is painted.
     flatness: Vec<f32>,
-    /// For each rule with painted amounts, the greatest factors; `density` holds the one on how many strokes are
+    /// For each rule with painted amounts, the greatest factors; `density` is here the factor on how many strokes are
     /// wanted.
     most: Vec<(u16, Painted)>,
 }

@@ -63,7 +63,7 @@ pub struct Frame {
 pub struct Palette {
     /// Linear Rec. 709; at least one, at most 16.
     pub pigments: Vec<[f32; 3]>,
-    /// How far colours keep to them, 0..=1.
+    /// How far colours keep to the pigments, 0..=1.
     pub mix: f32,
 }
 

@@ -1,4 +1,5 @@
-//! The direction field of a body, solved only when it is asked for: particles that were kept already have directions.
+//! The direction field of a body, solved only when it is asked for. Particles that are taken from a kept file have
+//! directions without it.
 
 use std::fmt;
 use std::sync::{Arc, OnceLock};

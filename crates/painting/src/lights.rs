@@ -80,7 +80,7 @@ fn brightest_lamp(scene: &Scene) -> Option<usize> {
     let is_lamp = |light: &&Light| matches!(light.kind, LightKind::Point | LightKind::Spot);
     let luma = |light: &Light| radiance(light.color, light.intensity).dot(Vec3::new(0.2126, 0.7152, 0.0722));
     let lamps = scene.lights.iter().filter(is_lamp).map(luma).enumerate();
-    // Of equals the first.
+    // Of equally bright lamps, the first is taken.
     let brightest = lamps.reduce(|best, other| if other.1 > best.1 { other } else { best });
     brightest.map(|(index, _)| index)
 }

@@ -39,7 +39,7 @@ impl PaintingOrder {
         fits.then_some(Self { numbers, firsts })
     }
 
-    /// Of numbers in painting order, and the number of each coat's first particle, as [`begins`] gives it.
+    /// From `numbers` in painting order; `firsts` is the number of each coat's first particle, as [`begins`] gives it.
     pub(crate) fn new(numbers: Vec<u32>, firsts: Vec<u32>) -> Self {
         Self { numbers, firsts }
     }

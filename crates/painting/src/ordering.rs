@@ -19,7 +19,7 @@ pub(crate) struct OrderInputs {
     /// The layers of paint, the lowest first.
     kinds: [LayerKind; 7],
     coats: Vec<OrderedCoat>,
-    /// The layer of each rule; empty if all have the same.
+    /// The layer that the region of each rule states; empty if all regions have the same.
     layers: Vec<i32>,
 }
 
@@ -96,7 +96,7 @@ impl OrderedCoat {
     }
 }
 
-/// Particles of a coat that are in one layer, in progressive order.
+/// Particles of a coat that are in one of the regions' layers, in progressive order.
 enum LayerParticles {
     /// This many particles, the first ones of the coat.
     First(u32),

@@ -38,7 +38,7 @@ pub struct Painting {
     /// By object, then in the order of the layers.
     pub(crate) coats: Vec<Arc<Coat>>,
     pub(crate) rules: Arc<Vec<RegionRule>>,
-    /// As they are without keys.
+    /// The palettes as they are without keys.
     pub(crate) palettes: Arc<Vec<Palette>>,
     /// Index of each rule's palette, or [`crate::frame::ANY_COLOR`].
     pub(crate) palette_of_rule: Vec<u8>,
@@ -71,7 +71,7 @@ pub(crate) struct PreparedBody {
     pub(crate) caps: Vec<Cap>,
     /// The least size of its form anywhere, model units.
     pub(crate) least_form: f32,
-    /// Left out of the picture.
+    /// Whether it is left out of the picture.
     pub(crate) hidden: bool,
     /// The direction field, where directions are not all stated outright.
     pub(crate) field: Option<Arc<LateField>>,
@@ -161,7 +161,8 @@ impl Painting {
         noises_at(self.scene(), &self.noises, frame)
     }
 
-    /// Every object as it stands at a frame, in the order of the scene; `None` for those at rest. The last few frames are remembered.
+    /// Every object as it stands at a frame, in the order of the scene; `None` for those at rest. The last few frames
+    /// are remembered.
     pub fn bent_at(&self, frame: f64) -> Arc<Vec<Option<Arc<Bent>>>> {
         self.bent.at(frame, self.bodies.iter().map(|body| &body.surface), || self.shapes_at(frame))
     }
@@ -269,8 +270,8 @@ impl Painting {
         field.map_or(&[], |field| field.singularities())
     }
 
-    /// For each particle of an object's body layer, whether its stated direction has a singular point near by: there the surface
-    /// faces along the axis that states the direction.
+    /// For each particle of an object's body layer, whether its stated direction has a singular point near by: there
+    /// the surface faces along the axis that states the direction.
     pub fn poles(&self, object: usize) -> Vec<bool> {
         self.coat(object, LayerKind::Body).map_or_else(Vec::new, |coat| coat.lift_sources.poles())
     }

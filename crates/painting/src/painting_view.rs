@@ -41,7 +41,7 @@ pub(crate) struct PaintingView<'a> {
     pub(crate) quality: Quality,
     pub(crate) recall: Option<&'a Recall>,
     frame: f64,
-    /// For each rule, the strokes at this frame.
+    /// For each rule, its stroke settings at this frame.
     pub(crate) strokes_of_rule: Vec<Cow<'a, ResolvedStrokes>>,
     /// Random bits of the frame.
     frame_bits: u32,
@@ -183,12 +183,12 @@ impl PaintingView<'_> {
         }
     }
 
-    /// The strokes of a rule at this frame.
+    /// The stroke settings of a rule at this frame.
     pub(crate) fn strokes_of(&self, rule: u16) -> &ResolvedStrokes {
         &self.strokes_of_rule[usize::from(rule)]
     }
 
-    /// How a region's strokes are laid at this frame; `None` where they do not boil.
+    /// How strokes of these settings boil at this frame; `None` if they do not.
     pub(crate) fn boil(&self, strokes: &ResolvedStrokes) -> Option<Boil> {
         (strokes.boil > 0.0).then(|| Boil::at(self.frame, strokes.boil, strokes.boil_on))
     }
@@ -258,7 +258,7 @@ impl CoatView<'_> {
         let Some((reference, now)) = &self.clip_views else { return solved.angle_rad };
         let particles = &self.coat.sampled.particles;
         let own = self.coat.lift_sources.references.own();
-        // In the reference and now.
+        // Where a particle is, in the reference and now.
         let position = |particle: usize| -> [DVec3; 2] {
             let (place, at_rest) = (particles.places()[particle], particles.at(particle).position.as_dvec3());
             [&own.stands.bent, &self.bent]

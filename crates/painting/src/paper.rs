@@ -61,7 +61,7 @@ impl PolygonCounts {
         })
     }
 
-    /// What is kept of them.
+    /// What is kept of these counts.
     pub(crate) fn to_keep(&self) -> KeptPolygons<'_> {
         let Self { of_particle, sides, faces } = self;
         KeptPolygons {

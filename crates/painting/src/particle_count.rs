@@ -46,7 +46,8 @@ pub(crate) struct Sighting {
     pub(crate) shape: BodyShape,
 }
 
-/// A face that a view does not see whole, or sees at very different depths, is cut into pieces that are at most this share of the surface.
+/// A face that a view does not see whole, or sees at very different depths, is cut into pieces that are at most this
+/// share of the surface.
 const PIECE: f64 = 1.0 / 2000.0;
 
 /// A face is cut into at most the square of this many pieces.
@@ -62,7 +63,7 @@ struct CountedFace<const LAYERS: usize> {
     flipped: bool,
     center: DVec3,
     normal: DVec3,
-    /// At rest.
+    /// The area at rest.
     area: f64,
     /// Strokes wanted per pixel, of each layer.
     wanted_per_px: [f64; LAYERS],
@@ -143,7 +144,8 @@ impl<const LAYERS: usize> CountedFace<LAYERS> {
 }
 
 impl Sighting {
-    /// Whether the middle of a triangle does not stand for all of it: a part of it is out of sight, or much nearer than another.
+    /// Whether the middle of a triangle does not stand for all of it: a part of it is out of sight, or much nearer than
+    /// another.
     fn is_uneven(&self, corners: [DVec3; 3]) -> bool {
         let depths = corners.map(|corner| self.map.depth(corner));
         let nearest = depths.into_iter().fold(f64::INFINITY, f64::min);
@@ -169,7 +171,7 @@ fn middles([a, b, c]: [DVec3; 3], cuts: usize) -> impl Iterator<Item = DVec3> {
     })
 }
 
-/// Particles needed per unit of surface in one view, by layer. The faces are one in `stride` of all.
+/// Particles needed per unit of surface in one view, by layer. `faces` holds one in `stride` of all faces.
 fn needed_per_area<const LAYERS: usize>(
     (faces, stride): (&[CountedFace<LAYERS>], usize),
     sighting: &Sighting,

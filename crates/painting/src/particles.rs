@@ -1,4 +1,5 @@
-//! A coat's particles: the first ones of a progressive order, of which more may have been sampled than the coat needs.
+//! A coat's particles: the first ones of a progressive order. More of that order may have been sampled than the coat
+//! needs.
 
 use std::ops::Range;
 use std::sync::Arc;

@@ -135,8 +135,8 @@ pub(crate) fn fit_of(kind: LayerKind, fit: f32) -> f32 {
     }
 }
 
-/// How much of a layer is wanted where the form has shrunk its strokes to this share of their size: many small ones would hide what
-/// lies below, and where those of the body layer are small, the layers of small strokes add nothing.
+/// How much of a layer is wanted where the form has shrunk its strokes to this share of their size. There, many small
+/// strokes of the body layer would hide what lies below, and the layers of small strokes over it would add nothing.
 pub(crate) fn wanted_where_small(kind: LayerKind, share: f32) -> f32 {
     match kind {
         LayerKind::Body => 1.0 - 0.4 * (1.0 - share).clamp(0.0, 1.0),

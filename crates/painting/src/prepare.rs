@@ -71,8 +71,8 @@ impl Preparer {
         self.prepare_with(loaded, &PrepareOptions::default())
     }
 
-    /// As [`Preparer::prepare`], with options. When it is given up, the steps done by then are not done again the next
-    /// time.
+    /// As [`Preparer::prepare`], with options. If preparing is given up, the steps done by then are not done again the
+    /// next time.
     ///
     /// # Errors
     /// As [`Preparer::prepare`]; [`PrepareError::GivenUp`]; [`PrepareError::Memory`], before memory is taken for
@@ -395,7 +395,8 @@ fn plain(
         amounts: Arc::default(),
     });
     let bodies = bodies.collect();
-    // A key may take a morph farther than the views see it go.
+    // Between the sampled frames a key may morph an object farther than at any of them, so the bounds take in the
+    // farthest morph too.
     let farthest = BodyShapes::at(loaded, references.own().frame).morphed_farthest();
     let of_object = |object: usize| {
         let at_views = shapes.iter().map(|shapes| shapes[object].clone());

@@ -20,7 +20,8 @@ const LEEWAY: f64 = 1.001;
 
 /// The bound for one rule on one coat, in one view.
 pub(crate) struct PresenceBound {
-    /// How far from its particle the largest stroke that chance makes reaches, pixels, before it grows with its surface.
+    /// How far from its particle a stroke can reach, pixels: at the largest size that chance gives, but before it grows
+    /// with its surface.
     pub(crate) reach_px: f32,
     /// By part: a stroke can be present only while its particle's index is below this times its projected area (px² per unit of
     /// surface). Infinite where presence does not depend on the index.

@@ -75,12 +75,12 @@ impl SceneReferences {
         Self { poses, further: scene.further_references.len(), of_rule }
     }
 
-    /// The scene's own.
+    /// The scene's own reference.
     pub(crate) fn own(&self) -> &ReferencePose {
         &self.poses[0]
     }
 
-    /// The references as one body sees them; `stands` has the body at the frame of each.
+    /// The references as one body sees them; `stands` has, for each reference, the body at the reference's frame.
     pub(crate) fn of_body(&self, object: usize, stands: Vec<Standing>) -> BodyReferences {
         let of_pose = |(reference, stands): (&ReferencePose, Standing)| {
             let pose = reference.poses[object];
@@ -157,7 +157,7 @@ pub(crate) struct BodyReferences {
 /// A point of a body's surface at rest, with its rule and its part.
 #[derive(Clone, Copy)]
 pub(crate) struct SurfacePoint {
-    /// Where on which triangle.
+    /// The triangle, and where on it.
     pub(crate) place: PackedParticle,
     /// Model space.
     pub(crate) position: DVec3,
@@ -170,7 +170,7 @@ pub(crate) struct SurfacePoint {
 }
 
 impl SurfacePoint {
-    /// The place alone.
+    /// The point without its rule and its part.
     pub(crate) fn raised(&self) -> RaisedPlace {
         let &Self { place, position, normal, height, .. } = self;
         RaisedPlace { place, position, normal, height }
@@ -180,7 +180,7 @@ impl SurfacePoint {
 /// A place over a surface at rest.
 #[derive(Clone, Copy)]
 pub(crate) struct RaisedPlace {
-    /// Where on which triangle.
+    /// The triangle, and where on it.
     pub(crate) place: PackedParticle,
     /// Model space, off the surface.
     pub(crate) position: DVec3,
@@ -215,10 +215,10 @@ pub(crate) struct Views {
     pub(crate) normal: DVec3,
     /// Axes of the tangent plane, right and up as on a turntable.
     pub(crate) axes: [DVec3; 2],
-    /// The same, turned by the roll of the reference's camera.
+    /// These axes, turned by the roll of the reference's camera.
     pub(crate) rolled_axes: [DVec3; 2],
     px_per_unit: f64,
-    /// In the reference of the point's rule, even where that does not face the point.
+    /// The Jacobian in the reference of the point's rule, even where that reference does not face the point.
     pub(crate) jacobian: [DVec3; 2],
 }
 
@@ -228,7 +228,7 @@ pub(crate) struct FacingReference {
     lift: Lift,
     /// How far it states the direction, 0..=1; 1 where it faces the point well.
     pub(crate) share: f64,
-    /// Pulled back to the surface at rest.
+    /// The Jacobian in this reference, pulled back to the surface at rest.
     pub(crate) jacobian: [DVec3; 2],
 }
 
@@ -236,14 +236,14 @@ pub(crate) struct FacingReference {
 struct Seen {
     /// Where the point is at the reference's frame, model space.
     position: DVec3,
-    /// Pulled back to the surface at rest: pixels per step there.
+    /// The Jacobian, pulled back to the surface at rest: pixels per step on that surface.
     jacobian: [DVec3; 2],
     /// Cosine between the normal and the direction to the eye.
     facing: f64,
 }
 
 impl BodyReferences {
-    /// The scene's own.
+    /// The scene's own reference.
     pub(crate) fn own(&self) -> &BodyReference {
         &self.all[0]
     }
@@ -259,7 +259,7 @@ impl BodyReferences {
         key.numbers(of_rule);
     }
 
-    /// The one that a rule's directions refer to.
+    /// The reference that a rule's directions refer to.
     pub(crate) fn of_rule(&self, rule: usize) -> &BodyReference {
         &self.all[usize::from(self.of_rule[rule])]
     }
@@ -348,7 +348,8 @@ impl Views {
         1.0 - self.facing.iter().flatten().map(|reference| 1.0 - reference.share).product::<f64>()
     }
 
-    /// The unit tangent whose flat lift (see `flat`) shows at this angle in the view with this Jacobian.
+    /// The unit tangent along which strokes, carried by the lift of [`Self::flat`], show at this angle in the view with
+    /// this Jacobian.
     pub(crate) fn tangent_at(&self, angle_rad: f64, jacobian: [DVec3; 2]) -> DVec3 {
         let turned = angle_rad - self.flat(self.axes[0]).map(jacobian).angle_rad();
         let (sin, cos) = turned.sin_cos();
@@ -374,7 +375,8 @@ impl Views {
         lift
     }
 
-    /// N, without any stroke's direction, with which κ is measured.
+    /// The lift that κ is measured with. It is made for strokes along the reference's right, but any tangent gives the
+    /// same κ.
     pub(crate) fn bare_lift(&self) -> Lift {
         self.lift(self.rolled_axes[0])
     }

@@ -125,7 +125,7 @@ fn surface_guide(guide: &Guide) -> Option<SurfaceGuide> {
 }
 
 /// The palettes of all rules in linear light, and for each rule the index of its palette ([`ANY_COLOR`] if it has
-/// none). Equal palettes are one, unless keys of strokes change how far they are kept to.
+/// none). Rules with equal palettes and equal keys of strokes share one: the keys say how far colours keep to it.
 pub(crate) fn palettes(rules: &[RegionRule]) -> (Vec<Palette>, Vec<u8>) {
     let mut palettes: Vec<Palette> = Vec::new();
     let mut keys: Vec<&[StrokesKey]> = Vec::new();

@@ -28,8 +28,8 @@ const COVERED: f64 = 0.92;
 /// The sphere of what is seen is used where it is smaller than this share of the sphere round all.
 const MUCH_SMALLER: f64 = 0.5;
 
-/// Scenes this many times their own radius from the world's origin are drawn about a place nearer to them. At that distance single
-/// precision tells places apart that are 1/16,000 of the radius from each other.
+/// A scene that lies farther from the world's origin than this many times its own radius is drawn about an origin in
+/// its middle. At that distance single precision tells places apart that are 1/16,000 of the radius from each other.
 const FAR: f64 = 1024.0;
 
 /// The origin of the frames' world space: 0, or the middle of a scene that lies far from there.
@@ -105,10 +105,10 @@ fn round_seen(boxes: &[Option<Corners>], views: &[View]) -> Option<(DVec3, f64)>
     Some((center, last.max(1e-6)))
 }
 
-/// From the eye through a place of the picture; depths along the gaze.
+/// A ray from the eye through a place of the picture. Depths on it are measured along the gaze.
 struct Ray {
     from: DVec3,
-    /// One unit deep along the gaze.
+    /// The step along the ray that goes one unit deeper.
     along: DVec3,
 }
 
@@ -122,7 +122,7 @@ struct Hit {
 impl Ray {
     fn through(view: &PictureView, world_from_view: DMat4, [column, row]: [usize; 2]) -> Self {
         let [width, height] = view.size_px.map(f64::from);
-        // −1 to 1 across the picture.
+        // −1 to 1 across the picture, times the margin.
         let place = |index: usize, count: usize| ((index as f64 + 0.5) / count as f64 * 2.0 - 1.0) * MARGIN;
         let (x, y) = (place(column, PLACES[0]) * width / height, place(row, PLACES[1]));
         let (x, y) = (x - view.pose.shift.x, y - view.pose.shift.y);
@@ -187,8 +187,8 @@ mod tests {
             let floor = [Some((Vec3::new(-half, 0.0, -half), Vec3::new(half, 0.0, half)))];
             find(&floor, &floor, &views, DVec3::ZERO)
         };
-        // The sphere holds all of a small floor. Of a large one it holds only a part, with the origin before the
-        // camera in it.
+        // The sphere holds all of a small floor. Of a large one it holds only a part, and in it the origin, which lies
+        // in front of the camera.
         assert_eq!(sphere(3.0), (Vec3::ZERO, 3.0 * 2f32.sqrt()));
         let (center, radius) = sphere(300.0);
         assert!(radius < 60.0 && center.distance(Vec3::ZERO) < radius, "centre {center}, radius {radius}");

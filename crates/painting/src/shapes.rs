@@ -34,7 +34,7 @@ impl<'a> BodyShapes<'a> {
         }
     }
 
-    /// The same, with every object morphed as far as its keys take it.
+    /// The same, with the morph of every object at the largest value of its keys.
     pub(crate) fn morphed_farthest(mut self) -> Self {
         for (weight, object) in self.morphs.iter_mut().zip(&self.loaded.scene.objects) {
             *weight = object.keys.iter().map(|key| key.morph).fold(0.0, f64::max);
@@ -42,7 +42,7 @@ impl<'a> BodyShapes<'a> {
         self
     }
 
-    /// The shape of one object. `bend` is what its mesh file has.
+    /// The shape of one object. `bend` is what bends its mesh file.
     pub(crate) fn of(&self, object: usize, bend: Option<&Bend>) -> BodyShape {
         let stated = &self.loaded.scene.objects[object];
         let cache = stated.cache.as_ref().and_then(|name| self.loaded.caches.get(name));

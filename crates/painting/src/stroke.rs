@@ -36,7 +36,7 @@ const BEND_SHARE: f32 = 1.5;
 /// How strongly the slow noise of edges changes the overrun.
 const EDGE_SWING: f32 = 0.6;
 
-/// ln(D/u) of a stroke that is present whatever its rank.
+/// The `supply_ln` (see [`presence::of_supply`]) of a stroke that is present whatever its rank.
 const WHOLE: f32 = 8.0;
 
 /// A particle that may show, with what its stroke depends on.
@@ -53,7 +53,7 @@ pub(crate) struct Candidate {
 }
 
 impl PaintingView<'_> {
-    /// The stroke of a particle; `None` where it is absent however much its layer is wanted.
+    /// The stroke of a particle; `None` if it cannot show, however much of its layer is wanted.
     pub(crate) fn stroke(&self, candidate: &Candidate) -> Option<(Stroke, StrokeSource)> {
         let &Candidate { entry, place, ref solved, region, part, bits, drift, .. } = candidate;
         let (coat_view, index) = (&self.coats[entry.coat as usize], entry.particle as usize);
@@ -68,7 +68,7 @@ impl PaintingView<'_> {
         let size_px = [layer.length_px, layer.width_px];
         let form = coat.traits.form(index);
         let size_px = cap.fitted(size_px, form, fit_of(coat.kind, strokes.fit));
-        // A stroke that is smaller than its layer's carries less paint, mixed less boldly.
+        // A stroke that is smaller than its layer states carries less paint, mixed less boldly.
         let boldness = (size_px[1] / layer.width_px).clamp(0.2, 1.0).sqrt();
         let wanted = wanted_where_small(coat.kind, size_px[1] / layer.width_px);
         let painted = coat.amounts.of(index);
@@ -92,7 +92,7 @@ impl PaintingView<'_> {
         if facing <= 0.0 {
             return None;
         }
-        // The paper's count has no fading. In ours, more strokes make up for those that fade.
+        // With the paper's rule no stroke fades. With ours, more strokes make up for those that fade.
         let facing_fade = if coat_view.shown.is_some() { 1.0 } else { presence::of_facing(facing) };
         let supply_ln = supply_ln - facing_fade.max(LEAST_COUNTED_FADE).ln();
         if supply_ln + most_wanted(coat.kind).ln() <= presence::ABSENT_LN {
@@ -185,7 +185,7 @@ impl PaintingView<'_> {
         Some((stroke, source))
     }
 
-    /// ln of ρ*·A/(index + ½): strokes wanted per pixel over particles per pixel, over rank. ρ* is the strokes wanted
+    /// ln of the supply over the rank, ρ*·A/(index + ½). Supply is the strokes wanted per pixel, ρ*, over the particles
     /// per pixel; A is how many pixels the coat's whole area would fill at this particle's scale. The number of
     /// particles cancels out, so twice as many leave the first half as they were.
     fn supply_ln(&self, coat: &CoatView<'_>, index: usize, area_px: f32, wanted_per_px: f32) -> f32 {
@@ -214,8 +214,8 @@ struct Outline {
     skew: f32,
 }
 
-/// The outline of a stroke that is mapped like a texture: `flat` is its outline in the reference picture, at the scene's own
-/// size, and `map` takes that picture to this one.
+/// The outline of a stroke that is mapped like a texture: `flat` is its outline in the reference picture, and `map`
+/// takes that picture, at the scene's own size, to this one.
 fn mapped(map: PixelMap2, flat: Outline, px_scale: f64) -> Outline {
     let along = DVec2::new(map.x.x, map.y.x) * f64::from(flat.length_px) / px_scale;
     let across = DVec2::new(map.x.y, map.y.y) * f64::from(flat.width_px) / px_scale;

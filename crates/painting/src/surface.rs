@@ -33,7 +33,7 @@ pub(crate) struct SurfaceInputs {
     texture: Option<Arc<Texture>>,
     morph: Option<Arc<MeshFile>>,
     cache: Option<Arc<PointCache>>,
-    /// The shape in which strokes are laid; without a pose and a frame, as the file has it.
+    /// The shape in which strokes are laid. If it has no pose and no frame, it is the shape in the file.
     rest: BodyShape,
 }
 
@@ -99,7 +99,7 @@ impl SurfaceInputs {
         all.iter().enumerate().map(&mut twin).collect()
     }
 
-    /// The mesh file, whose groups and materials regions name.
+    /// The mesh file; regions refer to its groups and materials by name.
     pub(crate) fn file(&self) -> &MeshFile {
         &self.file
     }
@@ -217,7 +217,8 @@ impl BodySurface {
         !self.mesh.colors.is_empty() || self.materials.iter().any(|material| material.texture.is_some())
     }
 
-    /// sRGB albedo of each material; if any material has a texture, or the mesh has colours of its own, of each of `particles` instead.
+    /// sRGB albedo: of each of `particles` if a material has a texture or the mesh has colours of its own, otherwise of
+    /// each material.
     pub(crate) fn albedo(&self, particles: impl IndexedParallelIterator<Item = Particle>) -> Albedo {
         if self.has_colors() {
             return Albedo::OfParticle(particles.map(|particle| self.albedo_srgb8(&particle)).collect());

@@ -16,14 +16,16 @@ use crate::touches::{LaidTouch, TouchPlace};
 const FILL: f64 = impasto_core::brush::FILL as f64;
 const MARK_LENGTH: f64 = impasto_core::brush::SIZE[0] as f64 / impasto_core::brush::SIZE[1] as f64;
 
-/// A line longer than this many marks keeps the ends of its mark as they are, and stretches the middle: `END` of the mark at either end.
+/// A line longer than this many marks stretches only the middle of its mark. The share `END` of the mark at either end
+/// keeps its proportions.
 const STRETCHED: f64 = 1.5;
 const END: f64 = 0.36;
 
 /// By what share of its width a line is narrower at its very ends.
 const LIFTED: f64 = 0.22;
 
-/// A line of this many widths, or more, needs `RUNS_DRY` more paint in its mark to show at its end.
+/// The brush runs dry: at the end of a line of `DRY_AFTER` widths or more, a texel of the mark shows only if it has
+/// `RUNS_DRY` more paint than is needed at the beginning.
 const DRY_AFTER: f64 = 12.0;
 const RUNS_DRY: f64 = 0.34;
 
@@ -49,7 +51,8 @@ struct LinePoint {
     slant: f64,
     /// Unit.
     normal_in_world: DVec3,
-    /// How far it lies from the place of the surface that has its depth, pixels.
+    /// Offset of this point from the point of the surface that its depth belongs to, pixels: zero, except past the ends
+    /// of the line.
     off_px: DVec2,
 }
 
@@ -211,7 +214,7 @@ impl PaintingView<'_> {
     ) -> (Stroke, StrokeSource) {
         let strokes = self.strokes_of(laid.rule);
         let layer = strokes.body();
-        // As thick as the lights that Impasto places itself.
+        // At least as thick as the lights that Impasto places itself.
         let thickness = layer.thickness.max(strokes.layer_of(LayerKind::Lights).thickness);
         let byte = |value: f32| value.round().clamp(0.0, 255.0) as u8;
         let stroke = Stroke {
@@ -257,7 +260,7 @@ struct Anchor {
     normal_in_world: [f32; 3],
 }
 
-/// `None` where nothing of the line can be seen.
+/// The anchor of a touch with this line; `None` where nothing of the line can be seen.
 fn anchor(line: &[LinePoint], runs: &[Range<usize>]) -> Option<Anchor> {
     let seen = || runs.iter().flat_map(|run| &line[run.clone()]);
     let weight = |point: &LinePoint| f64::from(presence::of_facing(point.facing as f32));

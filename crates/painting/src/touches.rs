@@ -49,15 +49,15 @@ pub(crate) struct LaidTouch {
     pub(crate) object: usize,
     /// The rule where its middle lies.
     pub(crate) rule: u16,
-    /// Where it runs; a single place where strokes round it give its direction.
+    /// The places that it runs through. If there is only one, the strokes round that place give its direction.
     pub(crate) places: Arc<Vec<TouchPlace>>,
-    /// Of a touch at a single place: particles of the body layer nearest to it.
+    /// If it has a single place: the particles of the body layer nearest to that place; else empty.
     pub(crate) round: Vec<u32>,
     /// Random bits, the same in every frame.
     pub(crate) bits: u32,
     /// Index of its mark; bit 16 flips it.
     pub(crate) mark: u32,
-    /// Albedo in its middle, as a stroke has it; or its own colour.
+    /// The touch's own colour if it has one, else the albedo of the surface in its middle; packed as in a stroke.
     pub(crate) albedo_srgb8: u32,
 }
 
@@ -250,7 +250,7 @@ impl<'a> Near<'a> {
         Some(Self { surface, triangles })
     }
 
-    /// The place nearest to a point, of those that face about this way; of any where none does.
+    /// The place nearest to a point, of those that face about this way; of all places, if none does.
     fn place(&self, at: DVec3, normal: DVec3) -> Option<TouchPlace> {
         let mesh = &self.surface.mesh;
         let normal = normal.normalize_or_zero();

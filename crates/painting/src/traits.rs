@@ -69,7 +69,7 @@ pub(crate) struct TraitInputs {
 struct TraitRule {
     angle_jitter_rad: f32,
     swing_rad: f32,
-    /// What the second of two crossing families adds, radians, where there are two.
+    /// What the second of two crossing families adds to the angle, radians; `None` where there is one family.
     second_rad: Option<f64>,
 }
 
@@ -183,7 +183,7 @@ impl PartialEq for TraitInputs {
     }
 }
 
-/// What the second of two crossing families adds, radians; `None` where there is one family.
+/// What the second of two crossing families adds to the angle, radians; `None` where there is one family.
 fn second_rad(direction: &Direction) -> Option<f64> {
     match *direction {
         Direction::Crossing(first, second) => Some((second - first).to_radians()),

@@ -48,7 +48,7 @@ impl PictureView {
         ClipView { clip_from_model, size_px }
     }
 
-    /// The view as a frame has it, whose world space begins at `origin_in_world`.
+    /// The view as a frame has it. The origin of the frame's world space is at `origin_in_world`.
     pub(crate) fn frame_view(&self, origin_in_world: DVec3) -> FrameView {
         let (near, far) = self.near_far();
         let there = DMat4::from_translation(origin_in_world);

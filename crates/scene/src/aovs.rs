@@ -26,9 +26,9 @@ pub enum Aov {
     Shadow,
     /// How open a place is to ambient light.
     Occlusion,
-    /// Numbers of objects.
+    /// The number of the object that shows.
     ObjectId,
-    /// Numbers of strokes.
+    /// The number of the stroke that shows most.
     StrokeId,
     /// Angles of strokes.
     StrokeAngle,

@@ -169,7 +169,7 @@ struct Made {
     warnings: Vec<Problem>,
 }
 
-/// Says which axis was taken to be up where another could as well be.
+/// Says which axis was taken to be up, for a mesh of which that is not certain.
 fn unsure_of_up(path: &Path, scene: &Scene) -> Problem {
     let up = scene.objects.first().map_or(Up::Y, |object| object.up);
     let name = Up::ALL.iter().find(|(_, known)| *known == up).map_or("y", |(name, _)| name);

@@ -40,7 +40,8 @@ pub fn max_bytes(path: &Path) -> u64 {
     }
 }
 
-/// The files that must be copied with a mesh file in `root` to another folder: those that it names and that are found in `root`.
+/// The files that must be copied with a mesh file in `root` to another folder: those that it names and that are found
+/// in `root`.
 ///
 /// # Errors
 /// A [`Report`] where the file cannot be read or has errors.

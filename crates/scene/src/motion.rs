@@ -37,8 +37,8 @@ impl CameraPose {
         let eye = world_from_view.w_axis.truncate();
         let [up, back] = [world_from_view.y_axis, world_from_view.z_axis].map(|axis| axis.truncate());
         let unrolled = Self { eye, target: eye - back, roll_rad: 0.0, shift, lens };
-        // Where the camera's up points in a view without roll. Straight up means no roll; to the left of that, the
-        // camera is turned counter-clockwise.
+        // Where the camera's up points in a view without roll. If it points straight up, there is no roll; if it points
+        // to the left, the camera is turned counter-clockwise.
         let up = unrolled.view_from_world().transform_vector3(up);
         Self { roll_rad: (-up.x).atan2(up.y), ..unrolled }
     }

@@ -145,8 +145,9 @@ impl PointCache {
         [self.first_frame, self.first_frame + (self.samples - 1) as f64 * self.frames_per_sample]
     }
 
-    /// Where the points are at a frame, in the space of the mesh file. Between two samples, points move evenly from one to the other; before
-    /// the first and after the last, they stand still. Memory for two samples is taken, whatever the length of the file.
+    /// Where the points are at a frame, in the space of the mesh file. Between two samples, points move evenly from one
+    /// to the other; before the first and after the last, they stand still. Memory for two samples is taken, whatever
+    /// the length of the file.
     ///
     /// # Errors
     /// Those of the system, and a position that is not finite or too far away.

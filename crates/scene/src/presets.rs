@@ -23,7 +23,7 @@ pub const GROUND: &str = "ground";
 /// A layer of paint, in the order in which they are laid on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum LayerKind {
-    /// Large, thin and earthy, under everything.
+    /// Large, thin, earthy strokes under everything.
     Underpainting,
     /// The bulk of the paint.
     Body,
@@ -35,14 +35,14 @@ pub enum LayerKind {
     Accents,
     /// Thin lines where a body ends, fading out in places.
     Contour,
-    /// A few thick ones on highlights.
+    /// A few thick strokes on highlights.
     Lights,
-    /// Those that were placed by hand, over all others.
+    /// Strokes that were placed by hand, over all others.
     Touches,
 }
 
 impl LayerKind {
-    /// Those whose strokes Impasto places itself, from the first laid on to the last.
+    /// The layers whose strokes Impasto places itself, from the first laid on to the last.
     pub const ALL: [Self; 7] = [
         Self::Underpainting,
         Self::Body,

@@ -65,7 +65,7 @@ pub(crate) struct Choice {
 }
 
 impl Choice {
-    /// What a scene states.
+    /// What a scene states of these choices.
     pub fn of(scene: &Scene) -> Self {
         Self { camera: scene.camera.of_shot.clone(), animation: scene.timeline.animation.clone() }
     }
@@ -175,8 +175,8 @@ impl Shot {
         self.stated_rate().or_else(|| self.rate_of_keys()).unwrap_or(24.0)
     }
 
-    /// The first and the last frame at `fps` frames per second. If the sidecar states frames, and no other rate than
-    /// this, they are those; else they are those between which the shot moves (frame = time · fps).
+    /// The first and the last frame at `fps` frames per second: those that the sidecar states, unless it states another
+    /// rate; else those between which the shot moves (frame = time · fps).
     pub fn frames(&self, fps: f64) -> (i64, i64) {
         if let Some([first, last]) =
             self.file.sidecar.frames.filter(|_| self.stated_rate().is_none_or(|rate| rate == fps))
@@ -301,7 +301,7 @@ mod tests {
         for rate in [24.0, 25.0, 30.0, 60.0, 24_000.0 / 1001.0] {
             assert_eq!(rate_of(keys(rate, 2000)), Some(rate));
         }
-        // Whole seconds fit all; three keys are chance; 17 a second is no rate of films.
+        // Keys at whole seconds fit every rate; three keys are too few to tell; no film has 17 frames a second.
         assert_eq!(rate_of(keys(1.0, 9)), Some(24.0));
         assert_eq!(rate_of(keys(30.0, 3)), None);
         assert_eq!(rate_of(keys(17.0, 99)), None);

@@ -20,8 +20,8 @@ pub struct StrokesFile {
 }
 
 impl StrokesFile {
-    /// The settings of the scene, or of its region with this index, together with what it takes from the scene. What
-    /// belongs to this scene alone is left out: changes over time, and which regions lie over which.
+    /// The settings of the scene, or of its region with this index, together with what the region takes from the scene.
+    /// What belongs to this scene alone is left out: changes over time, and which regions lie over which.
     pub fn of(scene: &Scene, region: Option<usize>) -> Self {
         let mut strokes = match region {
             None => scene.strokes.clone(),
@@ -36,9 +36,9 @@ impl StrokesFile {
         Self { version: Scene::VERSION, height_px: scene.size.1, strokes }
     }
 
-    /// The settings for a scene of this height, in place of `own`. What belongs to that scene stays: its changes over time,
-    /// which region lies over which and, where the preset states none, its ground and its order of layers. A region has
-    /// neither of the last two.
+    /// The settings for a scene of this height, in place of `own`. What belongs to that scene stays: its changes over
+    /// time, which region lies over which and, where the preset states none, its ground and its order of layers. A
+    /// region has neither of the last two.
     pub fn applied_to(&self, own: &StrokeSettings, height_px: u32, is_region: bool) -> StrokeSettings {
         let mut strokes = self.strokes.clone();
         scale(&mut strokes, f64::from(height_px) / f64::from(self.height_px.max(1)));

@@ -367,9 +367,9 @@ impl<'a> Builder<'a> {
     }
 
     /// A unit normal for each corner of each triangle. Where the file gives normals for all three corners, these are
-    /// taken. Elsewhere it is the mean normal of those faces round the corner that meet this one at less than the
-    /// crease angle, weighted by their angles there (Thürmer and Wüthrich 1998). Empty where all triangles have the
-    /// file's normals.
+    /// taken. Elsewhere a corner's normal is the mean normal of those triangles round it that meet this triangle at
+    /// less than the crease angle, weighted by their angles at the corner (Thürmer and Wüthrich 1998). The list is
+    /// empty if all triangles have the file's normals.
     fn corner_normals(&self) -> Vec<[Vec3; 3]> {
         if self.triangles.par_iter().with_min_len(SHARE).all(|triangle| self.file_normals(triangle).is_some())
         {

@@ -1,4 +1,4 @@
-//! The EXR file of a frame: its channels, and what the file notes of the frame.
+//! Encodes the EXR file of a frame: its channels, and what the file notes about the frame.
 
 use glam::Mat4;
 use impasto_aovs::Drawn;

@@ -15,7 +15,7 @@ pub(crate) struct Workers<'a, J, T> {
     pub(crate) own: Worker<'a, J, T>,
     /// How many further threads.
     pub(crate) further: usize,
-    /// Makes the worker of a further thread, on that thread. Where it gives `None`, the other threads do its share.
+    /// Makes the worker of a further thread, on that thread. Where it gives `None`, the other threads do the work.
     pub(crate) open: &'a (dyn Fn() -> Option<Worker<'a, J, T>> + Sync),
 }
 
@@ -77,7 +77,7 @@ where
                     shared.hand_in(number, job, result);
                 }
             };
-            // Where the system gives no thread, the other threads do its share.
+            // Where the system gives no thread, the threads that there are do all the work.
             if std::thread::Builder::new().name("frames".to_owned()).spawn_scoped(scope, run).is_err() {
                 break;
             }

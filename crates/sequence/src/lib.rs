@@ -1,5 +1,5 @@
 //! Renders a sequence of frames on several threads and hands them over in order: the one loop behind `impasto render`
-//! and `F12`.
+//! and `F12` in the editor.
 //!
 //! ```text
 //! Sequence::render, render_files ─▶ in_order ─▶ painters: each draws whole frames, with its own renderer and thread
@@ -115,7 +115,7 @@ impl Sequence {
         stop: &(dyn Fn() -> bool + Sync),
         mut report: impl FnMut(i64, FileOutcome) -> Result<(), E>,
     ) -> Result<Ending, E> {
-        // A frame that the list names twice is drawn once: the second time, its file counts as existing.
+        // If existing files are kept, a frame that the list names twice is drawn once: its file exists the second time.
         let mut seen = HashSet::new();
         let is_done = |frame_number: i64| {
             let path = (files.path)(frame_number);

@@ -140,7 +140,8 @@ fn two_triangles_would_be_seen() {
         let at = DVec2::new(chance(index, 0), chance(index, 1));
         (on_two_triangles(place(&tapered, at), corners) - at).abs().max_element()
     });
-    // `worst` is in shares of the mark. The test above would notice about 0.06: a difference of 1.5 on a ramp of 27.
+    // `worst` is in shares of the mark. The test above would notice about 0.06: its limit is 1.5 grey
+    // levels, on a ramp of 27.
     assert!(worst.fold(0.0, f64::max) > 0.3);
 }
 

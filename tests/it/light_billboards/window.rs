@@ -57,7 +57,7 @@ fn a_lamp_is_dragged_by_its_icon_and_is_saved_where_it_was_let_go() {
     editor.wait_for_title("apple.ron - Impasto");
     let after = read(folder.path(), "apple.ron");
     let let_go = shown_at(&after, place(&after));
-    assert!(let_go.distance(to) < 2.0, "it shows at {let_go}, and was let go at {to}");
+    assert!(let_go.distance(to) < 2.0, "the lamp shows at {let_go}, but was let go at {to}");
     let mut back = after.clone();
     back.lights[0].position = lamp(&before).position;
     assert_eq!(back, before, "nothing else moved");

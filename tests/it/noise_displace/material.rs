@@ -58,7 +58,7 @@ fn layers_are_those_of_the_sources_shader_on_either_driver() {
     let tint = Color([1.0, 0.75, 0.4]);
     let tint_linear = [255u8, 191, 102].map(linear);
     let mut renderers = [Driver::Egl, Driver::Osmesa].map(|driver| (driver, renderer(driver)));
-    // These enlarge the texture, so that no driver reads a smaller mipmap level.
+    // Tilings below 1 enlarge the texture, so that no driver reads a smaller mipmap level.
     let tiling = [0.22, 0.17];
     for (layer_count, forward) in [
         (1, NoiseForward::Odd),
@@ -110,7 +110,7 @@ fn forward_even_and_time_change_the_layers() {
         drawn(sheet(SurfaceNoise { forward, layer_count: 3, ..Default::default() }), frame, &mut renderer)
     };
     assert!(of(NoiseForward::Odd, 24.0) != of(NoiseForward::Even, 24.0));
-    assert!(of(NoiseForward::Odd, 24.0) != of(NoiseForward::Odd, 0.0), "time moves them");
+    assert!(of(NoiseForward::Odd, 24.0) != of(NoiseForward::Odd, 0.0), "the layers do not move with time");
 }
 
 #[test]
@@ -152,7 +152,7 @@ fn what_is_behind_is_seen_through_as_much_as_alpha_says() {
         let pixel = &picture.rgba8[at * 4..at * 4 + 3];
         assert!((linear(pixel[0]) - 0.25).abs() < 0.01, "{pixel:?}");
         assert!((linear(pixel[other]) - 0.75).abs() < 0.01, "{pixel:?}");
-        assert_eq!(reference.body_id[at], 1, "the body in front is there");
+        assert_eq!(reference.body_id[at], 1, "the reference lacks the body in front");
         assert!((reference.depth[at] - 4.0).abs() < 1e-4);
     }
 }
@@ -254,7 +254,7 @@ fn more_layers_are_darker_unless_the_mean_is_kept() {
         assert!((root - g.powf(2.0 * (k - 1.0) / k)).abs() < 0.01, "k {layer_count}: {root}");
         assert!((mean - g).abs() < 0.2 * g, "k {layer_count}: {mean}");
     }
-    // With the most layers that are allowed, the product itself underflows.
+    // With the most layers that are allowed, their product alone would underflow 32 bits.
     let most = moments(&grey(SurfaceNoise { layer_count: 64, ..Default::default() }, 60, &mut renderer))[0];
     assert!((most - (60.0 / 255.0_f64).powf(126.0 / 64.0)).abs() < 0.01, "{most}");
     // The same on noise, whose mean is a half.
@@ -292,7 +292,7 @@ fn alpha_may_come_from_the_noise() {
         scene.background = Color([1.0; 3]);
         moments(&drawn(scene, 0.0, &mut renderer))
     };
-    assert!(see_through(NoiseAlpha::Texture)[0] < 0.01, "the texture is opaque");
+    assert!(see_through(NoiseAlpha::Texture)[0] < 0.01, "an opaque texture is seen through");
     let [mean, deviation] = see_through(NoiseAlpha::Grey);
     assert!((0.3..0.7).contains(&mean) && deviation > 0.03, "{mean} {deviation}");
 }
@@ -318,5 +318,5 @@ fn what_shines_glows_round_about() {
     scene.background = Color([0.0; 3]);
     scene.objects[0].keys =
         vec![ObjectKey { scale: impasto_scene::document::Scale::even(0.3), ..ObjectKey::at(0.0) }];
-    assert_eq!(beside(&drawn(scene, 0.0, &mut renderer)), 0, "below the threshold nothing glows");
+    assert_eq!(beside(&drawn(scene, 0.0, &mut renderer)), 0, "a surface below the threshold glows");
 }

@@ -24,9 +24,9 @@ const TEXELS: u32 = 64;
 const VALUE: [f64; 2] = [0.20, 0.22];
 /// The displacement from the least noise to the greatest, units.
 const SCALE: f64 = 4.0;
-/// How many bytes each channel of the noise rises from one texel to the next, along U and along V.
+/// How many levels of 255 each channel of the noise rises from one texel to the next, along U and along V.
 const RISE: [[f64; 3]; 2] = [[2.0, 0.0, 2.0], [0.0, 1.0, -2.0]];
-/// The bytes of the channels at the first texel.
+/// The levels, 0..=255, of the channels at the first texel.
 const BEGIN: [f64; 3] = [60.0, 60.0, 128.0];
 
 /// The sheet's pose: in the middle of the texture, away from the edge where the ramp repeats.

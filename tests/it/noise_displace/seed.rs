@@ -32,7 +32,7 @@ pub struct Vert<'a> {
 }
 
 impl Vert<'_> {
-    /// Table 4.
+    /// Where a vertex is moved: the source's table 4.
     pub fn displaced(&self, v: DVec3) -> DVec3 {
         let vertex = self.object_to_world.transform_point3(v);
         let at = [0, 1].map(|axis: usize| vertex[axis] * self.noise_value[axis] + self.time_x);
@@ -53,7 +53,7 @@ pub struct Frag<'a> {
 }
 
 impl Frag<'_> {
-    /// Table 5, before the tint.
+    /// The colour at a texture coordinate, before the tint: the source's table 5.
     pub fn tex(&self, texcoord: [f64; 2]) -> [f64; 4] {
         let mut tex = [1.0; 4];
         let mut reverse_factor = self.reverse_factor;

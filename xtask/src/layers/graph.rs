@@ -1,4 +1,4 @@
-//! Which packages use which, read from the output of `cargo metadata`: the check of the layers needs it.
+//! Which packages use which, read from the output of `cargo metadata`, for the check of the layers.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::path::PathBuf;

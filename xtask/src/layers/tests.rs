@@ -83,7 +83,7 @@ fn a_dev_dependency_is_an_arrow_too() {
 fn an_outside_crate_stays_behind_its_owner() {
     let scene = ("scene", "[dependencies]\nglow.path = \"../../outside/glow\"");
     let tests = ("tests", "[dependencies]\nimpasto-scene.path = \"../scene\"");
-    assert_eq!(verdict(&[CORE, scene, tests]), Ok(()), "through its owner it may be reached");
+    assert_eq!(verdict(&[CORE, scene, tests]), Ok(()), "`tests` may reach `glow` through its owner");
     let tests = ("tests", "[dependencies]\nmiddle.path = \"../../outside/middle\"");
     let error = verdict(&[CORE, SCENE, tests]).expect_err("round its owner it may not");
     assert!(error.contains("impasto-tests -> middle -> glow is not allowed"), "{error}");

@@ -79,7 +79,7 @@ fn place(tree: &Path, file: &str) -> anyhow::Result<PathBuf> {
     Ok(path)
 }
 
-/// Copies a file, or a folder with what is in it.
+/// Copies a file, or a folder with what is in it; `below` is passed to [`is_left_out`], which says what is not copied.
 fn copy(from: &Path, to: &Path, below: &str) -> anyhow::Result<()> {
     if !from.is_dir() {
         std::fs::create_dir_all(to.parent().context("a file lies in a folder")?)?;

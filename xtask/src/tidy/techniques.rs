@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::finding::Finding;
 
-/// A part that every technique has: what it is, the folders in one of which it lies, and how its file name ends (`/`
-/// for a folder).
+/// A part that every technique has: what it is, the folders that may hold it, and how its file name ends (`/` for a
+/// folder).
 type Place = (&'static str, &'static [&'static str], &'static str);
 const PLACES: &[Place] = &[
     ("a shader folder", &["crates/gl-render/shaders/"], "/"),

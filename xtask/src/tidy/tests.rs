@@ -16,7 +16,7 @@ fn verdict(files: &[(&str, &str)]) -> Result<(), String> {
 /// Asserts that the planted file is found, at this place and in these words.
 fn found(files: &[(&str, &str)], expected: &str) {
     let error = verdict(files).expect_err("untidy");
-    assert!(error.starts_with("1 things"), "just the planted one: {error}");
+    assert!(error.starts_with("1 things"), "more than the planted file is found: {error}");
     assert!(error.contains(expected), "{expected} in {error}");
 }
 
@@ -34,7 +34,7 @@ fn a_planted_long_file_is_named() {
         "crates/gl-render/shaders/shared/long.glsl:501: 501 lines",
     );
     assert_eq!(verdict(&[("crates/core/src/long.rs", &"// line\n".repeat(500))]), Ok(()));
-    // What follows a module of tests, or its name, counts.
+    // Lines after a module of tests count, and so do lines after `mod tests;`.
     let named = format!("#[cfg(test)]\nmod tests;\n{long}");
     found(&[("crates/core/src/named.rs", &named)], "crates/core/src/named.rs:501: 501 lines");
     let around = format!("// line\n#[cfg(test)]\nmod tests {{\n{long}}}\n{}", "// line\n".repeat(500));

@@ -11,7 +11,7 @@ use super::Bend;
 pub enum Bonds<'a> {
     /// All of them.
     All,
-    /// Those that one point of a point cache moves. The list holds, for each vertex, the index of its point.
+    /// Those that follow the same point of a point cache. The list holds, for each vertex, the index of its point.
     Points(&'a [u32]),
     /// Those that targets and joints move alike.
     Bend(&'a Bend),

@@ -82,7 +82,7 @@ impl CarriedPlace {
         self.area_normal(at_rest).normalize_or(at_rest)
     }
 
-    /// The same normal, its length the area now over the area at rest. Zero where the surface has collapsed.
+    /// As [`Self::normal`], but its length is the area now over the area at rest. Zero where the surface has collapsed.
     pub fn area_normal(&self, at_rest: DVec3) -> DVec3 {
         cofactors(self.gradient) * at_rest
     }

@@ -9,7 +9,7 @@ use super::Bonds;
 use crate::TriangleMesh;
 use crate::cofactors::cofactors_f32;
 
-/// How many places one task measures.
+/// How many places (see [`Gradients`]) one task handles.
 const CHUNK: usize = 1024;
 
 /// Weights that give the deformation gradient F at each vertex from where the vertices are.
@@ -48,7 +48,7 @@ impl Gradients {
     /// The weights for a mesh at rest; `bonds` tells which vertices stay together.
     pub fn new(mesh: &TriangleMesh, bonds: Bonds<'_>) -> Self {
         let (place_of_vertex, vertex_of_place) = places(mesh, bonds);
-        // The corners at each place: three times the triangle's number, plus which of its corners.
+        // Lists the corners at each place. A corner's number is three times its triangle's, plus 0, 1 or 2.
         let place_of = |corner: u32| {
             let vertex = mesh.triangles[corner as usize / 3][corner as usize % 3];
             place_of_vertex[vertex as usize] as usize

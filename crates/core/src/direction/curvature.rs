@@ -9,7 +9,7 @@ use super::tangent_axes;
 pub struct Curvature {
     /// The one of greater magnitude first; 1 / model units, positive where the surface bends away from its normal.
     pub curvatures: [f64; 2],
-    /// For each, the unit tangent along which the surface bends so, model space.
+    /// For each curvature, the unit tangent along which the surface has it, model space.
     pub directions: [DVec3; 2],
 }
 
@@ -45,7 +45,7 @@ pub fn principal(normal: DVec3, near: impl Iterator<Item = (DVec3, DVec3)>) -> O
     } else {
         [mean - radius, mean + radius]
     };
-    // Any column of S − (second eigenvalue)·1 is a first eigenvector; the longer one is more exact.
+    // Both columns of S − (second eigenvalue)·1 are eigenvectors of the first eigenvalue; the longer is more exact.
     let others = shape - DMat2::from_diagonal(DVec2::splat(values[1]));
     let column = if others.x_axis.length_squared() > others.y_axis.length_squared() {
         others.x_axis

@@ -221,8 +221,8 @@ impl System<'_> {
             .collect()
     }
 
-    /// Moves every sample half-way to the normalised mean of its neighbours and its target. This never raises the sum; whole
-    /// steps could oscillate.
+    /// Moves every sample half-way to the normalised mean of its neighbours and its target. This never raises the sum
+    /// that the field minimises; whole steps could oscillate.
     fn unit_round(&self, u: &[DVec2]) -> Vec<DVec2> {
         self.map(|sample| {
             let (sum, weights) = self.gathered(u, sample);
@@ -233,8 +233,8 @@ impl System<'_> {
     }
 }
 
-/// Points spread evenly over a unit sphere along a spiral, each of which is also its normal, and their spacing. The
-/// tests of this folder share them.
+/// Points spread evenly over a unit sphere along a spiral, and their spacing. On this sphere a point's position is also
+/// its normal. The tests of this folder share them.
 #[cfg(test)]
 pub(super) fn spiral_sphere(count: usize) -> (Vec<Vec3>, f64) {
     use glam::DVec3;
@@ -286,7 +286,7 @@ mod tests {
             .map(|position| {
                 let normal = position.as_dvec3();
                 let axes = tangent_axes(normal);
-                // The front is combed at 35 degrees; the back is free.
+                // The front is combed 35 degrees off the vertical; the back is free.
                 let front = crate::direction::towards(DVec3::new(0.57, 0.82, 0.0), normal);
                 let weight = if normal.z > 0.3 { 100.0 } else { 1e-6 };
                 Constraint { target: symmetry.encode(front, axes), weight }

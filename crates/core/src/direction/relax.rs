@@ -22,10 +22,10 @@ const RESIDUAL: f64 = 1e-6;
 const ROUNDS: usize = 3;
 
 impl FieldGraph {
-    /// The field `solved` with some samples freed. Samples that have a constraint in `holds` are free: they are pulled
-    /// by it and by their neighbours. All others stay as they are. The turn from one fixed side to the other is spread
-    /// evenly over the free samples; where the two sides are opposite, all free samples turn the same way round. The
-    /// same inputs give the same bits.
+    /// The field `solved` with some samples freed: those that have an entry in `holds`. Each is pulled by the
+    /// constraint in its entry and by its neighbours. All others stay as they are. The turn from one fixed side to the
+    /// other is spread evenly over the free samples; where the two sides are opposite, all free samples turn the same
+    /// way round. The same inputs give the same bits.
     pub fn relaxed(&self, symmetry: Symmetry, solved: &[DVec2], holds: &[Option<Constraint>]) -> Vec<DVec2> {
         let free = FreeSamples::new(self, symmetry, holds);
         let mut field = solved.to_vec();
@@ -98,7 +98,8 @@ impl FreeSamples {
     }
 
     /// For each sample of a tear, a constraint that decides which way the field turns there: perpendicular to the line
-    /// along which the blend changes, to the same side over the whole tear, and to the side that is the shorter way.
+    /// along which the blend changes, on the same side over the whole tear, and on the side to which the turn is
+    /// shorter.
     fn leads(&self, field: &[DVec2], blend: &[DVec2]) -> Vec<Option<Constraint>> {
         let torn = |index: usize| blend[index].length() < TORN;
         let at = |tie: &Tie| tie.inner.map_or(field[tie.to], |inner| blend[inner]);
@@ -160,8 +161,8 @@ impl FreeSamples {
         }
     }
 
-    /// Solves (firm + Σ w) x − Σ w ρ x = pull over the free samples by conjugate gradients from `start`; `carried`
-    /// applies ρ. Sums run in a fixed order.
+    /// Solves (firm + Σ w) x − Σ w ρ x' = pull over the free samples, where x' are their free neighbours, by conjugate
+    /// gradients from `start`; `carried` applies ρ. Sums run in a fixed order.
     fn solve(
         &self,
         start: Vec<DVec2>,

@@ -13,7 +13,7 @@ use super::Points;
 pub(super) struct CellSpace {
     low: [f64; 3],
     cells_per_unit: f64,
-    /// Along x, y and z.
+    /// How many cells there are along x, y and z.
     cells: [u64; 3],
 }
 
@@ -90,7 +90,7 @@ impl SortedPoints {
         }
     }
 
-    /// The runs of points in one cell, within a part of the points: number of the cell, and range of the points.
+    /// Splits a part of the points by cell: for each cell, its number and the range of its points.
     pub(super) fn by_cell(&self, part: Range<usize>) -> impl Iterator<Item = (u64, Range<usize>)> {
         let first = part.start;
         let mut from = first;

@@ -25,7 +25,7 @@ pub(super) struct Crowd {
     numbers: Vec<u32>,
     /// Near points as keys: the bits of the squared distance, then the number.
     found: Vec<u64>,
-    /// The same, sorted.
+    /// The keys of `found`, sorted.
     sorted: [u64; SLOTS],
 }
 

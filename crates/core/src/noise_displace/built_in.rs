@@ -53,7 +53,8 @@ pub fn perlin() -> Arc<Tile> {
             octaves.iter().enumerate().map(of_octave).sum::<f64>()
         };
         let values = (0..PERLIN_SIDE * PERLIN_SIDE).into_par_iter().map(value).collect();
-        // The curve keeps values away from 0 and 1: layers are multiplied, so a zero in one would hide all others.
+        // The curve keeps values away from 0 and 1: layers of noise are multiplied, so a zero in one would hide all
+        // others.
         let grey = levelled(values, |value| 0.5 * (2.0 * value).tanh());
         let texels = grey.into_iter().map(|grey| [grey, grey, grey, 1.0]).collect();
         Arc::new(Tile::new([PERLIN_SIDE; 2], texels))

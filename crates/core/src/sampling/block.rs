@@ -13,14 +13,14 @@ pub(super) const LANES: usize = 64;
 /// [`LANES`] candidates.
 pub(super) struct Block {
     faces: [u32; LANES],
-    /// Weights of the second and third corner of each one's face.
+    /// For each candidate, the weights of the second and third corner of its face.
     barycentric: [[f32; LANES]; 2],
 }
 
 impl Block {
-    /// The candidates with these numbers. Their places are random shares of the surface's area, counted face by face:
-    /// `area` is the whole area, cut into `steps` equal steps. `face` finds a candidate's face from the area before the
-    /// candidate and from the step that the candidate is in.
+    /// The candidates with these numbers. With all faces lined up, a candidate lies at a random point of the surface's
+    /// whole `area`, which is cut into `steps` equal steps. `face` finds the candidate's face from the area that lies
+    /// before this point, and from the step that the point is in.
     #[inline]
     pub(super) fn new(
         (seed, numbers): (u32, &[u32; LANES]),
@@ -88,9 +88,9 @@ struct Throwing<'a> {
 }
 
 struct Thrown {
-    /// The surface's area before each candidate, counted face by face.
+    /// With all faces lined up, the area that lies before each candidate.
     areas: [f64; LANES],
-    /// The step of area that each is in.
+    /// The step of area that each candidate is in.
     steps: [i32; LANES],
     barycentric: [[f32; LANES]; 2],
 }

@@ -71,8 +71,8 @@ impl<'a> Candidates<'a> {
         (face, throw.barycentric())
     }
 
-    /// The face in which a candidate lies. `area` is the area that comes before it; `step`, its step of the area,
-    /// narrows the search.
+    /// The face in which a candidate lies. `area` is the candidate's place when the areas of all faces are laid end to
+    /// end. `step` is the step of `guide` in which `area` lies; it narrows the search.
     #[inline(always)]
     fn face(&self, area: f64, step: i32) -> usize {
         let Self { surface, guide, .. } = self;

@@ -62,7 +62,7 @@ impl Cone {
             return Self::UNSURE;
         };
         // A particle's normal is flipped to the particle's side of the triangle. Here all three corners flip, or none
-        // does; the check below refuses the rest.
+        // does; faces of which only some corners would have to flip are refused below.
         if normals.iter().all(|normal| normal.dot(across) < 0.0) {
             normals = normals.map(|normal| -normal);
         }

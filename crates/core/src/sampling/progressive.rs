@@ -63,12 +63,12 @@ impl Default for ProgressiveState {
 }
 
 impl ProgressiveState {
-    /// As two numbers, to be kept.
+    /// The state as two numbers, to be kept for another process.
     pub fn to_numbers(self) -> [u64; 2] {
         [u64::from(self.thrown), self.level_end as u64]
     }
 
-    /// What [`ProgressiveState::to_numbers`] gave; `None` for numbers that it never gives.
+    /// The state for which [`ProgressiveState::to_numbers`] gave these numbers; `None` for numbers that it never gives.
     pub fn from_numbers([thrown, level_end]: [u64; 2]) -> Option<Self> {
         let level_end = usize::try_from(level_end).ok().filter(|&end| end > 0)?;
         Some(Self { thrown: u32::try_from(thrown).ok()?, level_end })
@@ -113,7 +113,7 @@ impl ProgressiveState {
     }
 }
 
-/// The particles of earlier levels, and the least distance to them in this one.
+/// The particles of earlier levels, and the least distance that the present level keeps from them.
 struct Accepted<'a> {
     grid: &'a DartGrid,
     particles: &'a [Particle],

@@ -135,7 +135,7 @@ fn mark_word(particles: &BakedParticles, first: usize, rows: &Rows, bounds: &Bou
     let [nx, ny, nz] = slices(&particles.normal, first, count);
     for (i, flag) in flags.iter_mut().enumerate() {
         let seen = project(rows, [px[i], py[i], pz[i]], [nx[i], ny[i], nz[i]]);
-        // `&`, not `&&`: every test is cheaper than a branch.
+        // `&`, not `&&`: making all tests is cheaper than branching.
         *flag = u8::from(
             (seen.area_px > 0.0)
                 & (seen.area_px * bounds.most_per_area > (first as i32 + i as i32) as f32)

@@ -37,7 +37,7 @@ fn leaving_the_shot_moves_nothing() {
     assert_eq!(looking.pose(&shot), &shot);
     assert_eq!(looking.free(&shot).pose(), &shot);
     looking.free(&shot).orbit(DVec2::new(30.0, 0.0), shot.target);
-    assert_ne!(looking.pose(&shot), &shot, "the second call keeps the free view");
+    assert_ne!(looking.pose(&shot), &shot, "a second call of `free` must not undo the orbit");
 }
 
 #[test]

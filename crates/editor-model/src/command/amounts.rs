@@ -12,9 +12,9 @@ use crate::selection::{Item, Selection};
 pub enum Amounts {
     /// Adds the dabs of one drag.
     Paint {
-        /// Where.
+        /// The region that the dabs are painted on.
         region: RegionTarget,
-        /// What they multiply.
+        /// What the dabs multiply: width, length, density or flatness.
         of: Amount,
         /// The object, where the region covers more than one.
         object: Option<String>,
@@ -30,7 +30,7 @@ pub enum Amounts {
         /// What is left of all amounts.
         left: Vec<PaintedAmount>,
     },
-    /// Removes one list of dabs: the region, and its place among the region's amounts.
+    /// Removes one amount with all its dabs. Holds the region, and the amount's index in the region.
     Clear(String, usize),
     /// Removes all amounts of a region.
     ClearAll(String),

@@ -39,7 +39,7 @@ pub enum PoseField {
     Move(usize),
     /// Euler angle about an axis, degrees.
     Turn(usize),
-    /// Size.
+    /// The scale factor.
     Scale,
 }
 
@@ -64,7 +64,7 @@ pub enum Arrange {
     ShiftMotion {
         /// The objects.
         objects: Vec<String>,
-        /// How.
+        /// The move, turn and scaling.
         shift: Shift,
         /// What was done, in words: *Move*.
         verb: &'static str,

@@ -17,7 +17,7 @@ use crate::selection::{Item, Selection};
 pub enum RegionTarget {
     /// An existing region.
     Named(String),
-    /// A new region that covers the whole object of this name, made in the same entry.
+    /// A new region that covers the whole object of this name, made in the gesture's entry of the history.
     NewOn(String),
 }
 
@@ -37,11 +37,11 @@ pub enum Gesture {
 /// Settings of a whole guide; `None` keeps the old value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GuideSettings {
-    /// How far it reaches, units of the object's own space.
+    /// How far the guide reaches, units of the object's own space.
     pub radius: Option<f64>,
-    /// How far strokes on it follow it, 0..=1.
+    /// How far strokes on the guide follow it, 0..=1.
     pub strength: Option<f64>,
-    /// How it falls off.
+    /// How its strength falls off with distance.
     pub falloff: Option<Falloff>,
 }
 

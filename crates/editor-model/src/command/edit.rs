@@ -280,7 +280,8 @@ fn reparent(scene: &mut Scene, object: &str, parent: Option<&str>, frame: f64) -
     if object.keys.is_empty() {
         object.keys.push(ObjectKey::at(frame));
     }
-    // Keys hold rotations, translations and uniform scales only, so the map between two parents is one too.
+    // Keys hold no shear, so the map is taken to be a translation, a rotation and an even scale. That is not
+    // exact if a parent has an uneven scale.
     let factor = new_from_old.matrix3.determinant().cbrt();
     let turn: DMat3 = new_from_old.matrix3 * (1.0 / factor);
     for key in &mut object.keys {

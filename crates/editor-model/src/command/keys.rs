@@ -34,7 +34,7 @@ pub enum KeyedValue {
     Light(String, LightKey),
     /// The background.
     Background(Color),
-    /// Of strokes; its frame and ease are not read.
+    /// Of strokes: what the key states; its frame and ease are not read.
     Strokes(StrokesOf, StrokesKey),
 }
 

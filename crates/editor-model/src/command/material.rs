@@ -25,7 +25,7 @@ pub(super) fn set_material(
     Ok(Done::new(format!("{words} of {name}")))
 }
 
-/// What differs between two materials, in words; *Material* for several things, or one without a word of its own.
+/// What differs between two materials, in words; *Material* if several things differ, or one that has no word here.
 fn changed(before: &MaterialOverride, now: &MaterialOverride) -> &'static str {
     let with = |change: fn(&mut MaterialOverride, &MaterialOverride)| {
         let mut changed = before.clone();
@@ -65,7 +65,7 @@ mod tests {
         assert_eq!(changed(&both, &red), "Reset texture");
         assert_eq!(changed(&both, &glazed), "Gloss");
         assert_eq!(changed(&glazed, &both), "Reset gloss");
-        assert_eq!(changed(&bare, &both), "Material", "two things at once");
+        assert_eq!(changed(&bare, &both), "Material", "two things changed at once");
         assert_eq!(changed(&bare, &MaterialOverride { unlit: true, ..bare.clone() }), "Material");
     }
 }

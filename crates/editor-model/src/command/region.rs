@@ -234,7 +234,7 @@ fn paint_layer(settings: &mut StrokeSettings, layer: &LayerSettings) -> String {
         hidden if hidden == was_hidden => format!("Paint: {name}"),
         Some(true) => format!("Hide layer {name}"),
         Some(false) => format!("Show layer {name}"),
-        // The region states nothing any more, so what the scene states counts again, taken to be the opposite.
+        // `hidden` is stated no more, so the scene's value counts again, taken to be the opposite of the old one.
         None if was_hidden == Some(false) => format!("Hide layer {name}"),
         None => format!("Show layer {name}"),
     }

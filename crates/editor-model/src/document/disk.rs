@@ -23,7 +23,7 @@ pub enum SaveError {
     /// It has no file yet.
     #[error("this scene has no file yet: choose a name")]
     Unnamed,
-    /// The scene would not find its files from there.
+    /// The scene would not find its files from the folder of the file that was chosen.
     #[error("from {} the scene would not find {mesh:?}: save it in {}, or put the file there first", target.display(), folder.display())]
     FilesElsewhere {
         /// The file that was chosen.

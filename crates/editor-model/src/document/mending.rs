@@ -30,7 +30,7 @@ pub struct ProblemRow {
 /// A repair of a problem.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Repair {
-    /// Copies a file that the user chooses to where a missing one, such as a texture, is looked for.
+    /// Lets the user choose a file, and copies it to where a missing file, such as a texture, is looked for.
     Bring {
         /// Where the missing file is looked for.
         to: PathBuf,
@@ -55,7 +55,7 @@ pub enum Repair {
     Snap {
         /// The region.
         region: String,
-        /// The guide's place in it.
+        /// The guide's index in the region.
         guide: usize,
     },
 }
@@ -312,7 +312,7 @@ fn merged_list<T: Clone + PartialEq>(
     }
     for (index, item) in left.iter().enumerate() {
         if find(from, item).is_none() && find(right, item).is_none() {
-            // It is placed behind the nearest item before it in `left` that is in `merged`, else first.
+            // An item that `left` added goes behind the nearest earlier item of `left` that `merged` has, else first.
             let before = left[..index].iter().rev().find_map(|before| find(&merged, before));
             merged.insert(before.map_or(0, |at| at + 1), item.clone());
         }

@@ -58,7 +58,7 @@ fn a_scene_with_losses_cannot_take_the_place_of_its_file_until_they_are_settled(
     let refused = document.save().expect_err("saving is refused while losses are left");
     assert!(matches!(refused, SaveError::Problems { count: 3, line: 4 }), "{refused}");
     assert!(document.save_as(&folder.path()).is_err());
-    assert!(document.save_as(&folder.0.path().join("meshes/../s.ron")).is_err(), "the same file");
+    assert!(document.save_as(&folder.0.path().join("meshes/../s.ron")).is_err(), "another path to the file");
     // A copy can be saved, and the file stays as it is.
     document.save_copy(&folder.0.path().join("copy.ron")).expect("saved");
     let step = document.fix_certain().expect("fixed");
@@ -191,7 +191,7 @@ fn a_mesh_that_was_changed_is_read_again_without_an_entry() {
     assert!(!document.is_edited() && document.undo_count() == 0);
     fs::write(mesh, "f 1 2 3").expect("written");
     assert!(document.read_files_again().is_err());
-    assert_eq!(document.loaded().meshes["meshes/leaf.obj"].mesh.triangles.len(), 1, "the last good one");
+    assert_eq!(document.loaded().meshes["meshes/leaf.obj"].mesh.triangles.len(), 1, "the good mesh stays");
 }
 
 #[test]

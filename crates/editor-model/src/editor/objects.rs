@@ -192,7 +192,7 @@ impl Editor {
                 (about_pivot(pivot, DMat3::from_diagonal(factors)), "Scale")
             }
             // A pose has only one factor for all axes, so uneven factors stretch the object itself, along its own axes
-            // in any chosen space.
+            // whichever space was chosen.
             TransformDelta::Scale(factors) => {
                 let object = active.clone();
                 return Some(Command::Arrange(Arrange::Stretch { object, factors }));

@@ -40,7 +40,7 @@ pub enum Request {
     NextArea,
     /// Shows the dialog in which one sets what is rendered.
     Render,
-    /// Shows the same dialog, for a movie.
+    /// Shows the dialog of [`Self::Render`] for a movie.
     ExportMovie,
     /// Reads the scene from the text that is edited in the panel of problems.
     ReadSource,

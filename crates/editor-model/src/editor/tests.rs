@@ -89,7 +89,7 @@ fn one_drag_is_previewed_and_becomes_one_entry() {
     }
     assert!(editor.is_moving());
     assert_ne!(editor.shown().0.scene, first, "nothing shows while the hand moves");
-    assert_eq!(*editor.document().scene(), first, "kept before the release");
+    assert_eq!(*editor.document().scene(), first, "the document changes before the release");
     event(&mut editor, PointerKind::Release(Button::Left), at + DVec2::new(80.0, -2.0), HERE);
     assert_eq!(editor.document().undo_count(), 1);
     let combed = editor.document().undo_text().expect("an entry").to_owned();
@@ -286,7 +286,7 @@ fn a_shot_that_begins_late_opens_at_its_first_frame() {
     let mut editor = with_apple();
     editor.session.frame = 50.0;
     editor.open(document());
-    assert_eq!(editor.session.frame, 20.0, "in place of another scene it opens as the first one does");
+    assert_eq!(editor.session.frame, 20.0, "a scene that replaces another does not open at its first frame");
 }
 
 /// A place of the picture where the wall shows.
@@ -342,7 +342,7 @@ fn a_copy_follows_the_pointer_at_once() {
         object.keys[0].translation
     });
     assert_ne!(places[0], places[1]);
-    // Maya's keys only copy.
+    // With Maya's keys, the copy does not follow the pointer.
     let mut editor = with_apple();
     editor.keymap.preset = crate::keymap::Preset::Maya;
     drag(&mut editor, Button::Left, [at, at], HERE);
@@ -360,7 +360,7 @@ fn the_move_key_moves_the_selected_camera_until_a_click() {
     key(&mut editor, Key::Letter('G'));
     event(&mut editor, PointerKind::Move, at + DVec2::new(50.0, 20.0), HERE);
     assert_eq!(editor.document().scene().camera, before, "the camera has new keys before the click");
-    assert_ne!(editor.shot().eye, motion::camera_at(editor.document().scene(), 0.0).eye, "it stands still");
+    assert_ne!(editor.shot().eye, motion::camera_at(editor.document().scene(), 0.0).eye, "the camera stays");
     event(&mut editor, PointerKind::Press(Button::Left), at + DVec2::new(50.0, 20.0), HERE);
     event(&mut editor, PointerKind::Release(Button::Left), at + DVec2::new(50.0, 20.0), HERE);
     assert_ne!(editor.document().scene().camera, before);

@@ -225,7 +225,7 @@ impl Editor {
             let loaded = std::sync::Arc::clone(self.document.shown());
             self.time.loose = Some(LoosePoses { loaded, ..loose.clone() });
         } else {
-            // What they pose is gone, or locked.
+            // A thing with a loose pose is gone, or locked.
             self.time.loose = None;
             self.document.end_preview();
         }

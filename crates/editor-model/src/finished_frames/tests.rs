@@ -79,7 +79,7 @@ fn frames_that_are_finished_meanwhile_are_added() {
     assert!(film.extend(files(5).collect()));
     assert_eq!((film.count(), film.at(), film.frame(4).0), (5, 2, 14));
     assert!(!film.extend(files(5).collect()), "nothing new");
-    assert!(!film.extend(Vec::new()), "what is shown stays");
+    assert!(!film.extend(Vec::new()), "a list without the shown frame is not taken");
     film.play_or_stop(0.0);
     assert!(film.extend(files(48).collect()));
     film.tick(1.0);

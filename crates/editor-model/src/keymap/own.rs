@@ -111,7 +111,7 @@ impl OwnKeys {
         self.0.is_empty()
     }
 
-    /// The commands whose keys were chosen, with these.
+    /// The commands whose keys the user chose, each with these keys.
     pub fn iter(&self) -> impl Iterator<Item = (CommandId, &[Chord])> {
         self.0.iter().map(|(id, chords)| (*id, chords.as_slice()))
     }
@@ -136,7 +136,7 @@ impl OwnKeys {
         self.0.get(&CommandId(index)).map(Vec::as_slice)
     }
 
-    /// Whether a key of the user's own took this key from a command.
+    /// Whether the command at `index` lost this key, because the user gave it to another command.
     pub(super) fn takes(&self, index: usize, chord: Chord) -> bool {
         self.0.iter().any(|(id, chords)| chords.contains(&chord) && id.meets(CommandId(index)))
     }

@@ -230,7 +230,7 @@ fn menus_write_keys_as_people_do() {
         assert!(!action.name().is_empty());
         for keymap in keymaps() {
             let text = keymap.shortcut_text(action);
-            // Modes lose their digits where these choose views.
+            // The modes have no keys where the digits choose views instead.
             let digit = matches!(action, Action::Arrange | Action::Paint | Action::Animate)
                 && keymap.digits == Digits::NumPad;
             // These have no key: they are only in the menu and the command search.

@@ -38,7 +38,7 @@ fn hit(object: usize, position: DVec3, normal: DVec3) -> Hit {
     }
 }
 
-/// The unit ball round the origin as a surface.
+/// Where the ray through a pixel hits the unit ball round the origin.
 fn on_ball(view: &View, at_px: DVec2) -> Option<Hit> {
     let ray = view.ray(at_px);
     let (along, square) = (ray.origin.dot(ray.direction), ray.origin.length_squared() - 1.0);
@@ -49,7 +49,7 @@ fn on_ball(view: &View, at_px: DVec2) -> Option<Hit> {
     })
 }
 
-/// The plane z = 0.
+/// Where the ray through a pixel hits the plane z = 0.
 fn on_plane(view: &View, at_px: DVec2) -> Option<Hit> {
     let ray = view.ray(at_px);
     Some(hit(0, ray.origin - ray.direction * (ray.origin.z / ray.direction.z), DVec3::Z))
@@ -114,7 +114,7 @@ fn the_same_drag_gives_the_same_guide_at_any_event_rate() {
                 worst_stamp = worst_stamp.max(stamp.position.distance(other.position) * path.px_per_unit);
             }
             println!("steady {steady}: {worst_px:.3} px off the path, stamps {worst_stamp:.3} px apart");
-            // Seven pointer events cannot define an S of 180 px more exactly.
+            // Seven pointer events cannot define an S that is 160 px wide more exactly.
             assert!(worst_px < 1.5 && worst_stamp < 1.5, "{worst_px} {worst_stamp}");
         }
         let (some, many) = (&drags[1], &drags[2]);
@@ -169,7 +169,7 @@ fn leaving_ends_a_piece_and_coming_back_begins_another() {
     let guides = path.guides(&style(), &own_view(), &own_view());
     assert_eq!(guides.len(), 2);
     let left = path.pieces()[0].last().unwrap().at_px;
-    assert!(on_ball(&front(), left + DVec2::X * 1.1).is_none(), "it ends at the edge, not at {left}");
+    assert!(on_ball(&front(), left + DVec2::X * 1.1).is_none(), "the piece ends at {left}, not at the edge");
     let gone = drag(&events[..2], &SETTINGS, &mut |at_px| on_ball(&front(), at_px));
     assert!(gone.is_lifted());
 }
@@ -244,7 +244,7 @@ fn a_string_steadies_a_trembling_hand() {
     assert_eq!(
         still.guides(&style(), &own_view(), &own_view()),
         [],
-        "shorter than the string, nothing is drawn"
+        "a drag shorter than the string draws nothing"
     );
 }
 

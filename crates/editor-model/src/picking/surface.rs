@@ -111,8 +111,8 @@ impl SurfaceTree {
         self.rest.get_or_init(|| Placed::new(self.mesh(), self.mesh().positions.clone()))
     }
 
-    /// The map that carries the surroundings of a point near the surface at rest to where they are now: that of the
-    /// nearest triangle.
+    /// The map that carries the surroundings of a point near the surface at rest to where they are now. It is the
+    /// map of the nearest triangle.
     pub(super) fn now_from_rest(&self, at_rest: DVec3) -> DAffine3 {
         if self.surface.is_at_rest(&self.shape) {
             return DAffine3::IDENTITY;

@@ -212,7 +212,7 @@ fn the_nearest_point_of_a_surface() {
             assert!(found.normal.dot(to.normalize()) > 0.98);
         }
     }
-    assert_eq!(picker.closest_on_surface(0, DVec3::Y * 1.1, DVec3::NEG_Y, 0.2), None, "it faces away");
+    assert_eq!(picker.closest_on_surface(0, DVec3::Y * 1.1, DVec3::NEG_Y, 0.2), None, "found facing away");
     assert_eq!(picker.closest_on_surface(7, DVec3::Y, DVec3::Y, 0.2), None);
 }
 

@@ -20,7 +20,7 @@ pub struct View {
 pub struct Ray {
     /// Where it begins: on the near plane of the lens.
     pub origin: DVec3,
-    /// Unit.
+    /// The unit vector along it.
     pub direction: DVec3,
 }
 

@@ -109,7 +109,7 @@ fn work(recovery: &Recovery, to_do: &Receiver<Order>, told: &Sender<Kept>) {
                     Err(error) => not(error),
                 },
             };
-            // Nobody may be listening any more.
+            // Sending fails if the receiver is gone: then nobody needs the result.
             let _ = told.send(kept);
         }
     }

@@ -75,7 +75,7 @@ fn the_copy_of_a_living_session_is_not_offered_and_one_copy_not_twice() {
     crashed(folder.path(), "2-2", 5);
     let offers = Recovery::offers(folder.path());
     assert_eq!(offers.len(), 1);
-    assert!(Recovery::offers(folder.path()).is_empty(), "another window holds it");
+    assert!(Recovery::offers(folder.path()).is_empty(), "a copy is offered though another window holds it");
     // Answered with "later", it is offered again.
     drop(offers);
     let offers = Recovery::offers(folder.path());
@@ -101,7 +101,7 @@ fn only_the_newest_copies_are_kept_and_litter_of_dead_sessions_is_removed() {
     let _here = Recovery::open(folder.path(), "here-1").expect("opens");
     let offers = Recovery::offers(folder.path());
     assert_eq!(offers.len(), MAX_COPIES);
-    assert_eq!(offers[0].copy.at_unix_secs, (MAX_COPIES + 2) as u64, "the newest first");
+    assert_eq!(offers[0].copy.at_unix_secs, (MAX_COPIES + 2) as u64, "the first is not the newest");
     drop(offers);
     // A dead session's other files are removed together with its copy.
     let left = files(folder.path());

@@ -128,7 +128,7 @@ fn sizes_keep_the_shape_of_the_scene() {
     assert_eq!(size_4k(&scene), [1920, 3840]);
 }
 
-/// The apple with these words as its `aovs`, saved in a folder.
+/// An empty scene with these words as its `aovs`, saved in a folder.
 fn document_with_aovs(folder: &Path, aovs: &[&str]) -> Document {
     let mut document = Document::empty(folder);
     document.save_as(&folder.join("s.ron")).unwrap();
@@ -190,13 +190,13 @@ fn exr_files_hold_what_the_scene_says_until_something_else_is_chosen() {
     ] {
         assert_eq!(choice.words(scene), words);
     }
-    // A style without strokes has what needs no paint, and nothing else.
+    // A style without strokes has only the AOVs that need no paint.
     let mut plain = scene.clone();
     plain.style = Style::named("reference").unwrap();
     assert_eq!(AovChoice::All.set(&plain), AovSet::OF_SCENE);
     assert_eq!(settings.aovs.words(&plain), "The scene\u{2019}s 1 AOV");
     let none = AovChoice::OfScene.words(self::document().scene());
-    assert_eq!(none, "No AOVs", "the apple names none");
+    assert_eq!(none, "No AOVs", "the scene of the apple names no AOVs");
 }
 
 #[test]

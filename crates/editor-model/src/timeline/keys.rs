@@ -186,7 +186,8 @@ impl KeysHand {
         None
     }
 
-    /// Shifts the selection by this many frames, along with its keys. Returns the old selection.
+    /// Shifts the frames of the selection, to where a command is about to move or copy the selected keys. Returns the
+    /// old selection.
     pub(crate) fn go(&mut self, by: f64) -> Vec<KeyAt> {
         let before = self.selected.clone();
         self.selected.iter_mut().for_each(|(_, frame)| *frame += by);

@@ -76,7 +76,7 @@ pub fn keyed_frames(scene: &Scene) -> Vec<f64> {
     frames
 }
 
-/// The next ease when one clicks through them.
+/// The ease that a click changes this one to; repeated clicks go through all eases.
 pub fn next_ease(ease: Ease) -> Ease {
     match ease {
         Ease::Smooth => Ease::Linear,

@@ -47,15 +47,15 @@ enum Act {
     Erase,
     /// The region brush: adds to the selected region.
     Add,
-    /// The region brush with Ctrl.
+    /// The region brush with Ctrl, or set to take away: takes away from the selected region.
     TakeAway,
     /// The region brush: makes a new region.
     AddNew,
     /// Paints more of an amount.
     Raise,
-    /// Paints less of it.
+    /// Paints less of an amount.
     Lower,
-    /// Takes dabs of it away.
+    /// Takes dabs of an amount away.
     EraseAmount,
 }
 
@@ -237,7 +237,7 @@ impl Act {
         }
     }
 
-    /// What it does, for the status line; `of` is the amount, for those that paint one.
+    /// What the drag does, for the status line; `of` is the amount that it paints, if it paints one.
     fn words(self, of: Amount) -> String {
         let of = of.word();
         match self {
@@ -259,8 +259,7 @@ impl Act {
         matches!(self, Self::Add | Self::TakeAway | Self::AddNew)
     }
 
-    /// Whether it leaves dabs, each with its own radius and strength; else the whole gesture has one radius and one
-    /// strength.
+    /// Whether it leaves dabs with radii and strengths of their own; else the whole gesture has one of each.
     fn leaves_dabs(self) -> bool {
         self.is_for_regions() || matches!(self, Self::Raise | Self::Lower)
     }

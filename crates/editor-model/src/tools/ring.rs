@@ -28,7 +28,7 @@ pub struct Ring {
 pub struct Needle {
     /// Its middle.
     pub at_px: DVec2,
-    /// Unit, Y down.
+    /// The direction in the viewport: unit, Y down.
     pub along: DVec2,
     /// Whether it has an arrow head, because the pointer moves or the needle shows which way strokes run.
     pub headed: bool,
@@ -49,7 +49,7 @@ pub struct CombPreview {
     pub radius: f64,
     /// The hit, pixels of the viewport.
     pub at_px: DVec2,
-    /// The direction that strokes would take: unit, Y down.
+    /// The direction that strokes would take in the viewport: unit, Y down.
     pub along: DVec2,
 }
 

@@ -15,11 +15,11 @@ use crate::refusal::Refusal;
 use crate::selection::Item;
 use crate::session::ToolOptions;
 
-/// A drag that stays this near its press places a single stroke, points on the screen.
+/// A drag that stays nearer to its press than this, in points on the screen, places a single stroke.
 const CLICK_PX: f64 = 5.0;
 
-/// The line of a touch may deviate from what was drawn by this share of the ring's radius, or by this many points on
-/// the screen, whichever is more.
+/// The line of a touch may deviate from what was drawn by [`TOLERANCE`], a share of the ring's radius, or by
+/// [`LEAST_TOLERANCE_PX`], in points on the screen, whichever is more.
 const TOLERANCE: f64 = 0.04;
 const LEAST_TOLERANCE_PX: f64 = 0.75;
 

@@ -40,7 +40,7 @@ fn walk(scene: &str, dice: &[Dice]) -> Result<(usize, usize), TestCaseError> {
             Ok(_) => {
                 let after = document.scene().clone();
                 let changed = document.undo_count() > count;
-                prop_assert_eq!(changed, after != before, "no entry, or an empty one: {:?}", command);
+                prop_assert_eq!(changed, after != before, "entry and change differ: {:?}", command);
                 if changed {
                     document.undo();
                     prop_assert_eq!(document.scene(), &before, "undo of {:?}", command);
@@ -53,9 +53,9 @@ fn walk(scene: &str, dice: &[Dice]) -> Result<(usize, usize), TestCaseError> {
     }
     let text = impasto_scene::save::to_ron(document.scene());
     let read = impasto_scene::load::parse(Path::new("edited.ron"), &text);
-    prop_assert_eq!(read.as_ref().ok(), Some(document.scene()), "saved and read again");
+    prop_assert_eq!(read.as_ref().ok(), Some(document.scene()), "saving changed the scene");
     while document.undo().is_some() {}
-    prop_assert_eq!(document.scene(), &first, "all taken back");
+    prop_assert_eq!(document.scene(), &first, "undoing everything does not give the first scene");
     Ok((done, refused))
 }
 

@@ -60,7 +60,7 @@ fn nothing_written_is_lost_when_killed_at_any_moment() {
         random ^= random << 13;
         random ^= random >> 7;
         random ^= random << 17;
-        // Waits until it has made some edits, then lets it go on for a random time.
+        // Waits until the process has made some edits, then lets it go on for a random time.
         let mut left = random % 8 + 1;
         while left > 0 {
             let line = lines.next().expect("it paints on").expect("text");
@@ -76,7 +76,7 @@ fn nothing_written_is_lost_when_killed_at_any_moment() {
             counts.max().unwrap_or(0)
         };
         let (kept, saved) = (last("kept "), last("saved "));
-        assert!(kept > 0, "run {run}: it never painted: {told:?}");
+        assert!(kept > 0, "run {run}: no copy was reported: {told:?}");
         let on_disk = Document::open(&scene, &LoadOptions::default());
         let on_disk = on_disk.unwrap_or_else(|report| panic!("run {run}: {report}")).scene().seed;
         assert!(
@@ -100,7 +100,7 @@ fn nothing_written_is_lost_when_killed_at_any_moment() {
     }
     assert!(
         offered > 20 && seen > 100,
-        "{offered} offers, {seen} edits: it was killed too soon to show anything"
+        "{offered} offers, {seen} edits: the process was killed too soon to show anything"
     );
     // Now nothing is offered, and looking for offers must have emptied the recovery folder. A save that was cut off
     // may leave its part file beside the scene.

@@ -1,4 +1,4 @@
-//! Commands on layers of paint, and presets of the user's own, each one entry of the history.
+//! Tests of commands on layers of paint and of the user's own presets: each is one entry of the history.
 
 use std::path::Path;
 

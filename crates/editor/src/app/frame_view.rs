@@ -53,8 +53,8 @@ impl FrameView {
         }
     }
 
-    /// Shows the frame that is due. If its file is not read yet, and frames play, shows the latest frame before it that
-    /// is read, unless what is shown is later.
+    /// Shows the frame that is due. If its file is not read yet while frames play, goes back to the latest frame
+    /// before it that is read, or that is shown already.
     fn follow(&mut self, ui: &Ui, now_secs: f64) {
         let (at, count) = (self.frames.at(), self.frames.count());
         let most = if self.frames.is_playing() { count } else { 1 };

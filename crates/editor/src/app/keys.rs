@@ -17,7 +17,7 @@ pub(super) fn held(held: egui::Modifiers) -> Modifiers {
 /// reach the panels.
 pub(super) fn hand_on(ui: &mut Ui, editor: &mut Editor, view: &View, numpad: &[(Key, Modifiers)]) {
     let typing = ui.ctx().text_edit_focused();
-    // A control with the keyboard focus uses Space, Enter and the arrows itself.
+    // A control with the keyboard focus uses Space, Enter, Esc, Tab and the arrows itself.
     let control_focused = !typing && ui.memory(|memory| memory.focused().is_some());
     for &(key, held) in numpad {
         editor.key(key, held, typing, view);

@@ -29,7 +29,7 @@ use crate::viewport::{Framing, HairLook, Marks, direction_marks};
 const CELLS_PER_POINT: f64 = 0.5;
 const MOVING_CELLS_PER_POINT: f64 = 0.2;
 
-/// The cached marks of each picture: one, or the two of a comparison.
+/// The cached marks of each picture that is shown: of one, or of the two of a comparison.
 #[derive(Default)]
 pub(super) struct MarkCache {
     halves: [Half; 2],

@@ -92,7 +92,7 @@ impl PictureFlow {
         }
     }
 
-    /// Drops all pictures: another document was opened.
+    /// Drops all pictures, as when another document is opened or the scene has become empty.
     pub(super) fn forget(&mut self) {
         self.pictures.clear();
         self.asked = None;

@@ -17,7 +17,7 @@ use crate::panels::problems::TroubleOf;
 /// The user's presets.
 #[derive(Default)]
 pub(super) struct PresetFlow {
-    /// Those in the user's folder.
+    /// The presets in the user's folder.
     pub(super) own: Vec<OwnPreset>,
     /// Whose settings are to be saved or replaced, while a file is chosen.
     of: Option<StrokesOf>,

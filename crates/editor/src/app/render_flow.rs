@@ -94,7 +94,7 @@ impl RenderFlow {
         self.is_open = true;
     }
 
-    /// How many frames are finished, with the files of those that can be viewed; `None` if there are still `before`.
+    /// How many frames are finished, with the files of those that can be viewed; `None` if their number is `before`.
     pub(super) fn finished_since(&self, before: u64) -> Option<(u64, Vec<(i64, PathBuf)>)> {
         let running = self.running.as_ref()?;
         let done = running.progress().done();

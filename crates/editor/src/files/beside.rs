@@ -194,7 +194,7 @@ mod tests {
         let (_folder, mut document) = scene();
         let to = tempfile::tempdir().unwrap();
         let target = to.path().join("t.ron");
-        assert!(document.save_as(&target).is_err(), "its mesh is not there");
+        assert!(document.save_as(&target).is_err(), "saved, though its mesh is not in the other folder");
         let copies = between(&document, to.path()).unwrap();
         assert_eq!(copies.count(), 2, "the mesh and its materials, and nothing else: {copies:?}");
         copies.carry_out(to.path()).unwrap();

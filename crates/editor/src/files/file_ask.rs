@@ -19,7 +19,7 @@ pub enum FileAsk {
     SaveCopy,
     /// Find a mesh that the scene names.
     LocateMesh,
-    /// Find a file that another file names, of any kind.
+    /// Find a file of any kind that another file names.
     Missing,
     /// Choose a picture.
     ChoosePicture,

@@ -157,7 +157,7 @@ mod tests {
         take_brushes_along(&mut there, |name| Some(presets.join(name)), other).unwrap();
         let Some(BrushMix(names)) = &there.strokes.brush else { panic!("{there:?}") };
         assert_eq!(names[1], "flat");
-        assert_ne!(names[0], "brushes/mine/mine.png", "the other picture stays");
+        assert_ne!(names[0], "brushes/mine/mine.png", "the preset names the other picture");
         let [from, to] =
             [scene.join("mine.png"), other.join(&names[0])].map(|path| std::fs::read(path).unwrap());
         assert_eq!(from, to);

@@ -134,12 +134,12 @@ fn files_that_come_later_are_read_too() {
     let (reading, next) = reading(paths[..2].to_vec(), MOST_BYTES);
     reading.want(vec![0], [8, 8]);
     next();
-    assert!(!reading.replace(paths.clone()), "what was read stays");
+    assert!(!reading.replace(paths.clone()), "frames that were read are dropped");
     assert_eq!(kept(&reading, 3), [0]);
     reading.want(vec![2], [8, 8]);
     next();
     assert!(reading.picture(2).expect("read").is_ok());
-    assert!(reading.replace(paths[1..].to_vec()), "frames have other places");
+    assert!(reading.replace(paths[1..].to_vec()), "frames at other indices are kept");
     assert_eq!(kept(&reading, 3), Vec::<usize>::new());
 }
 

@@ -159,7 +159,7 @@ mod tests {
         let inside = focused(&ctx).expect("a control has the focus");
         assert_ne!(inside, id_of(Area::TopBar));
         let rect = ctx.read_response(inside).expect("it is shown").rect;
-        assert!(rect.top() < 40.0 && rect.left() < 100.0, "the button of the bar, not {rect:?}");
+        assert!(rect.top() < 40.0 && rect.left() < 100.0, "not the bar's button: {rect:?}");
         // From a control inside, on to the next area.
         next_area(&ctx);
         pass(&ctx, Vec::new());

@@ -12,7 +12,8 @@ use impasto_scene::document::StrokeSettings;
 pub(super) struct ColumnState {
     /// Sections that were opened or folded by hand.
     pub(super) sections: BTreeMap<String, bool>,
-    /// Whether all sections are open, whatever was done by hand: in a column that only lists its controls.
+    /// Whether all sections are open, whatever was done by hand. It is true only for the column that is laid out unseen
+    /// to find its controls.
     pub(super) all_open: bool,
     /// Objects whose rows were opened or folded, by name.
     pub(super) rows: BTreeMap<String, bool>,

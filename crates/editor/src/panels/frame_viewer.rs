@@ -170,7 +170,8 @@ fn bar(ui: &mut Ui, shown: &ViewerShown<'_>) -> Option<ViewerAsk> {
     scrub(ui, line, frames).map(ViewerAsk::GoTo).or(ask)
 }
 
-/// Which file is shown, at the right of `room`, as far as there is room; gives what is left for the line.
+/// Writes the file that is shown, its number and the rate at the right of `room`, and leaves out what does not fit.
+/// Returns the rest of `room`, for the scrubbing line.
 fn words(ui: &mut Ui, room: Rect, shown: &ViewerShown<'_>) -> Rect {
     let tokens = Tokens::of(ui);
     let frames = shown.frames;
@@ -182,7 +183,7 @@ fn words(ui: &mut Ui, room: Rect, shown: &ViewerShown<'_>) -> Rect {
     };
     let count = format!("frame {number}, {} of {}", index + 1, frames.count());
     let rate = format!("{} fps{dropped}", frames.fps());
-    // Numbers change while it plays; the line must not.
+    // The numbers change while frames play, but the line must keep its length: so room is kept for the widest.
     let most =
         format!("frame {}, {} of {}", frames.frame(frames.count() - 1).0, frames.count(), frames.count());
     let most_rate = format!("{} fps, 0000 dropped", frames.fps());

@@ -14,7 +14,7 @@ const WIDTH: f32 = 560.0;
 const ROWS: f32 = 14.0;
 /// Height of the sheet without its list, with some space around the sheet.
 const AROUND_LIST: f32 = 210.0;
-/// The place of the reset icon at a row's end.
+/// Width of the place for the reset icon at a row's end.
 const END: f32 = 32.0;
 
 /// What the sheet remembers while it is open.
@@ -154,7 +154,7 @@ fn list(ui: &mut Ui, keymap: &Keymap, memory: &mut Memory, keys: MarkKeys, asks:
     });
 }
 
-/// Whether a command has what was typed in its name, its place or its keys.
+/// Whether what was typed occurs in a command's name, its place or its keys.
 fn is_meant(command: &CommandKeys, typed: &str) -> bool {
     let keys = command.chords.iter().map(|chord| chord.text().to_lowercase());
     let words = [command.id.name().to_lowercase(), command.id.place().unwrap_or_default().to_lowercase()];

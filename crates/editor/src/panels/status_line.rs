@@ -13,7 +13,7 @@ struct Part<'a> {
     words: &'a str,
 }
 
-/// Takes the lowest 24 points of `ui`.
+/// Shows the status line in the lowest 24 points of `ui`.
 pub fn status_line(ui: &mut egui::Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let frame = egui::Frame::new().fill(Tokens::of(ui).alt);
     Panel::bottom("status line").exact_size(measure::STATUS_LINE).resizable(false).frame(frame).show(
@@ -22,7 +22,7 @@ pub fn status_line(ui: &mut egui::Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask
             let mut free = ui.max_rect().shrink2(egui::vec2(10.0, 0.0));
             let right = within(ui, free, row_from_right(), |ui| {
                 ui.spacing_mut().item_spacing.x = 14.0;
-                // At the very end, where it does not move as numbers come and go.
+                // The problems are at the very end, where they do not move as numbers come and go.
                 super::problems::chip(ui, shown, asks);
                 for words in numbers(&shown.numbers) {
                     note(ui, &words);

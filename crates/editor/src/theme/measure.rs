@@ -2,7 +2,7 @@
 
 /// Height of the top bar.
 pub const TOP_BAR: f32 = 40.0;
-/// Height of the bar under it, with the tool's settings.
+/// Height of the bar under the top bar, with the tool's settings.
 pub const OPTIONS_BAR: f32 = 40.0;
 /// Height of the status line.
 pub const STATUS_LINE: f32 = 24.0;
@@ -36,17 +36,17 @@ pub const PANEL_PADDING: f32 = 12.0;
 pub const GAP: f32 = 8.0;
 /// Space around what stands in a sheet.
 pub const SHEET_PADDING: f32 = 24.0;
-/// Corners of fields and buttons.
+/// Corner radius of fields and buttons.
 pub const CORNER: f32 = 4.0;
-/// Corners of groups and chips.
+/// Corner radius of groups and chips.
 pub const GROUP_CORNER: f32 = 6.0;
-/// Corners of sheets and dialogs.
+/// Corner radius of sheets and dialogs.
 pub const SHEET_CORNER: f32 = 8.0;
 /// The least side of anything that can be clicked.
 pub const HIT: f32 = 24.0;
-/// An icon in a button.
+/// Size of an icon in a button.
 pub const ICON: f32 = 18.0;
-/// An icon beside small text.
+/// Size of an icon beside small text.
 pub const SMALL_ICON: f32 = 16.0;
-/// An icon on the rail.
+/// Size of an icon on the rail.
 pub const RAIL_ICON: f32 = 20.0;

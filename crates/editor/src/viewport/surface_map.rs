@@ -52,7 +52,7 @@ const NOTHING: Face = Face { object: u32::MAX, triangle: u32::MAX };
 pub struct StandingBody {
     /// Its surface.
     pub surface: Arc<BodySurface>,
-    /// Its morph and noise.
+    /// How it is bent and displaced at the frame.
     pub shape: BodyShape,
     /// Its pose.
     pub world_from_model: DAffine3,

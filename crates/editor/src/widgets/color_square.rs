@@ -12,7 +12,7 @@ pub fn color_square(ui: &mut Ui, name: &str, colour: &mut Color32) -> Response {
     let (rect, mut response) = ui.allocate_exact_size(vec2(measure::HIT, measure::HIT), Sense::click());
     let seen = egui::Rect::from_center_size(rect.center(), vec2(16.0, 16.0));
     ui.painter().rect_filled(seen, 3.0, *colour);
-    // The edge shows even a colour close to the panel's own.
+    // The edge makes even a colour close to the panel's own visible.
     let edge = if response.hovered() { Tokens::of(ui).text } else { Tokens::of(ui).out };
     ui.painter().rect_stroke(seen, 3.0, (1.0, edge), StrokeKind::Outside);
     draw::focus_ring(ui, &response, seen, 3.0);

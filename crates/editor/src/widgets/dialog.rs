@@ -14,7 +14,7 @@ pub struct Dialog<'a> {
     pub words: &'a str,
     /// What can be done, left to right; the last is the safe one, which `Enter` does.
     pub verbs: &'a [&'a str],
-    /// Index of the one that `Esc` does.
+    /// Index of the verb that `Esc` chooses.
     pub cancel: usize,
 }
 

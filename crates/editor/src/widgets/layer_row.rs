@@ -17,7 +17,7 @@ pub struct LayerRow<'a> {
     pub selected: bool,
     /// Whether its eye is shut.
     pub hidden: bool,
-    /// Whether it paints nothing for another reason; its name is weak then.
+    /// Whether the layer paints nothing for another reason; its name is then drawn in the weak colour.
     pub idle: bool,
     /// Pictures of its brushes, at most two.
     pub pictures: Vec<TextureId>,

@@ -6,7 +6,7 @@ fn id() -> Id {
     Id::unique("whether a menu was open when this pass began")
 }
 
-/// To be called before each pass.
+/// Notes whether a menu is open. To be called before each pass.
 pub(crate) fn note_open_menu(ctx: &Context) {
     let is_open = Popup::is_any_open(ctx);
     ctx.data_mut(|data| data.insert_temp(id(), is_open));

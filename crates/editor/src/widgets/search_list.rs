@@ -16,7 +16,7 @@ pub(crate) struct MarkKeys {
 }
 
 impl MarkKeys {
-    /// Takes them out of the input.
+    /// Takes these keys out of the input.
     pub(crate) fn take(ui: &mut Ui) -> Self {
         ui.input_mut(|input| {
             let mut pressed = |key| input.consume_key(Modifiers::NONE, key);
@@ -53,7 +53,8 @@ pub(crate) fn search_field(ui: &mut Ui, typed: &mut String, hint: &str, name: &s
     field
 }
 
-/// A [`sheet`] that remembers `M` while it is open. `contents` returns true once it closes, as this does.
+/// A [`sheet`] that remembers `M` while it is open. `contents` returns whether the sheet closes, and so does this
+/// function.
 pub(crate) fn sheet_with<M: Clone + Default + Send + Sync + 'static>(
     ctx: &Context,
     name: &str,

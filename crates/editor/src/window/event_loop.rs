@@ -34,7 +34,7 @@ const HELD_PASS: Duration = Duration::from_millis(30);
 enum Due {
     /// Something happened, or the window system asks for the contents again.
     Now,
-    /// A timer of the page: the frame is shown only if it looks different from the last.
+    /// The time of `Shell::next` has come: the frame is shown only if it looks different from the last.
     ByTimer,
 }
 

@@ -105,8 +105,8 @@ impl Frame<'_> {
         self.asks.close = true;
     }
 
-    /// Does not show this pass, because a better one will follow soon (with the picture of a view that is being moved).
-    /// The window stays as it is, for a tenth of a second at most.
+    /// Does not show this pass, because a better one will follow soon: while the view moves, the one with its next
+    /// picture. The window stays as it is, for a tenth of a second at most.
     pub fn hold(&mut self) {
         self.asks.hold = true;
     }

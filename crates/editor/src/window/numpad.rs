@@ -52,7 +52,7 @@ mod tests {
         assert_eq!(of_code(KeyCode::Numpad7), Some(Key::NumPad(7)));
         assert_eq!(of_code(KeyCode::NumpadDecimal), Some(Key::NumPadPoint));
         assert_eq!(of_code(KeyCode::Digit7), None);
-        assert_eq!(of_code(KeyCode::NumpadEnter), None, "Enter is Enter");
+        assert_eq!(of_code(KeyCode::NumpadEnter), None, "the pad's Enter is no key of its own");
     }
 
     #[test]

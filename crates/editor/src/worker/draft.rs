@@ -53,7 +53,7 @@ impl DraftSize {
 mod tests {
     use super::*;
 
-    /// The shares of 40 drafts, with a driver that takes a fixed time and one in proportion to the pixels.
+    /// The shares of 40 drafts, with a driver that takes a fixed time plus a time in proportion to the pixels.
     fn settled(whole_s: f64, fixed_s: f64) -> Vec<f64> {
         let mut size = DraftSize::default();
         (0..40)

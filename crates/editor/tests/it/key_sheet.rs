@@ -75,7 +75,7 @@ fn press(harness: &mut Harness<'_, Page>, held: Modifiers, key: egui::Key) {
     harness.run();
 }
 
-/// Searches, so that the row is in view.
+/// Types into the search of the sheet, so that the row looked for is in view.
 fn find(harness: &mut Harness<'_, Page>, words: &str) {
     harness.event(Event::Text(words.to_owned()));
     harness.run();
@@ -95,7 +95,7 @@ fn a_click_and_new_keys_change_a_command() {
     assert_eq!(does(&harness, "Ctrl L", Scope::Paint), Some(Action::Comb));
     assert_eq!(does(&harness, "C", Scope::Paint), None);
     assert!(harness.query_by_label("Take it over").is_none());
-    // The list of keys shows it.
+    // The list of keys is another sheet.
     harness.state_mut().open = Open::List;
     harness.run();
     assert_eq!(harness.query_all_by_label("Ctrl L").count(), 1, "the list of keys shows the new keys");
@@ -123,7 +123,7 @@ fn a_conflict_names_the_other_command_and_is_taken_over_or_left() {
     assert_eq!(does(&harness, "K", Scope::Arrange), None);
     // All keys are reset.
     click(&mut harness, "Reset all keys");
-    assert_ne!(harness.state().keymap, Keymap::default(), "it asks first");
+    assert_ne!(harness.state().keymap, Keymap::default(), "no key is reset before a question is answered");
     click(&mut harness, "Cancel the change");
     assert_eq!(does(&harness, "K", Scope::Paint), Some(Action::Comb));
     click(&mut harness, "Reset all keys");
@@ -223,7 +223,7 @@ fn any_key_can_be_given() {
     click(&mut harness, "Import a mesh");
     click(&mut harness, "No key");
     assert_eq!(harness.state().keymap.shortcut_text(Action::ImportMesh), None);
-    // The keys that copy come as this event, never as keys, so they cannot be given.
+    // Keys that copy (Ctrl C) arrive as this event, never as key presses, so no command can be given them.
     click(&mut harness, "Import a mesh");
     harness.event(Event::Copy);
     harness.run();

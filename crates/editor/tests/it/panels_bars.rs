@@ -148,7 +148,7 @@ fn every_control_of_the_bars_has_its_name_and_can_be_hit() {
     let posing = harness(Page::new(), Theme::Dark, NARROW);
     seen(&posing, &["Select", "Move", "Turn", "Scale", "Add light", "Shot camera tool"]);
     seen(&posing, &["World axes", "Local axes", "View axes"]);
-    assert!(posing.query_by_label("Snap").is_none(), "picking things snaps nothing");
+    assert!(posing.query_by_label("Snap").is_none(), "Snap shows for a tool that only selects");
     let moving = harness(Page::new().with_tool(Tool::Move), Theme::Dark, NARROW);
     seen(&moving, &["World axes", "Local axes", "View axes", "Snap"]);
 }
@@ -179,7 +179,7 @@ fn what_cannot_be_done_is_not_asked_for() {
     let mut harness = paint();
     click(&mut harness, "Edit");
     for name in ["Duplicate", "Rename", "Delete"] {
-        assert!(harness.get_by_label(name).accesskit_node().is_disabled(), "{name}: nothing is selected");
+        assert!(harness.get_by_label(name).accesskit_node().is_disabled(), "{name} needs no selection");
     }
     click(&mut harness, "Duplicate");
     for name in ["Undo", "Redo"] {
@@ -277,7 +277,7 @@ fn settings_without_room_are_behind_the_button() {
     let options = &harness.state().session.options;
     assert!(options.even && !options.front_only);
     let steady = harness.query_by_role_and_label(Role::SpinButton, "Steady");
-    assert!(steady.is_some(), "it stays open while settings are changed");
+    assert!(steady.is_some(), "the settings close when one is changed");
 }
 
 #[test]

@@ -182,7 +182,7 @@ fn what_is_wrong_is_mended_by_name_until_saving_is_on_again() {
     let mut harness = harness();
     assert_eq!(document_value(&harness), "still_life.ron, saving over it is off");
     assert!(harness.query_by_label_contains("line 6 column 30, error, ").is_some());
-    assert!(harness.query_by_label("Close problems").is_none(), "it cannot be put away");
+    assert!(harness.query_by_label("Close problems").is_none(), "the panel can be closed");
     click(&mut harness, "Save a copy");
     assert_eq!(harness.state().copies, 1);
     harness.get_all_by_label("Locate").next().expect("a button").click();
@@ -205,7 +205,7 @@ fn what_is_wrong_is_mended_by_name_until_saving_is_on_again() {
     assert!(said.iter().any(|said| said.words == "No problems left. Saving is on again."), "{said:?}");
     assert!(harness.query_by_label("Close problems").is_some());
     click(&mut harness, "Snap to surface");
-    assert!(!harness.state().is_open, "nothing is left to list");
+    assert!(!harness.state().is_open, "the panel is open with nothing to list");
     let page = harness.state();
     assert_eq!(std::fs::read_to_string(&page.path).expect("there"), TEXT, "the file was touched");
 }
@@ -248,7 +248,7 @@ fn a_failed_save_is_listed_with_what_settles_it() {
     harness.run();
     click(&mut harness, "Show problems");
     let row = harness.get_by_label_contains("the disk is full").rect();
-    assert!(row.height() > 50.0 && row.right() <= 1000.0, "all its words show: {row}");
+    assert!(row.height() > 50.0 && row.right() <= 1000.0, "the row does not show all its words: {row}");
     click(&mut harness, "Save as");
     click(&mut harness, "Retry");
     assert_eq!(harness.state().settled, [(0, Settle::SaveAs), (0, Settle::Retry)]);
@@ -287,5 +287,5 @@ fn a_missing_texture_can_be_located_and_looked_for_again() {
     std::fs::write(&to, pixel).expect("written");
     click(&mut harness, "Retry skin.tga");
     assert_eq!(harness.state().editor.document().problem_count(), 0);
-    assert!(harness.query_by_label("Show problems").is_none(), "nothing is left to list");
+    assert!(harness.query_by_label("Show problems").is_none(), "problems are offered, but there are none");
 }

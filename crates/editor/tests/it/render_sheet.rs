@@ -148,7 +148,7 @@ fn what_exr_files_hold_is_ticked_in_a_menu() {
     harness.key_press(Key::Escape);
     harness.run();
     assert!(harness.query_by_label("depth").is_none(), "Esc closes the menu");
-    assert_eq!(asked(&mut harness), [], "and nothing else");
+    assert_eq!(asked(&mut harness), [], "Esc does more than close the menu");
     fill(&mut harness, "Output files", "f_##.png");
     assert_eq!(harness.state().settings.kind, FileKind::Png8, "the kind follows the name");
 }
@@ -216,7 +216,7 @@ fn what_cannot_be_rendered_is_told_where_it_is_typed() {
     assert!(harness.query_by_label_contains("let the name end in .png").is_some());
     fill(&mut harness, "Output files", "/elsewhere/f_##.png");
     assert!(harness.query_by_label_contains("outside the scene").is_some());
-    assert!(!is_enabled(&harness, "Open folder"), "nothing is there yet");
+    assert!(!is_enabled(&harness, "Open folder"), "a folder that is not there yet can be opened");
     let unsaved = self::harness(Page::unsaved());
     assert!(!is_enabled(&unsaved, "Copy as command") && is_enabled(&unsaved, "Start rendering"));
 }
@@ -236,7 +236,7 @@ fn while_frames_come_they_can_be_stopped_or_left_alone() {
     assert_eq!(asked(&mut harness), all);
     harness.state_mut().progress.as_mut().expect("it runs").stopping = true;
     harness.run();
-    assert!(!is_enabled(&harness, "Stop"), "once is enough");
+    assert!(!is_enabled(&harness, "Stop"), "Stop can be clicked twice");
     let words = "Frame 47 was not written. /pictures/pears/out/frame_0047.png: No space left on device";
     harness.state_mut().progress.as_mut().expect("it ran").outcome = Some(Outcome::Failed(words.to_owned()));
     harness.run();

@@ -107,7 +107,7 @@ impl Page {
 }
 
 fn harness(page: Page) -> Harness<'static, Page> {
-    // Chips know their size from the second pass on.
+    // This runs more than one pass, as chips need: they know their size from the second on.
     headless::harness(vec2(600.0, 420.0), Theme::Dark, page, |ui, page| page.ui(ui))
 }
 
@@ -245,7 +245,7 @@ fn a_press_beside_an_open_menu_only_closes_it() {
         harness.event(button(at, PointerButton::Primary, is_down));
         harness.run();
     }
-    assert!(harness.query_by_label("Shaded").is_none(), "it is closed");
+    assert!(harness.query_by_label("Shaded").is_none(), "the menu is still open");
     let told = &harness.state().pointer;
     assert!(told.iter().all(|event| event.kind == PointerKind::Move), "no drag begins: {told:?}");
     for is_down in [true, false] {

@@ -1,16 +1,16 @@
-// The icon of a light over the finished picture, dimmed where something stands in front of it. Its texture coordinates are
-// computed from the corners.
+// The icon of a light over the finished picture, dimmed where something stands in front of it. Its texture coordinates
+// are computed from the quad's corners.
 #include "shared/inverse_bilinear.glsl"
 in vec2 on_plane;
 flat in vec4 first_two;
 flat in vec4 last_two;
 
-uniform sampler2DArray icons;    // ink, disc under it
+uniform sampler2DArray icons;    // r: ink, g: the disc under the ink
 uniform sampler2D depth_and_id;
 uniform float icon;              // layer of the texture; below 0 a ring as thin as a line
-uniform float px;                // a pixel as a share of half the side
+uniform float px;                // a pixel as a share of half the quad's side
 uniform vec4 ink;                // encoded sRGB, straight alpha
-uniform float depth;             // of the icon along the gaze
+uniform float depth;             // depth of the icon along the gaze
 uniform float softness;          // depth over which the icon fades behind something
 
 out vec4 over;                   // premultiplied, encoded

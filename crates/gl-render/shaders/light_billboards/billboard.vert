@@ -8,8 +8,8 @@ uniform vec3 camera_right;       // unit, world space
 uniform vec3 camera_up;
 uniform mat4 clip_from_world;
 uniform float icon;              // layer of the texture; below 0 a ring
-uniform float px;                // a pixel as a share of half the side
-uniform float pieces;            // of the ring
+uniform float px;                // a pixel as a share of half the quad's side
+uniform float pieces;            // how many straight pieces make the ring
 
 out vec2 on_plane;               // place on the picture's plane
 flat out vec4 first_two;         // the corners on that plane

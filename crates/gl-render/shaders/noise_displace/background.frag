@@ -1,4 +1,4 @@
-// The background under bodies that noise colours, where nothing else is behind them.
+// Lays the background under the bodies that noise colours; it shows where no other body is behind them.
 uniform vec4 background;
 uniform sampler2D depth_and_id;
 

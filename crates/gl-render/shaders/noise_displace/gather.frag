@@ -1,4 +1,4 @@
-// The glow at a quarter of the size: each pixel is the mean of those that it covers.
+// The glow at a quarter of the size: each pixel is the mean of the 4 x 4 pixels of `glow` that it covers.
 uniform sampler2D glow;
 
 out vec4 gathered;

@@ -1,4 +1,5 @@
-// Layers of one texture that move against each other, multiplied: T = Π X·Y, then the root, then the tint.
+// Layers of one texture that move against each other, multiplied: T = Π X·Y, where X and Y are a layer's two lookups,
+// moved along x and along y. Then the root of T, then the tint.
 in vec2 texture_at;
 
 uniform sampler2D layer_noise;   // repeats

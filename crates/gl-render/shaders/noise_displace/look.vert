@@ -1,4 +1,4 @@
-// A body that noise colours.
+// The vertices of a body that noise colours.
 #include "shared/body.glsl"
 
 uniform mat4 view_from_world;

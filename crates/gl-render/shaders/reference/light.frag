@@ -2,9 +2,9 @@
 #include "shared/lens.glsl"
 #include "reference/lighting.glsl"
 uniform sampler2D albedo_and_lit;
-uniform sampler2D normal;        // and gloss
+uniform sampler2D normal;        // rgb: normal in world space, a: gloss
 uniform sampler2D depth_and_id;
-uniform sampler2D openness;      // half the size
+uniform sampler2D openness;      // ambient occlusion: 0 enclosed .. 1 open; half the picture's size
 
 layout(location = 0) out vec4 color;
 layout(location = 1) out vec4 glint;

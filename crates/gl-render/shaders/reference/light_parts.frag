@@ -4,7 +4,7 @@
 uniform sampler2D albedo_and_lit;
 uniform sampler2D normal;        // and gloss
 uniform sampler2D depth_and_id;
-uniform sampler2D openness;      // half the size
+uniform sampler2D openness;      // ambient occlusion, 1 in the open; half the size
 
 layout(location = 0) out vec4 light_and_shadow;  // light that arrives; how much arrives of the light that casts shadows
 layout(location = 1) out vec4 open;

@@ -9,7 +9,7 @@ uniform int shadowed_light;      // index of the light that casts shadows, or -1
 uniform sampler2DShadow shadow_depth;
 uniform mat4 shadow_from_world;
 uniform float shadow_texel;      // side of a texel in world units; for a lamp, at a distance of 1 from it
-uniform vec2 shadow_bias;        // constant depth, plus one that is divided by the square of a lamp's distance
+uniform vec2 shadow_bias;        // x: constant depth; y: depth that is divided by the square of a lamp's distance
 uniform vec3 ambient_above;
 uniform vec3 ambient_below;
 
@@ -17,7 +17,8 @@ float sunlit(vec3 position, vec3 normal) {
     // The distance from a lamp, along the axis of its map; 1 for a sun.
     float away = (shadow_from_world * vec4(position, 1.0)).w;
     if (away <= 0.0) return 1.0;
-    // An offset from the surface keeps it from shadowing itself; larger where light falls at a slant.
+    // An offset along the normal keeps the surface from shadowing itself. Measured along the light, it takes the point
+    // farther from the surface where light falls at a slant.
     vec3 from = position + normal * (2.5 * shadow_texel * away);
     vec4 clip = shadow_from_world * vec4(from, 1.0);
     vec3 at = clip.xyz / clip.w * 0.5 + 0.5;

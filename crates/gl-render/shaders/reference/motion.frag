@@ -1,5 +1,5 @@
 // Where the surface point of each pixel is in another picture: offset in px (Y up), depth along the gaze there, body.
-// Both positions are interpolated in the same way, so that a body at rest moves by exactly 0.
+// Both positions are interpolated in the same way, so that the offset of a body that stands still is exactly 0.
 #include "shared/cutout.glsl"
 
 in vec4 clip_now;

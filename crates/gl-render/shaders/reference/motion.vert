@@ -1,4 +1,4 @@
-// A body's vertices in this picture, and where they are in another.
+// Places a body's vertices in this picture, and says where they are in another one.
 #include "shared/body.glsl"
 layout(location = 4) in vec3 position_then;      // model space
 

@@ -12,7 +12,7 @@ uniform sampler2D albedo_texture;
 uniform float is_lit;
 uniform float body_id;
 uniform float gloss;
-uniform vec4 eye;              // w 1: a place; w 0: the direction to a far eye
+uniform vec4 eye;              // w 1: position of the eye; w 0: direction to an eye infinitely far away
 
 layout(location = 0) out vec4 albedo_and_lit;
 layout(location = 1) out vec4 normal;           // and gloss

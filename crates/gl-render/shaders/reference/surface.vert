@@ -1,4 +1,4 @@
-// A body's vertices into the picture.
+// Projects a body's vertices into the picture.
 #include "shared/body.glsl"
 
 uniform mat3 world_from_normal;

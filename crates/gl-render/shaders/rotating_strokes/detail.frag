@@ -57,7 +57,8 @@ void main() {
         float turn = 0.0;
         for (int axis = 0; axis < 2; axis++) {
             ivec2 next = min(at + ivec2(1 - axis, axis) * reach_px, last);
-            // The turn is taken over a distance so large that the mesh's facets do not count; 0 on a thinner body.
+            // The turn is taken over a distance so large that the mesh's facets do not count. Where the body is
+            // narrower than this distance, no turn is added.
             ivec2 far = ivec2(1 - axis, axis) * (3 * reach_px);
             ivec2 ends[2] = ivec2[2](max(at - far, ivec2(0)), min(at + far, last));
             if (texelFetch(depth_and_id, ends[0], 0).y == front.y && texelFetch(depth_and_id, ends[1], 0).y == front.y) {

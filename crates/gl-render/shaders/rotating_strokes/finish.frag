@@ -1,4 +1,5 @@
-// Paint over its ground as a solid surface in the light of a room: relief, canvas where paint is thin, furrows, varnish.
+// Draws paint over its ground as a solid surface in the light of a room: relief, canvas where paint is thin, furrows,
+// varnish.
 #include "shared/encode.glsl"
 uniform sampler2D picture;           // premultiplied, display-linear
 uniform sampler2D reference_color;   // alpha 1 where a body is
@@ -6,7 +7,7 @@ uniform sampler2D reference_color;   // alpha 1 where a body is
 uniform sampler2D surface;           // depth, body id and half the share of the pixel that shows something else
 uniform sampler2D height;            // of the paint, in brush thicknesses, and how wet it is
 uniform sampler2D soft_height;       // half the size
-uniform sampler2D canvas;            // one tile: height, its slope in x and in y, around the middle value
+uniform sampler2D canvas;            // one tile: height, and its slope in x and in y, each stored around 0.5
 uniform vec3 to_light;               // unit, in the picture's space
 uniform vec4 canvas_axes;            // canvas tiles per pixel: along x, along y
 uniform vec2 canvas_origin;          // canvas tiles at the picture's lower left corner
@@ -29,8 +30,9 @@ layout(location = 4) out vec4 ground;            // premultiplied
 const float THICKNESS_PX = 1.6;      // of paint of height 1
 const float WEAVE_PX = 0.09;
 #ifndef DRAFT
-// Wet paint of one colour runs together: how far; over which distances, pixels of the scene's own size; from which
-// difference of colour on (of square roots of linear values) it keeps apart; and how much relief is left.
+// Wet paint of one colour runs together. MELT: how far, 0..1. MELT_PX: over which two distances, pixels of the scene's
+// own size. SAME: at this difference of colour (of square roots of linear values) a neighbour counts 1/e of an equal
+// one. MELTED_RELIEF: how much relief is left.
 const float MELT = 0.85;
 const vec2 MELT_PX = vec2(2.2, 4.5);
 const float SAME = 0.05;

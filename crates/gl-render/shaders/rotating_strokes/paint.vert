@@ -10,13 +10,13 @@ layout(location = 2) in uvec4 marks;         // random bits, body id, albedo, ma
 layout(location = 3) in uvec2 bytes;         // paint, mixing
 layout(location = 4) in vec4 normal_and_bow; // world space, half widths
 layout(location = 5) in vec4 reach;          // overrun in px, slow noise of hue and of edges, skew
-layout(location = 6) in vec4 resolved;       // colour and how much is there
+layout(location = 6) in vec4 resolved;       // colour, presence
 layout(location = 7) in vec4 fitted;         // centre in px where it lies on its body, lightness, turn added to the angle
 #ifdef SHAPED
 layout(location = 8) in vec2 shape;          // taper, bend in radians
 #endif
 #ifdef LINE
-layout(location = 9) in vec4 corner_of_line; // px; along and across the mark
+layout(location = 9) in vec4 corner_of_line; // corner in px; its place along and across the mark
 layout(location = 10) in vec4 middle_of_line; // px from the line's middle to the corner; depth, presence of the middle
 // Depth of the plane less that of the middle, and how far paint may lie off the plane, both in px; how dry the brush
 // runs.
@@ -47,17 +47,18 @@ out vec2 from_center_px;
 flat out vec4 paint;             // colour and the height at which the mark is cut off
 flat out vec3 half_mixed;        // what the other paint in the brush adds
 flat out vec4 picked_up;         // colour from below and how much of it
-flat out vec4 mark;              // its number, level of detail, half its soft edge, bow
+flat out vec4 mark;              // number of the mark, level of detail, half the width of its soft edge, bow
 flat out vec4 body;              // opacity, thickness, overrun in px, sign of the flip
-flat out vec4 own;               // depth and id of the body, how much of the stroke's length is there, how wet its paint is
-flat out vec4 plane;             // of the stroke, in px: its depth's slope along x and y, the depth of its middle less the stroke's own,
-                                 // how far paint may lie off it
+flat out vec4 own;               // depth, id of the body, share of the stroke's length that shows, how wet its paint is
+flat out vec4 plane;             // of the stroke's plane, in px: slope of its depth along x and y, depth at the middle
+                                 // of the quad less the stroke's depth, how far paint may lie off the plane
 #ifdef LINE
 out float run_dry;               // how much more paint the mark needs to show
-out vec4 line;                   // depth, presence, depth of the plane less that in px, how far paint may lie off it
+out vec4 line;                   // depth; presence; depth of the plane less the depth, px; how far paint may lie off
+                                 // the plane, px
 #endif
 #ifdef SHAPED
-flat out vec4 form;              // half its quad's length (0 where it has no shape) and width in px, taper, bend per px
+flat out vec4 form;              // half the quad's length (0: no shape) and width in px, taper, bend per px
 flat out float leaning;          // skew
 #endif
 
@@ -89,7 +90,8 @@ const int STEPS = 32;
 // Levels coarser than this are not exact halves of the finest.
 const float COARSEST = 5.0;
 
-// The box of the quad in which the mark has more paint than `least` at this level: from and to along, then across.
+// The part of the quad outside which the mark has no more paint than `least` at this level: the range along the mark,
+// then the range across it.
 vec4 painted_part(float least, float level, float bow, float flip) {
     int amount = int(floor(least * float(STEPS) - 0.05));
     float coarser = floor(level) + 1.0;

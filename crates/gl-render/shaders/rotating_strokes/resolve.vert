@@ -1,5 +1,5 @@
-// One stroke per vertex: finds its colour, its presence, and where it lies on its body. The paint pass reads these results,
-// and so does `impasto strokes`.
+// One stroke per vertex: finds its colour, its presence, and where it lies on its body. The paint pass reads these
+// results, and so does `impasto strokes`.
 #include "shared/lens.glsl"
 #include "shared/oklab.glsl"
 #include "reference/lighting.glsl"
@@ -8,7 +8,7 @@ uniform float px_scale;          // output pixels per pixel of the scene's own s
 uniform mat4 view_from_world;
 uniform int kind;                // layer of paint
 layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
-layout(location = 1) in vec4 size;           // length and width in px, fade of the facing, ln of the supply
+layout(location = 1) in vec4 size;           // length and width in px, fade near edge-on, ln of the supply
 layout(location = 2) in uvec4 marks;         // random bits, body id, albedo (sRGB bytes, A 0 where unlit), mark
 layout(location = 3) in uvec2 bytes;         // paint, mixing
 layout(location = 4) in vec4 normal_and_bow; // world space, half widths
@@ -51,7 +51,8 @@ const float OUTLINE_PX = 20.0;
 // A stroke that other bodies hide in part is there as a whole while more than this share of it is to be seen.
 const float WHOLE = 0.75;
 
-// As in `detail.frag`.
+// A leap of the depth within a body, as a share of the depth: from the first value on the body ends there in part, from
+// the second wholly. The same values as in `detail.frag`.
 const vec2 LEAP = vec2(0.01, 0.03);
 
 // How far a tap is hidden, 0..1: by the stroke's own body (`by_own`) or by others that stand before the stroke's plane.
@@ -72,7 +73,7 @@ float seen(mat2 turn) {
     float radius_px = clamp(0.28 * sqrt(size.x * size.y), max(3.0, 7.0 * px_scale), 14.0 * max(px_scale, 1.0));
     float bias = unit * (2.5 + 0.5 * radius_px / slant);
 #ifdef DRAFT
-    // Every other ring, and the middle.
+    // Every other tap of each ring, and the middle.
     const int STEP = 2;
     const int RING = 9;
     const ivec2 GRID = ivec2(3, 2);
@@ -269,7 +270,7 @@ void main() {
         there *= presence(size.w + log(fullness(lab.x, mixing.grading))) / presence(size.w + log(MOST_FULL));
     }
     if (kind == CONTOUR) there = without_last(there * line_wanted(outline, lab.x));
-    // A fixed colour: the picture shows a measure, not the scene.
+    // A fixed colour: that of a touch, or of a picture that shows a measure instead of the scene.
     if ((marks.z >> 24) == 128u) {
         resolved = vec4(albedo_of(marks.z), there);
         fitted = vec4(place.xy + moved + turn[0] * shift(turn, own), lab.x, turned);

@@ -1,4 +1,5 @@
-// The height of the paint, averaged at half the size: compared with it, furrows differ from ridges and thin paint from thick.
+// Averages the height of the paint, at half the picture's size. Compared with this average, the height tells furrows
+// from ridges, and thin paint from thick.
 uniform sampler2D height;
 uniform float step_px;           // pixels of the full size
 

@@ -1,6 +1,6 @@
 // Blurs the detail of each body within that body: a Gaussian, one axis at a time.
-uniform sampler2D detail;            // change, outline, highlight, body id and half its share of the block
-uniform vec2 axis;                   // from one tap to the next, in texels along the axis
+uniform sampler2D detail;            // change, outline, highlight; a: body id, plus half the body's share of the block
+uniform vec2 axis;                   // the step from one tap to the next, in texels
 
 out vec4 spread;
 

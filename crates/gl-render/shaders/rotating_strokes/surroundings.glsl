@@ -1,5 +1,5 @@
-// What surrounds a stroke in the reference picture. Everything here changes slowly with position, so that what depends on it
-// fades and never switches.
+// What surrounds a stroke in the reference picture. Everything here changes slowly with position, so that what depends
+// on it fades and never switches.
 uniform sampler2D reference_color;
 uniform sampler2D depth_and_id;
 uniform sampler2D normal;        // of the surface, world space, towards the eye; 0 where noise colours it
@@ -9,12 +9,12 @@ uniform float block_px;          // side of a block
 // How far around a stroke it matters whether its face is thin.
 const float AROUND_PX = 8.0;
 
-// Cosine of the angle between a pixel's normal and the stroke's: below the first the pixel shows another face of the body, from
-// the second on the stroke's own.
+// Cosine of the angle between a pixel's normal and the stroke's: below the first the pixel shows another face of the
+// body, from the second on the stroke's own.
 const vec2 SAME_FACE = vec2(0.8, 0.97);
 
-// How far before the stroke's plane its body covers the stroke: from the first depth on in part, from the second wholly. Less
-// comes from coarse meshes.
+// How far before the stroke's plane its body must be to cover the stroke: from the first depth on in part, from the
+// second wholly. Smaller depths are mere errors of coarse meshes.
 const vec2 COVERS_PX = vec2(2.0, 6.0);
 
 // Depth and body id of the pixel at a place.
@@ -30,9 +30,9 @@ float plane_depth(vec2 offset_px) {
     return place.z + dot(n.xy, offset_px) * units_per_px(place.z) / (n.z < 0.0 ? -slant : slant);
 }
 
-// How far the stroke's centre is free of other parts of its own body, 0..1. Where it is free, only pixels of its own face count,
-// so that a narrow face takes no colour from the wide one beside it, nor a leaf from the leaf behind it. Where it is covered, it
-// has the colour of what covers it.
+// How far the stroke's centre is free of other parts of its own body, 0..1. Where it is free, only pixels of its own
+// face count, so that a narrow face takes no colour from the wide one beside it, nor a leaf from the leaf behind it.
+// Where it is covered, the stroke has the colour of what covers it.
 float freedom(float id) {
     vec2 at = place.xy - 0.5;
     ivec2 corner = ivec2(floor(at));
@@ -59,8 +59,9 @@ float other_face(ivec2 texel) {
     return 1.0 - smoothstep(SAME_FACE.x, SAME_FACE.y, cosine);
 }
 
-// Colour interpolated between those of four pixels that show the body, `free` of its other faces; w says how many do. The plain
-// render has hard edges, and a tap on a single pixel would jump at them.
+// The sum of the colours of the four nearest pixels, by bilinear weights; w is the sum of these weights. Only pixels of
+// the body count, and the further the stroke is `free`, the less those of its other faces. The plain render has hard
+// edges, and a tap on a single pixel would jump at them.
 vec4 own_color_at(vec2 at_px, float id, float free) {
 #ifdef DRAFT
     ivec2 nearest = clamp(ivec2(at_px), ivec2(0), textureSize(reference_color, 0) - 1);
@@ -88,8 +89,8 @@ vec2 direction(int index, int count) {
     return vec2(cos(angle), sin(angle));
 }
 
-// How far the stroke's own face has ended at a place, 0..1: wholly where its body has ended, or turns away as at an edge; not
-// where something in front hides it.
+// How far the stroke's own face has ended at a place, 0..1: wholly where its body has ended, or turns away as at an
+// edge; not where something in front hides it.
 float is_past(vec2 at_px, vec2 own, float free) {
     vec2 there = surface_at(at_px);
     if (there.y == own.y) return free * other_face(clamp(ivec2(at_px), ivec2(0), textureSize(normal, 0) - 1));
@@ -107,9 +108,9 @@ float thinness(vec2 center_px, vec2 own, float free) {
     return sum / 12.0;
 }
 
-// Mean colour on the stroke's own body: a Gaussian with this standard deviation, on two rings and the centre, longer along the
-// stroke, so that a shadow that sweeps over it takes several frames. The less of the body is found there, the more a wider
-// surrounding counts. w is how much of the colour is known, 0..1.
+// Mean colour on the stroke's own body: a Gaussian with this standard deviation, on two rings and the centre, longer
+// along the stroke, so that a shadow that sweeps over it takes several frames. The less of the body is found there, the
+// more a wider surrounding counts. w is how much of the colour is known, 0..1.
 vec4 own_color(vec2 center_px, float id, mat2 sigma_px, float free) {
 #ifdef DRAFT
     const int TAPS = 6;
@@ -148,8 +149,8 @@ vec3 wide_mean(vec2 center_px, float id, vec3 lab, float free) {
     return sum / 8.0;
 }
 
-// How much detail the stroke's own body has around it: change of colour, outline, highlight, 0..1 each. A smooth mean of the
-// body's blocks, so that the blocks of a thin body, which come and go, hardly show.
+// How much detail the stroke's own body has around it: change of colour, outline, highlight, 0..1 each. A smooth mean
+// of the body's blocks, so that the blocks of a thin body, which come and go, hardly show.
 vec3 detail_at(vec2 center_px, float id) {
     vec2 at = center_px / block_px - 0.5;
     ivec2 last = textureSize(detail, 0) - 1;
@@ -167,8 +168,9 @@ vec3 detail_at(vec2 center_px, float id) {
     return sum / max(weight, 0.7);
 }
 
-// How much of the way from the stroke's centre to one of its ends lies on its body, 0..1: taps on three lines, so that it
-// changes slowly even where the stroke runs along the body's border. The body does not end where something stands in front.
+// How much of the way from the stroke's centre to one of its ends lies on its body, 0..1: taps on three lines, so that
+// it changes slowly even where the stroke runs along the body's border. The body does not end where something stands in
+// front.
 float share_on_body(vec2 center_px, vec2 to_end_px, vec2 across_px, vec2 own) {
     float bias = 0.02 * own.x;
     float beyond = 0.0;

@@ -1,4 +1,5 @@
-// Where a point lies in a quad: as `core::inverse_bilinear`, which says why and where it holds.
+// Finds where a point lies in a quad. The same as `core::inverse_bilinear`, where the formula is explained, with the
+// quads that it holds for.
 float wedge(vec2 a, vec2 b) {
     return a.x * b.y - a.y * b.x;
 }

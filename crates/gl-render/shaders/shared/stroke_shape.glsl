@@ -1,5 +1,5 @@
-// Strokes that taper and bend. Their form is half the quad's length (0 for a stroke that does neither) and half its
-// width in px, the taper, and the bend in radians per px.
+// The shape of strokes that taper and bend. The vec4 `form` (`of` in the first function) holds half the quad's length
+// in px (0 for a stroke that does neither), half its width in px, the taper, and the bend in radians per px.
 #include "shared/inverse_bilinear.glsl"
 
 // A corner of the box around a tapered and bent stroke, px along and across from its centre.
@@ -33,7 +33,7 @@ vec2 on_mark(vec2 at_px, vec4 form, float leaning) {
     return inverse_bilinear(straightened(at_px, form.w), -half_along - start, half_along - end, -half_along + start, half_along + end);
 }
 
-// A part wider than the middle needs a finer level, a narrower one a coarser level.
+// The mipmap level for a part of a tapered stroke: finer where it is wider than its middle, coarser where narrower.
 float level_where_narrow(float level, float along, float taper) {
     return max(level - log2(max(1.0 + taper * (1.0 - 2.0 * along), 0.01)), 0.0);
 }

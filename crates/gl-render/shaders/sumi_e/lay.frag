@@ -60,7 +60,7 @@ vec3 strokes_at(vec3 here) {
 void main() {
     vec2 at = paper_at(gl_FragCoord.xy);
     vec3 here = felt(at);
-    // The same clouds at coarser scales, on which one part of an outline differs from the next.
+    // The paper's clouds of pulp at coarser scales: they make one part of an outline differ from the next.
     vec3 slow = vec3(felt(at * 0.53 + 0.17).x, felt(at * 0.41 + 0.59).x, felt(at * 0.71 + 0.83).x);
     vec3 washed = amounts.x > 0.0 ? wash_at(at, here, slow) : vec3(0.0);
     vec3 drawn = amounts.y > 0.0 ? amounts.y * strokes_at(here) : vec3(0.0);

@@ -1,13 +1,13 @@
-// Four corners of a stroke of ink: a billboard of constant size on the screen, turned in pixels.
+// Places the four corners of a stroke of ink: a billboard of constant size on the screen, turned in pixels.
 #include "shared/stroke_shape.glsl"
 layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
-layout(location = 1) in vec4 size;           // length and width in px, fade of the facing, ln of the supply
+layout(location = 1) in vec4 size;           // length and width in px, facing fade, ln(supply / rank)
 layout(location = 2) in uvec4 marks;         // random bits, body id, albedo, mark
 layout(location = 3) in uvec2 bytes;         // paint, mixing
-layout(location = 4) in vec4 normal_and_bend; // world space, half widths
+layout(location = 4) in vec4 normal_and_bend; // normal in world space; bow of the mark in half widths
 layout(location = 5) in vec4 reach;          // overrun in px, slow noise of hue and of edges, skew
 layout(location = 6) in vec4 resolved;       // colour and how much is there
-layout(location = 7) in vec4 fitted;         // centre in px where it lies on its body, how dark
+layout(location = 7) in vec4 fitted;         // centre in px after its shift onto its body, how dark it is
 layout(location = 8) in vec2 shape;          // taper, bend in radians
 
 uniform vec2 size_px;
@@ -17,7 +17,7 @@ uniform float dryness;           // of the scene
 out vec2 mark_at;                // place on the mark, 0..1; on a shaped stroke, px along and across it
 out vec2 from_center_px;
 flat out vec4 ink;               // what it subtracts, and the height at which the mark is cut off
-flat out vec4 mark;              // its number, level of detail, half its soft edge, bend
+flat out vec4 mark;              // its number, level of detail, half its soft edge, bow
 flat out vec4 body;              // opacity, how dry it ends, overrun in px, sign of the flip
 flat out vec2 own;               // depth and id of the body
 flat out vec4 form;              // see shared/stroke_shape.glsl

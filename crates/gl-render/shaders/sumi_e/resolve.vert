@@ -1,7 +1,7 @@
 // One stroke per vertex: finds its ink, its presence, and where it lies on its body.
 #include "shared/lens.glsl"
 layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
-layout(location = 1) in vec4 size;           // length and width in px, fade of the facing, ln of the supply
+layout(location = 1) in vec4 size;           // length and width in px, fade near edge-on, ln of the supply
 layout(location = 2) in uvec4 marks;         // random bits, body id, albedo, mark
 layout(location = 3) in uvec2 bytes;         // paint, mixing
 layout(location = 4) in vec4 normal_and_bend; // world space, half widths

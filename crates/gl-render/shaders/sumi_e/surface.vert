@@ -1,5 +1,5 @@
-// A body's vertices, with their normals in the eye's space. As in the source, normals are unit at the vertices and are not
-// made unit again in between.
+// A body's vertices, with their normals in view space. As in the source, normals are unit at the vertices, and are not
+// normalised again after interpolation.
 #include "shared/body.glsl"
 
 uniform mat3 world_from_normal;

@@ -7,14 +7,15 @@ uniform sampler2D normal;        // world space
 uniform sampler2D depth_and_id;
 uniform sampler2D albedo_and_lit;
 uniform vec3 to_light;           // unit, world space
-uniform vec2 silhouette;         // cosines to the eye: black at the first, none at the second
-uniform float own_tone;
-uniform vec4 seal;               // Oklab; how much of its hue stays red
+uniform vec2 silhouette;         // cosines between normal and eye: black at the first, no silhouette at the second
+uniform float own_tone;          // how far a body's own lightness changes its ink
+uniform vec4 seal;               // a red in Oklab; how far colours of its hue stay red
 uniform float line_px;           // half the width of the line where a body ends
 
 out vec4 wash;                   // silhouette, interior (0 paper .. 1 black), seal red, 1
 
-// How much of the surroundings lies well behind this pixel or on no body: this gives bodies with sharp edges an outline too.
+// How much of the surroundings lies well behind this pixel or on no body: this gives bodies with sharp edges an outline
+// too.
 float ends(ivec2 at, vec2 here, float facing) {
     float step_back = units_per_px(here.x) * line_px * (3.0 + 2.0 / max(facing, 0.15));
     ivec2 last = textureSize(depth_and_id, 0) - 1;

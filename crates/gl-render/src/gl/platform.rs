@@ -6,9 +6,9 @@ use std::ffi::{CStr, c_void};
 pub(crate) trait Platform {
     /// Makes the context current on this thread.
     fn make_current(&self) -> Result<(), String>;
-    /// Makes no context current on this thread, if the library would otherwise skip [`Platform::make_current`]. EGL
-    /// skips it where this is the context that EGL last made current, even if OSMesa has made another one current
-    /// since.
+    /// Leaves this thread without a current context. Only needed for a library that may skip the next
+    /// [`Platform::make_current`]: EGL does so if it made this same context current last, even if OSMesa has made
+    /// another one current since.
     fn make_none_current(&self) -> Result<(), String> {
         Ok(())
     }

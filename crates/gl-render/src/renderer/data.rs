@@ -109,14 +109,15 @@ impl Renderer {
         ReferencePixels { depth, body_id }
     }
 
-    /// The paint of the last frame without background: premultiplied, display-linear, top row first. Empty unless everything is kept
-    /// ([`Renderer::keep`]).
+    /// The paint of the last frame without background: premultiplied, display-linear, top row first. Empty unless
+    /// everything is kept ([`Renderer::keep`]).
     pub fn read_paint(&self) -> Vec<[f32; 4]> {
         let (Some(style), Some(painted)) = (self.last_renderer(), &self.painted) else { return Vec::new() };
         top_row_first(style.read_paint(), painted.pass.size_px()[0] as usize)
     }
 
-    /// The last picture before it was encoded: display-linear with straight alpha, top row first, whatever the exposure.
+    /// The last picture before it was encoded: display-linear with straight alpha, top row first, whatever the
+    /// exposure.
     pub fn read_linear(&self) -> Vec<[f32; 4]> {
         let Some(painted) = self.painted.as_ref().filter(|_| self.context.gpu().make_current().is_ok())
         else {

@@ -45,7 +45,7 @@ pub(crate) struct SumiE {
     gpu: Gpu,
     fibres: Texture,
     screen: VertexArray,
-    /// Created, as is `painter`, when a frame first uses its rule.
+    /// The programs of the source's rule and, in `painter`, of our own: each created when a frame first uses that rule.
     source: Option<SourcePrograms>,
     painter: Option<PainterPrograms>,
     source_targets: Option<SourceTargets>,

@@ -16,7 +16,7 @@ fn folder() -> Option<PathBuf> {
     folder
 }
 
-/// Reads a file, and files beside it.
+/// Reads a glTF file, and the files beside it that it names.
 pub fn read_path(path: &Path) -> Result<(Gltf, Vec<Finding>), Vec<Finding>> {
     let bytes = fs::read(path).expect("the corpus is complete");
     let beside = path.parent().expect("a file is in a folder").to_owned();

@@ -1,4 +1,4 @@
-//! The forms that numbers and triangles take in a file, against what they stand for.
+//! Tests that numbers and triangles are read rightly in every form that they may have in a file.
 
 use serde_json::{Value, json};
 
@@ -182,7 +182,7 @@ fn what_is_not_read_is_refused_by_name() {
     }
 }
 
-/// Draco as Blender writes it without `extensionsRequired`: accessors without numbers, which would be zeros.
+/// Draco as Blender writes it without `extensionsRequired`: its accessors have no numbers, and would be read as zeros.
 #[test]
 fn compressed_primitives_are_not_zeros() {
     let document = json!({

@@ -14,10 +14,10 @@ use crate::report::{LEAST_STROKES, Reading, Row, Series, Verdict};
 use crate::strokes::StrokesByKey;
 use crate::versions::{SceneVersion, orbit_blockers};
 
-/// Angles round the target at which pairs of views are taken, one degree apart.
+/// Angles round the target at which pairs of views are taken; the two views of a pair are one degree apart.
 const AROUND_DEG: [f64; 6] = [0.0, 47.0, 101.0, 180.0, 233.0, 312.0];
 
-/// Zoom factors at which pairs of views are taken, one percent apart.
+/// Zoom factors at which pairs of views are taken; the two views of a pair are one percent apart.
 const ZOOMS: [f64; 4] = [1.0, 1.6, 2.7, 5.0];
 
 /// Popping between two neighbouring frames.

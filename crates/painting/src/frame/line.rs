@@ -34,7 +34,7 @@ pub struct LineVertex {
     pub from_middle_px: [f32; 2],
     /// Depth of the line's middle, world units.
     pub depth: f32,
-    /// How far the paint is there, 0 where the surface is seen edge-on, to 1.
+    /// How far the paint is there, 0..=1; 0 where the surface is seen edge-on.
     pub presence: f32,
     /// Depth of the surface's plane under the vertex, less the depth of the line's middle, pixels.
     pub lean_px: f32,

@@ -21,10 +21,10 @@ use crate::paper::{PolygonCounts, PolygonSide};
 
 pub(super) const LAYERS: usize = LayerKind::ALL.len();
 
-/// The texels of a brush's marks.
+/// How many texels a mark of a brush has.
 const TEXELS: usize = brush::SIZE[0] * brush::SIZE[1];
 
-/// How much there is of everything.
+/// How many objects, rules and brushes the kept painting has.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub(super) struct Sizes {
@@ -39,9 +39,9 @@ pub(super) struct Sizes {
 pub(super) struct CoatNumbers {
     pub(super) count: u64,
     pub(super) state: [u64; 2],
-    /// The bits of a float.
+    /// The bits of the area, which is a float.
     pub(super) area: u64,
-    /// 0 or 1.
+    /// 0 or 1, as is the next.
     pub(super) has_polygons: u64,
     pub(super) has_neighbours: u64,
     /// How many neighbours a list has room for.
@@ -74,7 +74,7 @@ pub(crate) struct KeptCoat {
     pub(crate) wanted: usize,
     pub(crate) state: ProgressiveState,
     pub(crate) area: f64,
-    /// Of all particles that were sampled; empty where it follows from the materials.
+    /// The albedo of all particles that were sampled; empty where it follows from the materials.
     pub(crate) albedo: Vec<u32>,
     pub(crate) polygons: Option<PolygonCounts>,
     /// The region of each particle; empty where it follows from the triangles.

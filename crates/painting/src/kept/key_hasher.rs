@@ -1,4 +1,5 @@
-//! Makes a key: a cryptographic hash of numbers and words, each with its length, so that no two lists run into each other.
+//! Makes a key: a cryptographic hash of numbers and words, each with its length, so that no two lists run into each
+//! other.
 
 use std::fmt::{Debug, Write as _};
 
@@ -16,7 +17,7 @@ pub(crate) struct KeyHasher {
 }
 
 impl KeyHasher {
-    /// Plain numbers, by their bits.
+    /// Feeds plain numbers, by their bits.
     pub(crate) fn numbers<T: NoUninit>(&mut self, numbers: &[T]) {
         let bytes: &[u8] = bytemuck::cast_slice(numbers);
         self.hasher.update(&(bytes.len() as u64).to_le_bytes());
@@ -27,13 +28,13 @@ impl KeyHasher {
         }
     }
 
-    /// Words.
+    /// Feeds words.
     pub(crate) fn words(&mut self, words: &str) {
         self.numbers(words.as_bytes());
     }
 
-    /// A value as its derived `Debug` writes it: every field by name, every float so that it is read back to the bit.
-    /// For settings; never for long arrays, nor for types whose `Debug` is written by hand.
+    /// Feeds a value as its derived `Debug` writes it: every field by name, every float so that it is read back to the
+    /// bit. For settings; never for long arrays, nor for types whose `Debug` is written by hand.
     pub(crate) fn value(&mut self, value: &impl Debug) {
         let mut text = std::mem::take(&mut self.text);
         text.clear();

@@ -1,5 +1,5 @@
-//! Checks the document against its meshes: that guides and dabs lie on surfaces, groups have triangles, and a morph has the
-//! topology of its mesh.
+//! Checks the document against its meshes: that guides and dabs lie on surfaces, groups have triangles, and a morph has
+//! the topology of its mesh.
 
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;

@@ -71,7 +71,8 @@ pub trait Brought: Debug + Send + Sync {
     /// Whether joints or targets bend an object with this mesh.
     fn bends(&self, name: &str, mesh: &str) -> bool;
 
-    /// How joints and targets bend an object with this mesh, in the space of its mesh file; `None` where the shot does not bend it.
+    /// How joints and targets bend an object with this mesh, in the space of its mesh file; `None` where the shot does
+    /// not bend it.
     fn bend_of(&self, posed: &Posed, name: &str, mesh: &str) -> Option<BendPose>;
 
     /// Whether things are hidden or shown over time.

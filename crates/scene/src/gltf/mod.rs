@@ -1,5 +1,5 @@
-//! Reads glTF files (`.gltf`, `.glb`) as mesh files: the whole file as it rests, or one node of it. `crate::shot` reads them as
-//! shots.
+//! Reads glTF files (`.gltf`, `.glb`) as mesh files: the whole file as it rests, or one node of it. `crate::shot` reads
+//! them as shots.
 //!
 //! A node's mesh includes the uneven scale and shear of the node's place in the world at rest. Turn, place and even
 //! scale are left to the object's pose. Each primitive is a group; materials keep their names.

@@ -65,7 +65,7 @@ pub(crate) struct Cut {
 /// Shifts frame by frame: added to where things show, in half widths and half heights of the camera's own picture.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 struct Shift {
-    /// The frame of the first of them.
+    /// The frame of the first shift.
     #[serde(default)]
     first: f64,
     ndc: Vec<[f64; 2]>,
@@ -168,8 +168,8 @@ impl Sidecar {
             .then(|| format!("`exposure_stops` is {exposure}: from -16 to 16"))
     }
 
-    /// The node name of the camera at a frame: that of the last cut up to then, or of the first cut before it. `None`
-    /// without cuts.
+    /// The node name of the camera at a frame: that of the last cut up to the frame, or of the first cut if all are
+    /// later. `None` without cuts.
     pub fn camera_at(&self, frame: f64) -> Option<&str> {
         /// Tolerance for rounded times, in frames.
         const OFF: f64 = 1e-4;

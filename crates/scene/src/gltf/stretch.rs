@@ -3,7 +3,7 @@
 
 use glam::DMat3;
 
-/// A stretch counts as an even scale if it differs from one by at most this share.
+/// A stretch counts as an even scale if it differs from an even scale by at most this share.
 const EVEN: f64 = 1e-5;
 
 /// The most steps of the iteration; each doubles the digits that are right.

@@ -1,4 +1,5 @@
-//! Turns nodes of a glTF file into one mesh file: primitives placed, cut and joined, with normals where the file has none.
+//! Turns nodes of a glTF file into one mesh file: primitives placed, cut and joined, with normals where the file has
+//! none.
 
 use std::sync::Arc;
 
@@ -24,7 +25,8 @@ pub(super) fn mesh_of_nodes<'a>(
     joined.finish(file).map(|(mesh, _)| mesh)
 }
 
-/// The mesh of one node, placed, with what bends it; `None` where there is no triangle with an area. Groups are the primitives.
+/// The mesh of one node, placed, with what bends it; `None` where there is no triangle with an area. Groups are the
+/// primitives.
 pub(super) fn mesh_of_node(file: &GltfFile, node: (usize, DAffine3)) -> Option<MeshFile> {
     let mut joined = Joined::default();
     let bends = bend::bends(file, node.0);
@@ -76,7 +78,7 @@ impl Joined {
     }
 }
 
-/// A primitive's name: that of its material, or its number.
+/// The group of a primitive: its material's name; without one, `default` if it is the only primitive, else its number.
 fn group_name(file: &GltfFile, mesh: &Mesh, primitive: &Primitive) -> String {
     let material = primitive.material.map(|material| file.gltf.materials[material].name.as_str());
     match material.filter(|name| !name.is_empty()) {
@@ -95,7 +97,7 @@ struct Vertices {
     colors: Option<Vec<[u8; 3]>>,
     /// The corners of each triangle.
     triangles: Arc<Vec<[u32; 3]>>,
-    /// Their indices in the primitive; empty if they are all of its vertices.
+    /// The index in the primitive of each vertex; empty if all of the primitive's vertices are here.
     kept: Arc<Vec<u32>>,
 }
 
@@ -169,8 +171,8 @@ impl Vertices {
     }
 }
 
-/// Texture coordinates of the picture that shows, or else of the base colour's or the emission's: V up, moved as the
-/// material says.
+/// Texture coordinates, V up, moved as the material says. They are those of the picture that shows; if none shows,
+/// those of the base colour's picture, or else of the emission's.
 fn uvs_of(file: &GltfFile, primitive: &Primitive) -> Option<Vec<Vec2>> {
     let material = &file.gltf.materials.get(primitive.material?)?;
     let used = materials::shown_picture(material);
@@ -187,7 +189,7 @@ fn uvs_of(file: &GltfFile, primitive: &Primitive) -> Option<Vec<Vec2>> {
 #[derive(Default)]
 struct Joined {
     geometry: Geometry,
-    /// Where its vertices come from; empty unless the geometry keeps vertices apart.
+    /// Where the geometry's vertices come from; empty unless it keeps vertices apart.
     runs: Vec<Run>,
     groups: Vec<String>,
     group_of_face: Vec<u32>,

@@ -147,7 +147,7 @@ fn without_field(located: &Located, field_path: &str) -> Result<Option<String>, 
     let behind = &text[end..];
     if let Some(rest) = behind.trim_start().strip_prefix(',') {
         end = text.len() - rest.len();
-        // If it fills a line, the whole line goes.
+        // If the field fills a line, the whole line goes.
         let line = text[..start].trim_end_matches([' ', '\t']);
         if line.ends_with('\n') && rest.trim_start_matches([' ', '\t', '\r']).starts_with('\n') {
             start = line.len();
@@ -322,8 +322,8 @@ fn after_last(located: &Located, node: &Node, inside: usize) -> Spot {
     Spot { start: last, end: last, before: format!(",{gap}"), ..Spot::default() }
 }
 
-/// Fields that hold a variant and may be left out. If an inner field of one is set while the file leaves it out, this
-/// variant is written around the inner field.
+/// Fields that hold a variant and may be left out, each with the variant that is then meant. If a field inside the
+/// variant is set while the file leaves the variant out, the variant is written around that field.
 const DEFAULT_VARIANTS: [(&str, &str); 2] = [("style", "RotatingStrokes"), ("lens", "Perspective")];
 
 /// Whether a segment names a variant: it begins with a capital, like `RotatingStrokes` in

@@ -305,7 +305,7 @@ impl Reading<'_> {
             "camera" => "camera: (keys: [(frame: 0, eye: (0, 1, 4), target: (0, 0, 0))])",
             _ => return Err(Report(vec![problem])),
         };
-        // One that was cut off, mistyped or removed is reported already.
+        // A field that was cut off, mistyped or removed is reported already.
         let is_removed = self.of_scene.iter().any(|name| fix::is_near(name, field));
         if !self.is_cut && !is_removed {
             self.lose(problem, "A usual one stands in for it.".to_owned());

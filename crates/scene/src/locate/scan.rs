@@ -123,8 +123,8 @@ impl<'a> Scanner<'a> {
                 items.push(key);
             }
         }
-        // Fields and values without names in one pair of brackets are not valid RON, which the parser reports. Here
-        // only the fields are kept.
+        // One pair of brackets with both fields and values without names is not valid RON, which the parser reports.
+        // Here only the fields are kept.
         Ok(if fields.is_empty() { Inside::Items(items) } else { Inside::Fields(fields) })
     }
 

@@ -41,7 +41,7 @@ fn scene(camera_keys: Vec<CameraKey>, objects: Vec<Object>) -> Scene {
     }
 }
 
-/// Screen angle of a view-space point, degrees.
+/// The angle at which a point in world space shows on the screen, round the picture's middle, degrees.
 fn screen_angle_deg(view_from_world: DMat4, point_in_world: DVec3) -> f64 {
     let point = view_from_world * point_in_world.extend(1.0);
     (point.y / -point.z).atan2(point.x / -point.z).to_degrees()

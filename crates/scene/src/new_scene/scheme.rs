@@ -107,14 +107,14 @@ impl Scheme {
         let light = (wanted / (EXPOSURE * high)).clamp(LEAST_LIGHT, MOST_LIGHT);
         let reflected = EXPOSURE * light * mean;
         let floor_light = if reflected < 0.3 { PALE_FLOOR_LIGHT } else { FLOOR_LIGHT };
-        // The floor gets the key at a slant.
+        // The light from one side falls on the floor at a slant, which leaves 0.58 of it.
         let albedo = floor_light / (EXPOSURE * light * (0.58 * KEY + SKY));
         Self { body, ground: srgb(of_luminance(ground, albedo)), light }
     }
 
     /// The colour of one of several groups.
     pub fn of_group(body: [f32; 3], group: usize) -> Color {
-        // 0, 1, −1, 2, −2, …
+        // The steps of the groups: 0, 1, −1, 2, −2, …
         let step = group.div_ceil(2) as f32 * if group % 2 == 1 { 1.0 } else { -1.0 };
         let [lightness, chroma, hue] = body;
         let lighter = if group % 3 == 1 {
@@ -234,7 +234,7 @@ fn of_luminance([_, chroma, hue]: [f32; 3], wanted: f64) -> [f32; 3] {
     let (mut low, mut high) = (0.0f32, 1.0f32);
     for _ in 0..24 {
         let middle = (low + high) / 2.0;
-        // Darks carry less colour.
+        // Dark colours get less chroma.
         let color = linear([middle, chroma * middle.min(0.6) / 0.6, hue]);
         if luminance(color) < wanted { low = middle } else { high = middle }
     }

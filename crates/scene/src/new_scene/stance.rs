@@ -157,8 +157,8 @@ impl Samples {
         (scores[0].0, scores[0].1 - scores[1].1 < SURE)
     }
 
-    /// How well the model stands on its lowest part, from −0.5 to 1.1: flat feet, a wide support and a middle above it
-    /// count for it, standing on a point against it.
+    /// How well the model stands on its lowest part, as a score from −0.5 to 1.1. Flat feet, a wide support and a
+    /// middle above that support raise the score, standing on a point lowers it.
     fn stands(&self) -> f64 {
         let low = self.points.iter().map(|point| point.y).fold(f64::INFINITY, f64::min);
         let high = self.points.iter().map(|point| point.y).fold(f64::NEG_INFINITY, f64::max);

@@ -413,7 +413,7 @@ fn light_is_as_strong_as_the_model_asks() {
     let [black, grey, white] = [0.08, 0.5, 0.98].map(reflected);
     assert!(black > 0.01 && black < grey && grey <= white, "{black} {grey} {white}");
     assert!(white < 0.75, "white burns out: {white}");
-    assert!(reflected(0.25) > 0.15, "a dark thing falls into the ground: {}", reflected(0.25));
+    assert!(reflected(0.25) > 0.15, "a dark model is too dark against the ground: {}", reflected(0.25));
 }
 
 #[test]

@@ -148,7 +148,7 @@ fn a_hidden_layer_paints_nothing_and_keeps_its_numbers() {
     let (everywhere, region) = (resolve(&scene, None), resolve(&scene, Some(0)));
     let kinds = [LayerKind::Body, LayerKind::Form, LayerKind::Lights];
     assert_eq!(kinds.map(|kind| coverage(&everywhere, kind)), [2.7, 0.0, 0.0]);
-    assert_eq!(kinds.map(|kind| coverage(&region, kind)), [2.7, 0.0, 0.25], "lights not shown again");
+    assert_eq!(kinds.map(|kind| coverage(&region, kind)), [2.7, 0.0, 0.25], "the region hides lights");
     assert_eq!(everywhere.layer_of(LayerKind::Form).thickness, 0.25);
     assert!(everywhere.at(0.0).layer_of(LayerKind::Form).coverage == 0.0);
     let edited = resolve_with(&scene, &scene.strokes, None);

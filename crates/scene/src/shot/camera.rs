@@ -114,7 +114,7 @@ impl Shot {
         let own = posed.lenses[node_data.camera?];
         let lens = lens_in(own, size);
         // The sidecar's shift is in halves of the camera's own picture. A picture of another aspect shows more, so the
-        // shift is less of it.
+        // shift is a smaller share of it.
         let own_half = half_size(own);
         let half_height = match lens {
             Lens::Perspective { fov_y_deg, .. } => (0.5 * fov_y_deg.to_radians()).tan(),

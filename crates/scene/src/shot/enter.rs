@@ -78,7 +78,7 @@ pub(super) fn left(shot: &Shot, scene: &Scene) -> Scene {
         .chain(scene.stage.lost.iter().cloned())
         .collect();
     left.lights.retain(|light| shot.lights.iter().all(|(brought, _)| brought != light));
-    // A light of another kind than the shot's never follows it; this one casts no shadow either.
+    // Stands for a light of the shot that was deleted: an ambient light never follows the shot, and casts no shadow.
     let dark = |name: &str| Light { intensity: 0.0, ..Light::new(name, LightKind::Ambient) };
     let is_gone = |brought: &&Light| scene.lights.iter().all(|light| light.name != brought.name);
     let brought = shot.lights.iter().map(|(brought, _)| brought);

@@ -62,8 +62,8 @@ impl Shot {
         (scale * OF_WATT / LUX_PER_WATT, around)
     }
 
-    /// The illuminance in lux by all suns, and by all lamps, at the object that has the median of both together.
-    /// Shadows are ignored.
+    /// The illuminance in lux by all suns, and by all lamps, at the object where the sum of both is the median over all
+    /// objects. Shadows are ignored.
     fn light_at_middle(&self) -> [f64; 2] {
         /// At most this many objects are sampled.
         const ASKED: usize = 256;

@@ -127,7 +127,7 @@ fn assert_told(path: &Path, lines: &[&str]) {
     }
 }
 
-/// What every movie says, whatever its kind.
+/// The lines that ffprobe gives for a movie of any kind.
 const BT709: [&str; 4] =
     ["color_range=tv", "color_space=bt709", "color_transfer=bt709", "color_primaries=bt709"];
 
@@ -223,7 +223,7 @@ fn an_encoder_that_is_missing_is_named_with_what_does_without_it() {
     let path = folder.path().join("a.mp4");
     let words = none.ready(&path).unwrap_err().to_string();
     assert!(words.contains("a.mp4") && words.contains("no encoder libnothing (Nothing)"), "{words}");
-    // What ffmpeg itself says as it fails is told too, and nothing is left.
+    // If ffmpeg itself fails, the error holds its message, and no file is left.
     let format = FrameFormat { size_px: [512, 512], depth: Depth::Eight, fps: 24.0 };
     let mut movie = Movie::start(&path, &none, format).unwrap();
     let added = movie.add(&[0; 512 * 512 * 4]);

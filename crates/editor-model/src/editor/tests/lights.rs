@@ -61,7 +61,7 @@ fn a_drag_moves_a_lamp_across_the_gaze_and_is_one_entry() {
     let to_px = from_px + DVec2::new(60.0, 45.0);
     drag(&mut editor, Button::Left, [from_px, to_px], Modifiers::default());
     let gone = icon(&editor, "lamp").distance(to_px);
-    assert!(gone < 0.5, "{gone} px beside the pointer");
+    assert!(gone < 0.5, "the icon is {gone} px beside the pointer");
     let [was, is] = [&before, light(&editor, "lamp")].map(|light| DVec3::from(light.position.unwrap()));
     let view = view(&editor);
     assert!((view.depth(is) - view.depth(was)).abs() < 1e-4, "{was} {is}");
@@ -81,8 +81,8 @@ fn a_suns_icon_is_dragged_round_the_scene() {
     let [was, is] = [&before, &after].map(|light| DVec3::from(light.direction.unwrap()).normalize());
     assert!(was.angle_between(is).to_degrees() > 3.0, "{was} {is}");
     let right = view(&editor).axes()[0];
-    assert!(is.dot(right) < was.dot(right), "from farther right it shines more to the left");
-    assert_eq!(Light { direction: before.direction, ..after }, before, "nothing else changed");
+    assert!(is.dot(right) < was.dot(right), "dragged right, it shines no farther to the left");
+    assert_eq!(Light { direction: before.direction, ..after }, before, "more than the direction changed");
 }
 
 #[test]

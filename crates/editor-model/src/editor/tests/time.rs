@@ -78,7 +78,7 @@ fn without_auto_key_a_pose_stays_at_its_frame_until_it_is_keyed() {
     assert!(!editor.time().is_loose(&name));
     assert_eq!(frames(editor.document().scene()), [0.0, 60.0]);
     assert!((x_at(editor.document().scene(), 60.0) - x_at(&before, 60.0) - 1.0).abs() < 1e-9);
-    assert_eq!(editor.document().undo_count(), count + 2, "the rate, and the key");
+    assert_eq!(editor.document().undo_count(), count + 2, "one entry for the rate, one for the key");
 }
 
 #[test]
@@ -338,7 +338,7 @@ fn undo_brings_back_a_pose_that_was_left_and_drops_one_that_shows() {
     assert!(!editor.time().is_loose(&name), "the pose is undone");
     assert_eq!((editor.document().undo_count(), &editor.shown().0.scene), (count, &before));
     act(&mut editor, Action::Undo);
-    assert_eq!(editor.document().undo_count(), count - 1, "then the entry before");
+    assert_eq!(editor.document().undo_count(), count - 1, "the next undo takes the entry before");
 }
 
 #[test]

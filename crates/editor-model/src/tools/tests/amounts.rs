@@ -24,22 +24,22 @@ fn a_drag_paints_dabs_along_the_surface_as_one_entry() {
     assert!(!aimed.rings[0].hollow && aimed.needle.is_none() && aimed.comb_preview.is_none());
     let pressed = world.press(Tool::Amount, LEFT, NONE);
     assert_eq!(pressed.status, "Raising the width on skin, radius 30 px   [Esc] take it back");
-    assert!(pressed.preview.is_some(), "a press alone paints one dab");
+    assert!(pressed.preview.is_some(), "a press alone previews no dab");
     let moved = world.drag_to(Tool::Amount, RIGHT, NONE);
     assert!(moved.needle.is_none());
-    assert_eq!(world.document.shown().scene.regions[0].amounts.len(), 1, "shown while it is drawn");
+    assert_eq!(world.document.shown().scene.regions[0].amounts.len(), 1, "nothing shows during the drag");
     assert!(amounts(&world).is_empty());
     world.release(Tool::Amount);
     assert_eq!((world.document.undo_count(), world.document.undo_text()), (1, Some("Paint width on skin")));
     assert_eq!(world.document.selection().active(), Some(&Item::Region("skin".to_owned())));
     let [PaintedAmount { of: Amount::Width, object: None, dabs }] = amounts(&world) else { panic!() };
-    // 100 px of a brush of 30 px, half a radius apart.
+    // A drag of 100 px with a brush of radius 30 px, whose dabs lie half a radius apart.
     assert!((7..=9).contains(&dabs.len()), "{}", dabs.len());
     for dab in dabs {
         let at = DVec3::from(dab.at);
         assert!(
             (at.length() - 1.0).abs() < 0.01 && at.normalize().dot(dab.normal.into()) > 0.99,
-            "on the ball"
+            "a dab is not on the ball"
         );
         assert!((world.view.project(at).unwrap().y - 200.0).abs() < 1.0);
         assert!(dab.by > 1.2 && dab.by < 1.4, "{}", dab.by);
@@ -83,13 +83,13 @@ fn shift_erases_the_dabs_of_this_amount_under_the_ring() {
     let erased = world.drag(Tool::Amount, &[[310.0, 200.0], [330.0, 200.0]], SHIFT);
     assert!(erased.commit.is_some());
     assert_eq!(world.document.undo_text(), Some("Erase length on skin"));
-    assert_eq!(amounts(&world)[0].dabs.len(), whole, "the width stays");
+    assert_eq!(amounts(&world)[0].dabs.len(), whole, "erasing the length erases width");
     assert!(amounts(&world)[1].dabs.len() < whole && amounts(&world)[1].dabs.len() > 1);
     world.drag(Tool::Amount, &[LEFT, RIGHT], SHIFT);
-    assert_eq!(amounts(&world).len(), 1, "a list without dabs is removed");
+    assert_eq!(amounts(&world).len(), 1, "a list without dabs is still there");
     let count = world.document.undo_count();
     assert!(world.drag(Tool::Amount, &[LEFT, RIGHT], SHIFT).commit.is_none());
-    assert_eq!(world.document.undo_count(), count, "an eraser over nothing adds no entry");
+    assert_eq!(world.document.undo_count(), count, "an eraser over nothing adds an entry");
 }
 
 #[test]

@@ -120,8 +120,8 @@ fn a_click_makes_regions_of_floods_groups_and_materials() {
 #[test]
 fn a_click_that_takes_from_a_region_of_parts_is_asked_about_first() {
     let mut world = World::new();
-    // The lid is a group, which somebody chose: taking from it is asked about. The skin is the whole ball, which is
-    // there to be divided: taking from it is not.
+    // Taking from the lid is asked about, because somebody chose it, as a group. Taking from the skin is not: it is
+    // the whole ball, which is there to be divided.
     world.options.region_does = RegionDoes::New;
     let on_lid = [320.0, 80.0];
     for by in [RegionBy::Flood, RegionBy::Group, RegionBy::Material] {

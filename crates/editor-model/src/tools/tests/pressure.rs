@@ -1,4 +1,4 @@
-//! The pressure of a pen, through each tool that knows it.
+//! Tests of what the pressure of a pen does, with each tool that uses it.
 
 use impasto_scene::document::{AmountDab, Touch};
 

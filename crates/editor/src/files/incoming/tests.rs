@@ -37,7 +37,7 @@ impl Home {
         fs::write(path, text).expect("written");
     }
 
-    /// A whole picture.
+    /// Writes a picture that can be decoded; returns its path.
     fn picture(&self, name: &str) -> PathBuf {
         let path = self.at(name);
         image::RgbaImage::from_pixel(4, 4, image::Rgba([200, 60, 40, 255])).save(&path).expect("written");
@@ -96,7 +96,7 @@ fn the_same_mesh_is_copied_once_and_another_of_its_name_beside_it() {
         fs::read_to_string(home.at("scene/meshes/apple/pictures/skin.png")).expect("there"),
         "picture"
     );
-    assert_eq!(home.files("scene").len(), 6, "and nothing half done stays");
+    assert_eq!(home.files("scene").len(), 6, "a copy that was not finished stays");
 }
 
 #[test]
@@ -104,8 +104,8 @@ fn a_mesh_in_the_scenes_folder_is_named_where_it_is() {
     let home = Home::new();
     let adopted = adopt_mesh(&home.at("models/apple.obj"), &home.at("")).expect("adopted");
     assert_eq!(adopted, Adopted { name: "models/apple.obj".to_owned(), copied: Vec::new() });
-    // These are copied all the same, since a scene cannot name them: spaces at the ends of a name are trimmed, and a
-    // backslash separates folders.
+    // Two meshes are copied although they lie in the scene's folder, since a scene cannot name them: spaces at the
+    // ends of a name are trimmed, and a backslash separates folders.
     for (name, plain) in [("scene/ a.obj", "meshes/a/a.obj"), ("scene/b\\c.obj", "meshes/b_c/b_c.obj")] {
         home.write(name, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
         assert_eq!(adopt_mesh(&home.at(name), &home.at("scene")).expect("adopted").name, plain);
@@ -150,7 +150,7 @@ fn a_picture_comes_into_the_folder_of_its_use() {
     assert_eq!(home.files("scene"), ["textures/skin/skin.png"]);
     let there = home.at("scene").join(&adopted.name);
     let again = adopt_picture(&there, &home.at("scene"), "brushes").expect("adopted");
-    assert_eq!((again.name, again.copied.len()), (adopted.name, 0), "it is named where it is");
+    assert_eq!((again.name, again.copied.len()), (adopted.name, 0), "a file of the scene's folder is copied");
 }
 
 #[test]

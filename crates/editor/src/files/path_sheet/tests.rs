@@ -150,7 +150,7 @@ fn a_bad_choice_is_explained_under_the_field() {
         harness.get_by_label_contains(words);
         assert_eq!(harness.state().picked, None);
         type_in(&mut harness, "x");
-        assert!(harness.query_by_label_contains(words).is_none(), "{words} goes when one types on");
+        assert!(harness.query_by_label_contains(words).is_none(), "{words} is still shown");
     }
 }
 
@@ -177,7 +177,7 @@ fn a_save_asks_before_it_replaces() {
     assert_eq!(harness.state().picked, None);
     harness.get_by_label("Keep it").click();
     harness.run();
-    assert_eq!(harness.state().picked, None, "the sheet is there again");
+    assert_eq!(harness.state().picked, None, "nothing is picked: the sheet must be open again");
     harness.get_by_label("Save").click();
     harness.run();
     harness.get_by_label("Replace").click();
@@ -267,5 +267,5 @@ fn the_sheet_draws_only_when_something_changes() {
     let (mut harness, _home) = sheet(FileAsk::Open, "");
     let before = harness.state().passes;
     harness.run();
-    assert!(harness.state().passes - before <= 2, "it draws only when something changes");
+    assert!(harness.state().passes - before <= 2, "the sheet draws although nothing changes");
 }

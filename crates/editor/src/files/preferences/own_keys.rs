@@ -50,7 +50,7 @@ impl OwnKeysText {
             map.insert(name_of(id), Value::Seq(texts));
         }
         self.0 = Value::Map(map);
-        // An entry may have been refused only because another command had its keys. Now that this command has other
+        // An entry may have been refused only because another command had its keys. If that command now has different
         // keys, the entry would take effect unasked, so it is removed.
         loop {
             let is_extra = |id: &CommandId| own.iter().all(|(other, _)| other != *id);

@@ -1,4 +1,4 @@
-//! Preferences: read back as saved, broken files, values out of range.
+//! Tests of the preferences: they are read back as saved, broken files are kept, and values are brought into range.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -147,7 +147,7 @@ fn keys_that_cannot_be_read_lose_nothing_else() {
         let mut changed = own_keys.clone();
         changed.set(&own("Fill direction", &["Ctrl L"]));
         assert_eq!(changed.keys(), own("Fill direction", &["Ctrl L"]));
-        // Except an entry that was refused only because another command had its keys: it would take effect now.
+        // But an entry that was refused only because another command had its keys is removed: it would take effect now.
         let stays = own_keys.fault().filter(|fault| !fault.contains("has the keys of"));
         assert_eq!(changed.fault(), stays, "{text}");
         let folder = tempfile::tempdir().expect("a temporary folder");

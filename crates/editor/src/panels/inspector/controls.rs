@@ -9,7 +9,8 @@ use crate::panels::{Ask, PanelInput, brush_thumbnails};
 use crate::theme::{self, Theme};
 use crate::widgets;
 
-/// The column that is laid out to list its controls: as wide as the narrow one, and higher than any page.
+/// Size of the column that is laid out to list its controls, points: as wide as the column of a narrow window, and
+/// higher than any page.
 const SIZE: Vec2 = Vec2::new(280.0, 40_000.0);
 
 /// A control of the inspector for what is selected.

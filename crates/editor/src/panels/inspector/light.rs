@@ -35,7 +35,7 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, name: &str) {
     of_key(ui, asker, KeyOf::Light(name.to_owned()), key.map(|key| key.ease));
 }
 
-/// The values of the light at the frame that is shown. A light without keys has the same at every frame.
+/// The values of the light at the frame that is shown. A light without keys has the same values at every frame.
 fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [light, kept]: [&Light; 2]) {
     let frame = asker.shown.session.frame;
     let [light, stored] = [(asker.scene(), light), (asker.stored(), kept)]

@@ -82,7 +82,7 @@ fn layer(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, laye
         idle = resolved.coverage == 0.0 || is_left_out(asker, kind);
     }
     let mut used = brushes::by_count(mix);
-    // The two that are taken most often.
+    // Pictures are shown of the two brushes that the layer uses most.
     used.sort_by_key(|(_, times)| std::cmp::Reverse(*times));
     let pictures = used.iter().take(2).filter_map(|(name, _)| thumbnail(ui.ctx(), name, loaded));
     let tone = (layer == EditedLayer::Ground).then(|| seen(presets::stated_ground(place.own[0]).color));

@@ -12,13 +12,13 @@ use crate::widgets::{self, Tip};
 
 /// The picture that something uses.
 pub(super) struct Picture<'a> {
-    /// The words before it.
+    /// The label of the row.
     pub(super) label: &'a str,
-    /// Its name for screen readers, as in *Surface noise file*.
+    /// The row's name for screen readers, as in *Surface noise file*.
     pub(super) name: &'a str,
-    /// What it does, one sentence.
+    /// What the picture does, one sentence.
     pub(super) effect: &'a str,
-    /// What it is for.
+    /// What the picture is for.
     pub(super) of: PictureFor,
     /// The file, as the scene names it.
     pub(super) file: Option<&'a str>,

@@ -10,7 +10,7 @@ use super::parts::{note, reset, row};
 use crate::panels::Ask;
 use crate::widgets::{self, MenuRow, Tip};
 
-/// What a region without a preset of its own is said to have.
+/// What the control shows for a region without a preset of its own.
 const AS_SCENE: &str = "As the scene";
 
 /// Width of the menu, and the most height of the list of presets in it, points.
@@ -47,7 +47,7 @@ fn menu(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, chose
         }
     }
     ui.add_space(4.0);
-    // The user may have many.
+    // There may be many presets.
     let area = ScrollArea::vertical().max_height(LIST).min_scrolled_height(LIST).auto_shrink([false, true]);
     area.show(ui, |ui| list(ui, asker, place, chosen));
 }

@@ -23,7 +23,7 @@ const DIVIDER: f32 = 9.0 + measure::GAP;
 /// The width of the button at the bar's end, with its space.
 const MORE: f32 = measure::BUTTON + 2.0 * measure::GAP;
 
-/// Translates words; tests use longer ones.
+/// Translates words of the bar; tests put longer ones in their place.
 type Translate = fn(&'static str) -> &'static str;
 
 /// Shows the bar in the top 40 points of `ui`.

@@ -34,7 +34,7 @@ pub(super) enum Control {
     Colour { name: &'static str, get: fn(&mut ToolOptions) -> &mut Color },
 }
 
-/// A few words, one of them on.
+/// A choice between a few words, of which one is on.
 pub(super) struct Choice {
     /// The words of each choice, and its name for screen readers and tests.
     pub(super) words: &'static [(&'static str, &'static str)],

@@ -21,7 +21,7 @@ pub struct Trouble {
 /// What a [`Trouble`] is about. A new one replaces an older one of the same thing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum TroubleOf {
-    /// The document was not saved to this file; none stands for its own.
+    /// The document was not saved to this file; `None` stands for the document's own file.
     Save(Option<PathBuf>),
     /// Unsaved work was not copied.
     Copy,
@@ -29,7 +29,7 @@ pub enum TroubleOf {
     Open(PathBuf),
     /// A mesh was not imported.
     Import(PathBuf),
-    /// A picture was not taken for this.
+    /// The picture at this path could not be used for this.
     Picture(PictureFor, PathBuf),
     /// A preset was not applied to these settings.
     Preset(StrokesOf, PathBuf),
@@ -49,7 +49,7 @@ pub enum Settle {
 }
 
 impl Settle {
-    /// The words of its button, and its name.
+    /// The words on its button, and the button's name for screen readers.
     pub(super) fn words(self) -> (&'static str, &'static str) {
         match self {
             Self::Retry => ("Retry", "Retry"),

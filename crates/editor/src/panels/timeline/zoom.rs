@@ -95,7 +95,7 @@ mod tests {
         }
         let [first, last] = frames.expect("zoomed in");
         assert!((last - first - 100.0 / 3.75).abs() < 1e-9);
-        assert_eq!(zoomed(WHOLE, frames, 0.01, 700.0, 0.0), None, "out again: all of it");
+        assert_eq!(zoomed(WHOLE, frames, 0.01, 700.0, 0.0), None, "zoomed out again: all frames show");
     }
 
     #[test]

@@ -37,8 +37,8 @@ pub enum DirectionInk {
     Plain,
     /// In the colour of its region.
     Region(Color32),
-    /// By trust, κ in 0..=1; 0 where the reference does not see the surface. The line's pattern shows it as well as
-    /// its colour.
+    /// By trust, κ in 0..=1; 0 where the reference does not see the surface. Both pattern and colour of the line show
+    /// the trust.
     Trust(f32),
 }
 

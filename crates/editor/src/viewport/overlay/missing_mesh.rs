@@ -12,8 +12,8 @@ use crate::theme::type_face;
 pub struct MissingMesh {
     /// The name of the object.
     pub name: String,
-    /// Its corners, world space: bits 0, 1 and 2 of an index choose the least or greatest X, Y and Z in the object's
-    /// own axes.
+    /// The box's corners, world space: bits 0, 1 and 2 of an index choose the least or greatest X, Y and Z in the
+    /// object's own axes.
     pub corners: [DVec3; 8],
 }
 

@@ -75,8 +75,8 @@ mod tests {
     fn numbers_never_lie_over_one_another_and_the_ends_come_first() {
         let row = |steps: &[f32]| steps.iter().map(|&x| pos2(x, 100.0)).collect::<Vec<_>>();
         assert_eq!(numbered(&row(&[0.0, 10.0, 40.0, 70.0, 90.0])), [0, 4, 2]);
-        assert_eq!(numbered(&row(&[0.0, 5.0])), [0], "one number where both ends are one place");
-        assert_eq!(numbered(&[pos2(0.0, 0.0), pos2(2.0, 40.0)]), [0, 1], "one over the other there is room");
+        assert_eq!(numbered(&row(&[0.0, 5.0])), [0], "two keys this close have room for one number only");
+        assert_eq!(numbered(&[pos2(0.0, 0.0), pos2(2.0, 40.0)]), [0, 1], "keys far apart have room for both");
         assert!(numbered(&[]).is_empty());
     }
 }

@@ -24,7 +24,7 @@ impl NumberField<'_> {
         let line = Stroke::new(2.0, if is_wrong { tokens.vermilion } else { tokens.accent_text });
         ui.painter().rect(frame, draw::corner(), tokens.field, line, StrokeKind::Inside);
         let mut inside = ui.new_child(UiBuilder::new().max_rect(frame));
-        // The text begins where the number stands while it is not typed.
+        // The typed text begins where the number stands when it is only shown.
         let before = if self.centred || self.letter.is_empty() { 0 } else { super::LETTER as i8 };
         self.draw_letter(ui, frame);
         let align = if self.centred { egui::Align::Center } else { egui::Align::Min };

@@ -115,7 +115,7 @@ fn the_wheel_scrolls_the_column_and_steps_only_a_field_with_the_focus_or_with_ct
     let length = |harness: &Harness<'_, Column>| harness.state().region("apple").strokes.length_px;
     let before = (top(&harness), length(&harness));
     turn_the_wheel(&mut harness, "Length", -1.0, Modifiers::NONE);
-    assert!(top(&harness) < before.0 - 10.0, "it scrolls");
+    assert!(top(&harness) < before.0 - 10.0, "the wheel does not scroll the column");
     assert_eq!((length(&harness), harness.state().log.len()), (before.1, 0));
 
     turn_the_wheel(&mut harness, "Length", 1.0, Modifiers::COMMAND);
@@ -294,7 +294,7 @@ fn typing_may_go_beyond_a_drag_and_what_cannot_be_is_marked() {
     assert_eq!(harness.state().region("apple").strokes.length_px, Some(300.0));
     type_in(&mut harness, "Length", "99999");
     assert_eq!(harness.state().region("apple").strokes.length_px, Some(300.0));
-    assert!(harness.query_by_label_contains("to 4096").is_some(), "it is marked where it was typed");
+    assert!(harness.query_by_label_contains("to 4096").is_some(), "the range is not shown");
 }
 
 #[test]

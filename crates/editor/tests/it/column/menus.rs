@@ -25,14 +25,14 @@ fn a_right_click_on_a_row_selects_it_and_offers_what_can_be_done() {
     }
     click(&mut harness, "Duplicate");
     assert_eq!(harness.state().acts, [Action::Duplicate]);
-    assert!(harness.query_by_label("Duplicate").is_none(), "it is closed");
+    assert!(harness.query_by_label("Duplicate").is_none(), "the menu is closed");
 
     right_click(&mut harness, "jug rim, region, around");
     assert_eq!(selection(&harness), &Selection::from_iter(region("jug rim")));
     assert!(harness.query_by_label("Fill direction").is_some() && harness.query_by_label("Move").is_none());
     harness.key_press(Key::Escape);
     harness.run();
-    assert!(harness.query_by_label("Fill direction").is_none(), "Esc closes it");
+    assert!(harness.query_by_label("Fill direction").is_none(), "Esc closes the menu");
 
     right_click(&mut harness, "shot, camera");
     assert_eq!(selection(&harness), &Selection::only(Item::Camera));
@@ -79,7 +79,7 @@ fn a_control_of_a_folded_section_is_unfolded_scrolled_to_and_focused() {
     let mut column = Column::open("still_life.ron");
     column.document.select(region("apple").into_iter().collect());
     let mut harness = harness_of(column, Theme::Dark, SIZE);
-    assert!(harness.query_by_label("Seed").is_none(), "it is folded");
+    assert!(harness.query_by_label("Seed").is_none(), "its section is folded at first");
     let control = Control { name: "Seed".to_owned(), section: "Advanced".to_owned() };
     harness.state_mut().reach = Some(control);
     harness.run();

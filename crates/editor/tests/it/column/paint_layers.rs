@@ -55,7 +55,7 @@ fn the_eye_hides_a_layer_and_its_numbers_stay() {
     click(&mut harness, "Hide layer lights");
     assert_eq!(of_lemon(&harness, "lights").hidden, None);
     click(&mut harness, "Reset Opacity of lights");
-    assert_eq!(of_lemon(&harness, "lights"), LayerSettings::default(), "nothing is left of it");
+    assert_eq!(of_lemon(&harness, "lights"), LayerSettings::default(), "the reset left something");
 }
 
 #[test]
@@ -94,7 +94,7 @@ fn numbers_and_brushes_of_the_selected_layer_are_set_and_reset() {
     harness.event(egui::Event::ModifiersChanged(Modifiers::NONE));
     click(&mut harness, "Reset Brush of form");
     assert_eq!(of_lemon(&harness, "form").brush, None);
-    // The body's brush and size are those of the strokes.
+    // The layer `body` has the brush and the size of the region's strokes, so it has no rows for them.
     click(&mut harness, "Layer body");
     assert!(harness.query_by_label("Layer length").is_none());
     assert!(harness.query_by_label("Brush round of body").is_none());
@@ -194,7 +194,7 @@ fn presets_are_chosen_by_their_cards() {
     pick(&mut harness, "Preset", "As the scene");
     assert_eq!(harness.state().region("lemon").strokes.preset, None);
     click(&mut harness, "Preset");
-    assert!(harness.query_by_label("paper").is_none(), "the paper's rule is for a whole scene");
+    assert!(harness.query_by_label("paper").is_none(), "`paper` is offered, though only a scene takes it");
     click(&mut harness, "Save as preset\u{2026}");
     assert_eq!(harness.state().asked_presets, ["save for lemon"]);
     click(&mut harness, "Preset");

@@ -162,7 +162,7 @@ fn shift_adds_to_the_selection_and_a_search_narrows_the_tree() {
 fn lights_and_regions_are_added_from_the_menu() {
     let mut harness = harness("apple.ron", object("apple"));
     click(&mut harness, "Add to scene");
-    assert!(harness.query_by_label("Region stem").is_none(), "there is a region for it");
+    assert!(harness.query_by_label("Region stem").is_none(), "a region is offered for a group that has one");
     click(&mut harness, "Lamp");
     let light = harness.state().document.scene().lights.last().cloned().expect("there is one");
     assert_eq!(light.kind, LightKind::Point);

@@ -58,7 +58,7 @@ pub fn apple() -> Document {
     Document::open(&scenes().join("apple.ron"), &Default::default()).expect("the apple opens")
 }
 
-/// A document whose name is too long for its place.
+/// A document whose name is too long for the top bar.
 pub fn with_a_long_name() -> Document {
     let folder = tempfile::tempdir().expect("a folder");
     let mut document = Document::empty(folder.path());

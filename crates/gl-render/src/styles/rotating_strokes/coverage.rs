@@ -19,9 +19,9 @@ pub(super) struct Coverage {
     place: BodyProgram,
     borders: Program,
     screen: VertexArray,
-    /// For the samples.
+    /// The target that has a texel for each sample.
     fine: Option<Target>,
-    /// For the pixels.
+    /// The target that has a texel for each pixel.
     surface: Option<Target>,
 }
 
@@ -31,7 +31,7 @@ struct Target {
     pass: Framebuffer,
 }
 
-/// Depth and body id.
+/// Textures of depth and body id.
 #[derive(Clone)]
 pub(super) struct Covered {
     /// Of every sample.
@@ -82,7 +82,7 @@ impl Coverage {
         (self.fine, self.surface) = (None, None);
     }
 
-    /// Draws `samples` x `samples` samples for each pixel. With one, the reference picture has them already.
+    /// Draws `samples` x `samples` samples for each pixel. If `samples` is 1, the reference picture has them already.
     pub(super) fn draw(
         &mut self,
         input: &StyleInput<'_>,

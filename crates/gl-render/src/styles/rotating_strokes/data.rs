@@ -40,8 +40,9 @@ impl PaintData {
         self.gatherer.clear()
     }
 
-    /// The most pixels that the strokes of a piece may cover, so that all their fragments can be noted. Quads have more
-    /// fragments than their strokes cover, those of narrow strokes many more.
+    /// A layer is painted in pieces: this is the most pixels that the strokes of a piece may cover, so that all their
+    /// fragments can be noted. A stroke's quad has more fragments than the stroke covers; if the stroke
+    /// is narrow, many more.
     pub(super) fn piece_px(&self) -> f32 {
         const MOST_TIMES: f32 = 4.0;
         self.gatherer.capacity() as f32 / MOST_TIMES

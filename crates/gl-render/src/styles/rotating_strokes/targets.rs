@@ -1,4 +1,4 @@
-//! The targets of the style: where small strokes are wanted, the paint, and its height.
+//! The render targets of the style: they hold where small strokes are wanted, the paint, and its height.
 
 use std::rc::Rc;
 
@@ -31,7 +31,7 @@ impl DetailTargets {
     }
 }
 
-/// The paint.
+/// The render targets of the paint.
 pub(super) struct PaintTargets {
     pub(super) paint: Rc<Texture>,
     /// Height of the paint, and how wet it is.
@@ -39,7 +39,7 @@ pub(super) struct PaintTargets {
     pub(super) below: Rc<Texture>,
     pub(super) soft_height: Rc<Texture>,
     pub(super) paint_pass: Framebuffer,
-    /// Paint without height.
+    /// The pass for paint without height.
     flat_pass: Framebuffer,
     pub(super) below_pass: Framebuffer,
     pub(super) soften_pass: Framebuffer,

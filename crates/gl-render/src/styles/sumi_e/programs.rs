@@ -8,7 +8,7 @@ use crate::shader_files::{SHARED, SUMI_E};
 /// The files that the style's shaders may include.
 const FILES: &[&[ShaderFile]] = &[SHARED, SUMI_E];
 
-/// The programs of the source's five passes.
+/// The programs of the source's rule, for five passes: `low_pass` runs twice.
 pub(super) struct SourcePrograms {
     pub(super) silhouette: BodyProgram,
     pub(super) interior: BodyProgram,

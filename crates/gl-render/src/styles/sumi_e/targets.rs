@@ -7,7 +7,7 @@ use crate::gl::{Filter, Format, Framebuffer, GlError, Gpu, Texture};
 /// Pixels of the picture per texel of the wide blur, along each side.
 pub(super) const WIDE: u32 = 4;
 
-/// The targets of the source's rule.
+/// The targets of the rule `Source`, the effect that `styles/sumi_e.rs` names.
 pub(super) struct SourceTargets {
     pub(super) silhouette: Rc<Texture>,
     pub(super) blurred_silhouette: Rc<Texture>,
@@ -42,7 +42,7 @@ impl SourceTargets {
     }
 }
 
-/// The targets of our own rule.
+/// The targets of the rule `Painter`, our own.
 pub(super) struct PainterTargets {
     pub(super) wash: Rc<Texture>,
     pub(super) between: Rc<Texture>,
