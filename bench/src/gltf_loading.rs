@@ -16,7 +16,7 @@ use crate::floor::Streams;
 use crate::race::{Contender, race};
 use crate::table::Row;
 
-/// Quads of the ball in the file, round and from pole to pole.
+/// How many quads the ball in the file has around its axis, and from pole to pole.
 const QUADS: [u32; 2] = [1000, 500];
 
 fn ours(path: &Path) -> anyhow::Result<MeshFile> {

@@ -17,7 +17,7 @@ pub struct Part {
     pub name: &'static str,
     /// What it measures.
     pub about: &'static str,
-    /// Whether the quick run includes it without its being named.
+    /// Whether `--quick` runs it when the command line names no parts. A full run then includes every part.
     pub quick: bool,
     /// Measures it.
     pub run: fn(&mut Bench) -> anyhow::Result<()>,

@@ -22,7 +22,7 @@ pub enum Aov {
     Albedo,
     /// Light that falls on the surface.
     Light,
-    /// How much of the light that casts shadows arrives.
+    /// The share of the shadow-casting light that reaches the surface. Only one light of a scene casts shadows.
     Shadow,
     /// How open a place is to ambient light.
     Occlusion,
@@ -38,7 +38,8 @@ pub enum Aov {
     StrokeRank,
     /// Layers of strokes.
     StrokeLayer,
-    /// Paint without the light of the room.
+    /// Colour of the paint and the ground, before the light in which the picture hangs shades the relief of the paint.
+    /// The scene's own light is in it.
     PaintColor,
     /// Height of the paint.
     PaintHeight,

@@ -91,7 +91,7 @@ impl KeptFolder {
         if !metadata.is_file() || metadata.len() > most_bytes {
             return Err(io::Error::other("it is no regular file, or larger than the memory that there is"));
         }
-        // If this is not allowed, the file only seems to be unused for longer.
+        // An error here does no harm: the file merely looks as if it was last used longer ago.
         let _ = file.set_modified(SystemTime::now());
         Ok(Some(KeptFile { file, bytes: metadata.len() }))
     }

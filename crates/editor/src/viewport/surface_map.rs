@@ -12,7 +12,7 @@ use impasto_painting::{BodyShape, Painting};
 use impasto_scene::document::Lens;
 use impasto_scene::motion;
 
-/// A point that is this share of its depth behind the visible surface still counts as on it.
+/// How far behind the visible surface a point may lie and still count as on it, as a share of the surface's depth.
 const LEEWAY: f32 = 0.006;
 
 /// The nearest face in each cell of a grid over the viewport.
@@ -90,7 +90,7 @@ struct Corner {
     /// Numerators x and y of the place in pixels from the picture's centre, Y up, and their denominator w.
     place: [f64; 3],
     depth: f64,
-    /// Its barycentric weights for the second and the third corner of the whole triangle.
+    /// Where it lies in the triangle before clipping: barycentric weights of that triangle's second and third corner.
     share: [f64; 2],
 }
 

@@ -100,7 +100,7 @@ fn of_problem(row: &ProblemRow, can_fix: bool) -> Row<'_> {
         }
     };
     let second = format!("{} {instead}", sentence(&mend)).trim().to_owned();
-    let is_fix = |repair: &&Repair| !matches!(repair, Repair::Fix { .. } | Repair::Snap { .. });
+    let needs_no_edit = |repair: &&Repair| !matches!(repair, Repair::Fix { .. } | Repair::Snap { .. });
     Row {
         is_error: problem.severity.is_fatal(),
         place: problem.place,
@@ -115,7 +115,7 @@ fn of_problem(row: &ProblemRow, can_fix: bool) -> Row<'_> {
         ),
         verbs: repairs
             .iter()
-            .filter(|repair| can_fix || is_fix(repair))
+            .filter(|repair| can_fix || needs_no_edit(repair))
             .map(|repair| verb_of(repair, &problem.missing_file().unwrap_or_default()))
             .collect(),
         of: Some(row),
