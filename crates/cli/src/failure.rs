@@ -70,7 +70,9 @@ impl Failure {
             #[cfg(feature = "editor")]
             Self::NoWindow(words) => format!("impasto: error: {words}"),
             Self::SomeFrames { failed, done } => {
-                format!("impasto: error: {failed} frames failed, {done} are done")
+                let failed = if *failed == 1 { "1 frame".to_owned() } else { format!("{failed} frames") };
+                let are = if *done == 1 { "is" } else { "are" };
+                format!("impasto: error: {failed} failed, {done} {are} done")
             }
             Self::NotWritten { words, done } => {
                 let whole = match done {
@@ -82,7 +84,8 @@ impl Failure {
             }
             Self::Interrupted { done: 0 } => "impasto: interrupted; nothing is written".to_owned(),
             Self::Interrupted { done } => {
-                format!("impasto: interrupted; {done} frames are done and whole (go on with --skip-existing)")
+                let done = if *done == 1 { "1 frame is".to_owned() } else { format!("{done} frames are") };
+                format!("impasto: interrupted; {done} done and whole (go on with --skip-existing)")
             }
         })
     }

@@ -261,7 +261,7 @@ fn short(value: f64) -> String {
 /// A name for a message: on one line, at most 60 characters.
 fn shown(name: &str) -> String {
     let mut shown: String = name.chars().take(60).map(|c| if c.is_control() { ' ' } else { c }).collect();
-    if shown.len() < name.len() {
+    if name.chars().nth(60).is_some() {
         shown.push('…');
     }
     shown

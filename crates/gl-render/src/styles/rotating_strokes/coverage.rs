@@ -119,6 +119,7 @@ impl Coverage {
         self.fine = if input.keeps.lets_go() {
             // Frees the depth of the samples, which no later pass reads.
             self.gpu.finish();
+            drop(fine);
             None
         } else {
             Some(fine)
