@@ -174,6 +174,17 @@ fn a_click_between_keys_changes_the_ease_and_a_right_click_lists_them() {
     assert!(harness.query_by_label("Delete key").is_none(), "no key is there");
     click(&mut harness, "Ease hold");
     assert_eq!(commands(harness.state()), [&Time::SetEase(vec![apple(37.0)], Ease::Step)]);
+    for (name, ease) in [
+        ("Ease in", Ease::In),
+        ("Ease out", Ease::Out),
+        ("Ease bounce", Ease::Bounce),
+        ("Ease curve", Ease::USUAL_CURVE),
+    ] {
+        harness.state_mut().asked.clear();
+        right_click(&mut harness, between);
+        click(&mut harness, name);
+        assert_eq!(commands(harness.state()), [&Time::SetEase(vec![apple(37.0)], ease)]);
+    }
     harness.state_mut().asked.clear();
     right_click(&mut harness, places[3].1);
     click(&mut harness, "Delete key");
