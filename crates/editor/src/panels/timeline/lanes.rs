@@ -66,6 +66,7 @@ pub(super) fn name(ui: &mut Ui, row: LaneRow, lane: &Lane, shown: &PanelInput<'_
     let label = format!("Select {}", lane.of.name());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
     if response.clicked() {
+        super::curves::choose_lane(ui, &lane.of);
         asks.push(Ask::Select(item(&lane.of).map(Selection::only).unwrap_or_default()));
     }
     if response.secondary_clicked() {
@@ -171,7 +172,7 @@ pub(super) fn keys(ui: &mut Ui, row: LaneRow, lane: &Lane, shown: &PanelInput<'_
 }
 
 /// The accessibility node of a key; a click by a screen reader selects the key.
-fn key_node(
+pub(super) fn key_node(
     ui: &mut Ui,
     lane: &Lane,
     key: &LaneKey,
