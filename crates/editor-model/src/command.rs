@@ -21,7 +21,7 @@ pub use edit::Edit;
 pub use keys::{KeyOf, KeyedValue, strokes_at};
 pub use region::{Regions, StrokeChange, StrokesOf};
 pub use scene::SceneEdit;
-pub use time::{Pose, Time, ease_name};
+pub use time::{Pose, Time, ease_name, same_ease};
 pub use touches::Touches;
 
 use crate::refusal::Refusal;

@@ -144,6 +144,8 @@ pub enum Action {
     MaximiseViewport,
     /// Keys the pose.
     SetKey,
+    /// Shows the curves between keys in the place of lanes, or the lanes again.
+    Curves,
     /// Plays or stops.
     Play,
     /// Goes one frame back.

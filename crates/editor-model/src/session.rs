@@ -252,6 +252,8 @@ pub struct Session {
     pub lock_to_view: bool,
     /// Whether the lanes of keys are open: in Animate, and in the other modes.
     pub lanes: [bool; 2],
+    /// Whether the curves of one lane take the place of the keys of all lanes.
+    pub curves: bool,
     /// Whether a pen that reports its pressure was seen.
     pub has_pen: bool,
 }
@@ -275,6 +277,7 @@ impl Default for Session {
             auto_key: true,
             lock_to_view: false,
             lanes: [true, false],
+            curves: false,
             has_pen: false,
         }
     }
@@ -335,6 +338,19 @@ impl Session {
     /// Opens the lanes of keys, or folds them to a strip. This is remembered for Animate apart from the other modes.
     pub fn show_lanes(&mut self, shown: bool) {
         self.lanes[usize::from(self.mode != Mode::Animate)] = shown;
+    }
+
+    /// Whether the timeline shows curves.
+    pub fn shows_curves(&self) -> bool {
+        self.curves && self.shows_lanes()
+    }
+
+    /// Shows curves in the place of keys, in lanes that are opened for it, or keys again.
+    pub fn toggle_curves(&mut self) {
+        self.curves = !self.shows_curves();
+        if self.curves {
+            self.show_lanes(true);
+        }
     }
 
     /// Sets the tool of the mode that it belongs to; the current mode stays.

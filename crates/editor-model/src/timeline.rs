@@ -12,7 +12,7 @@ use crate::command::Command;
 use crate::playback::Playback;
 
 pub use keys::{DRAG_PX, Dragged, KeysEvent, KeysHand, LanePosition};
-pub use lanes::{KeyAt, Lane, LaneKey, keyed_frames, lanes, next_ease};
+pub use lanes::{KeyAt, Lane, LaneKey, eases, keyed_frames, lanes, next_ease};
 pub use typed::typed_frame;
 
 /// An event of the timeline.

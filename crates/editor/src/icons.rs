@@ -150,6 +150,8 @@ icons! {
     CHECK = ICON_CHECK;
     /// Keys up.
     KEYS_UP = ICON_KEYBOARD_ARROW_UP;
+    /// The curves between keys.
+    CURVES = ICON_LINE_CURVE;
     /// Keys down.
     KEYS_DOWN = ICON_KEYBOARD_ARROW_DOWN;
 }

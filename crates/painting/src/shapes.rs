@@ -37,7 +37,7 @@ impl<'a> BodyShapes<'a> {
     /// The same, with the morph of every object at the largest value of its keys.
     pub(crate) fn morphed_farthest(mut self) -> Self {
         for (weight, object) in self.morphs.iter_mut().zip(&self.loaded.scene.objects) {
-            *weight = object.keys.iter().map(|key| key.morph).fold(0.0, f64::max);
+            *weight = motion::farthest_morph(object);
         }
         self
     }

@@ -7,7 +7,7 @@
 use std::collections::{BTreeMap, HashSet};
 use std::sync::Arc;
 
-use crate::document::{Number, Scene};
+use crate::document::{Ease, Key, Number, Scene};
 use crate::limits;
 use crate::mesh_file::MeshFile;
 use crate::point_cache::PointCache;
@@ -169,6 +169,31 @@ impl Findings {
         self.vector(field_path, value);
         if value.iter().all(|component| component.abs() < limits::MIN_LENGTH) {
             self.error(field_path, "a direction cannot be zero", "give three numbers that are not all 0");
+        }
+    }
+
+    /// Checks the frames and the eases of keys.
+    fn keys(&mut self, keys_path: &str, keys: &[impl Key]) {
+        self.frames(keys_path, keys.iter().map(Key::frame));
+        for (index, key) in keys.iter().enumerate() {
+            if let Ease::Curve(first, second) = key.ease() {
+                self.curve(&format!("{keys_path}[{index}].ease"), [first, second]);
+            }
+        }
+    }
+
+    /// Checks the handles of an ease: time never goes back, and values stay near.
+    fn curve(&mut self, field_path: &str, handles: [[f64; 2]; 2]) {
+        let ranges = [("x", 0.0..=1.0), ("y", limits::EASE_Y)];
+        for ((axis, range), at) in ranges.into_iter().zip(0..2) {
+            for bad in handles.map(|handle| handle[at]).into_iter().filter(|value| !range.contains(value)) {
+                let (least, most) = (short(*range.start()), short(*range.end()));
+                self.error(
+                    field_path,
+                    format!("{axis} of a handle is {}, out of range", short(bad)),
+                    format!("give {axis} from {least} to {most}, as in Curve((0.25, 0.1), (0.25, 1))"),
+                );
+            }
         }
     }
 

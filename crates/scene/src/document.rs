@@ -2,6 +2,7 @@
 //! frames and colours in sRGB, as a person writes them; nothing here is solved or resolved.
 
 mod color;
+mod ease;
 mod keys;
 mod light;
 mod noise_displace;
@@ -22,6 +23,7 @@ use serde::{Deserialize, Serialize};
 use self::numbers::usual_fields;
 
 pub use color::Color;
+pub use ease::Ease;
 pub use keys::{BackgroundKey, Key, LightKey, StrokesKey};
 pub use light::{Light, LightKind};
 pub use noise_displace::{
@@ -151,18 +153,6 @@ pub enum Reference {
         #[serde(default, skip_serializing_if = "is_default")]
         frame: i64,
     },
-}
-
-/// How a value moves from one key to the next.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
-pub enum Ease {
-    /// Holds until the next key.
-    Step,
-    /// At a constant rate.
-    #[default]
-    Linear,
-    /// Starts and ends at rest.
-    Smooth,
 }
 
 /// The camera: a lens and keyed poses.

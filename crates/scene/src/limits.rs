@@ -138,3 +138,12 @@ pub const NOISE_PERIOD_SECS: std::ops::RangeInclusive<f64> = 0.01..=1e6;
 
 /// Scale of a key.
 pub const KEY_SCALE: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
+
+/// Factor of length and width of strokes in their keys.
+pub const KEY_STROKE_SIZE: std::ops::RangeInclusive<f64> = 0.05..=20.0;
+
+/// Factor of the coverage in keys of strokes.
+pub const KEY_COVERAGE: std::ops::RangeInclusive<f64> = 0.0..=4.0;
+
+/// How far the values of handles of an ease may lie from those of the keys: 0 is the key, 1 the next one.
+pub const EASE_Y: std::ops::RangeInclusive<f64> = -2.0..=3.0;

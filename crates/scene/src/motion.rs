@@ -84,7 +84,8 @@ pub fn camera_at(scene: &Scene, frame: f64) -> CameraPose {
     let lens = match scene.camera.lens {
         Lens::Perspective { fov_y_deg, near, far } => {
             let fov_at = |index: usize| fov_y_deg_at_key(&keys[..=index]).unwrap_or(fov_y_deg);
-            Lens::Perspective { fov_y_deg: span.mix(fov_at(span.left), fov_at(span.right)), near, far }
+            let mixed = span.mix_within(fov_at(span.left), fov_at(span.right), limits::FOV_Y_DEG);
+            Lens::Perspective { fov_y_deg: mixed, near, far }
         }
         Lens::Orthographic { .. } => scene.camera.lens.clone(),
     };
@@ -223,9 +224,19 @@ pub fn morphs_at(scene: &Scene, frame: f64) -> Vec<f64> {
     let weight = |object: &Object| {
         let span = Span::at(&object.keys, held_frame(scene, object, frame));
         let at = |index: usize| object.keys[index].morph;
-        span.map_or(0.0, |span| span.mix(at(span.left), at(span.right)))
+        span.map_or(0.0, |span| span.mix_within(at(span.left), at(span.right), 0.0..=1.0))
     };
     scene.objects.iter().map(weight).collect()
+}
+
+/// The greatest morph weight that the keys of an object give it at any frame.
+pub fn farthest_morph(object: &Object) -> f64 {
+    let pairs = object.keys.windows(2).flat_map(|pair| {
+        let between =
+            |share| Span { left: 0, right: 1, share }.mix_within(pair[0].morph, pair[1].morph, 0.0..=1.0);
+        pair[0].ease.reach().map(between)
+    });
+    object.keys.iter().map(|key| key.morph).chain(pairs).fold(0.0, f64::max)
 }
 
 /// The time of every object in seconds since frame 0, in the order of the file. An object that holds its pose holds its
@@ -305,11 +316,17 @@ fn pose_in_parent(keys: &[ObjectKey], frame: f64) -> DAffine3 {
     };
     let (left, right) = (&keys[span.left], &keys[span.right]);
     let rotation = rotation_from_euler_deg(span.mix_vec3(left.rotation_deg, right.rotation_deg));
-    let scale = Scale(span.mix_vec3(left.scale.0, right.scale.0).to_array());
+    let scale = scale_between(&span, left, right);
     // An even scale needs no product of matrices.
     let [x, y, z] = scale.0;
     let matrix = if x == y && y == z { rotation * x } else { rotation * scale.matrix() };
     DAffine3::from_mat3_translation(matrix, span.mix_vec3(left.translation, right.translation))
+}
+
+/// The scale between two keys; an overshoot ends at the limits of keys.
+fn scale_between(span: &Span, left: &ObjectKey, right: &ObjectKey) -> Scale {
+    let (left, right) = (left.scale.0, right.scale.0);
+    Scale(std::array::from_fn(|axis| span.mix_within(left[axis], right[axis], limits::KEY_SCALE)))
 }
 
 /// An object's pose at a frame as a key, in its parent's space; in world space if the shot moves it.
@@ -324,8 +341,8 @@ pub fn key_at(scene: &Scene, object: &Object, frame: f64) -> ObjectKey {
         frame,
         translation: span.mix_vec3(left.translation, right.translation).to_array(),
         rotation_deg: span.mix_vec3(left.rotation_deg, right.rotation_deg).to_array(),
-        scale: Scale(span.mix_vec3(left.scale.0, right.scale.0).to_array()),
-        morph: span.mix(left.morph, right.morph),
+        scale: scale_between(&span, left, right),
+        morph: span.mix_within(left.morph, right.morph, 0.0..=1.0),
         ease: left.ease,
     }
 }

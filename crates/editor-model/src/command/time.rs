@@ -103,7 +103,16 @@ pub fn ease_name(ease: Ease) -> &'static str {
         Ease::Smooth => "smooth",
         Ease::Linear => "linear",
         Ease::Step => "hold",
+        Ease::In => "in",
+        Ease::Out => "out",
+        Ease::Bounce => "bounce",
+        Ease::Curve(..) => "curve",
     }
+}
+
+/// Whether two eases are of one kind; all curves are.
+pub fn same_ease(one: Ease, other: Ease) -> bool {
+    std::mem::discriminant(&one) == std::mem::discriminant(&other)
 }
 
 fn counted(keys: &[(KeyOf, f64)]) -> String {

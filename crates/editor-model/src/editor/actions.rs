@@ -71,6 +71,7 @@ impl Editor {
                     DirectionLines::ByRegion => DirectionLines::Off,
                 };
             }
+            Action::Curves => self.session.toggle_curves(),
             Action::ToggleTrust => self.session.overlays.trust = !self.session.overlays.trust,
             Action::StepBack => self.session.frame = (self.session.frame - 1.0).floor(),
             Action::StepOn => self.session.frame = (self.session.frame + 1.0).ceil(),

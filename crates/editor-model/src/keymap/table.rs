@@ -209,6 +209,7 @@ pub(super) const BINDINGS: &[Binding] = &[
     both(Action::ToggleColumn, "Right column", EVERYWHERE, &[plain(Key::Letter('N'))]),
     both(Action::MaximiseViewport, "Only the viewport", EVERYWHERE, &[ctrl(Key::Space)]),
     each(Action::SetKey, "Set key", POSING, &[plain(Key::Letter('I'))], &[plain(Key::Letter('S'))]),
+    both(Action::Curves, "Curves", POSING, &[plain(Key::Letter('C'))]),
     each(Action::Play, "Play", EVERYWHERE, &[plain(Key::Space)], &[alt(Key::Letter('V')), plain(Key::Space)]),
     both(Action::StepBack, "Previous frame", EVERYWHERE, &[plain(Key::Left)]),
     both(Action::StepOn, "Next frame", EVERYWHERE, &[plain(Key::Right)]),

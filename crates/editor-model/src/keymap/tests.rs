@@ -98,6 +98,7 @@ fn the_keys_of_both_presets_are_as_documented() {
         (A::Touch, paint, "U", "U"),
         (A::Pick, paint, "I", "I"),
         (A::SetKey, posing, "I", "S"),
+        (A::Curves, posing, "C", "C"),
         (A::FlipUnderCursor, paint, "X", "X"),
         (A::Delete, posing, "X", "Delete"),
         (A::Delete, all, "Delete", "Delete"),

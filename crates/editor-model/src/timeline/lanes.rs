@@ -81,6 +81,15 @@ pub fn next_ease(ease: Ease) -> Ease {
     match ease {
         Ease::Smooth => Ease::Linear,
         Ease::Linear => Ease::Step,
-        Ease::Step => Ease::Smooth,
+        Ease::Step => Ease::In,
+        Ease::In => Ease::Out,
+        Ease::Out => Ease::Bounce,
+        Ease::Bounce | Ease::Curve(..) => Ease::Smooth,
     }
+}
+
+/// The eases to choose from, in the order of menus, for a key that has this one now: its own curve stays.
+pub fn eases(now: Option<Ease>) -> [Ease; 7] {
+    let curve = now.filter(|now| matches!(now, Ease::Curve(..))).unwrap_or(Ease::USUAL_CURVE);
+    [Ease::Smooth, Ease::Linear, Ease::Step, Ease::In, Ease::Out, Ease::Bounce, curve]
 }

@@ -135,6 +135,7 @@ const TOOLS: &[Line] = &[
 
 const TIME: &[Line] = &[
     Do(Action::SetKey),
+    Do(Action::Curves),
     Separator,
     Do(Action::Play),
     Do(Action::StepBack),
@@ -326,6 +327,7 @@ pub(super) fn is_on(shown: &PanelInput<'_>, action: Action) -> bool {
         Action::CycleDirections => session.overlays.direction_lines != DirectionLines::Off,
         Action::ToggleTrust => session.overlays.trust,
         Action::Compare => session.compare,
+        Action::Curves => session.shows_curves(),
         _ => false,
     }
 }

@@ -25,8 +25,8 @@ fn part_width(ui: &Ui, words: &str) -> f32 {
     draw::width(ui, words, type_face::small()).max(8.0) + 2.0 * PADDING
 }
 
-/// As [`segmented`], where the words alone would be ambiguous: each choice is named by `of` and its words, as in *Ease
-/// smooth*.
+/// As [`segmented`], where the words alone would be ambiguous: each choice is named by `of` and its words, as in *Seam
+/// soft*.
 pub fn segmented_of(ui: &mut Ui, of: &str, choices: &[&str], chosen: &mut usize) -> Response {
     let names: Vec<String> = choices.iter().map(|words| format!("{of} {}", words.to_lowercase())).collect();
     let named: Vec<_> = choices.iter().copied().zip(names.iter().map(String::as_str)).collect();

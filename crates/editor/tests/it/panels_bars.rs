@@ -1,5 +1,6 @@
 //! Tests of the panels round the viewport: what they ask for, and how they look. Controls are found by name.
 
+mod curves;
 mod page;
 mod timeline;
 

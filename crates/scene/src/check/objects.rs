@@ -46,7 +46,7 @@ fn check_object(object_path: &str, object: &Object, findings: &mut Findings) {
         f64::from(object.hold),
         1.0..=f64::from(limits::MAX_HOLD),
     );
-    findings.frames(&format!("{object_path}.keys"), object.keys.iter().map(|key| key.frame));
+    findings.keys(&format!("{object_path}.keys"), &object.keys);
     for (index, key) in object.keys.iter().enumerate() {
         findings.vector(&format!("{object_path}.keys[{index}].translation"), key.translation);
         let turn = limits::MAX_ANGLE_DEG;

@@ -14,7 +14,7 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
     check_camera_keys(scene, findings);
     findings.number("exposure", scene.exposure, -16.0..=16.0);
     check_lights(&scene.lights, findings);
-    findings.frames("background_keys", scene.background_keys.iter().map(|key| key.frame));
+    findings.keys("background_keys", &scene.background_keys);
 }
 
 fn check_size((width, height): (u32, u32), findings: &mut Findings) {
@@ -136,7 +136,7 @@ fn check_camera_keys(scene: &Scene, findings: &mut Findings) {
         let mend = "add one, as in (frame: 0, eye: (0, 1, 4), target: (0, 0, 0))";
         findings.error("camera.keys", "the camera has no key", mend);
     }
-    findings.frames("camera.keys", keys.iter().map(|key| key.frame));
+    findings.keys("camera.keys", keys);
     for (index, key) in keys.iter().enumerate() {
         let path = |field: &str| format!("camera.keys[{index}].{field}");
         findings.vector(&path("eye"), key.eye);
@@ -237,7 +237,7 @@ fn stands(kind: LightKind) -> bool {
 
 fn check_light_keys(index: usize, light: &Light, findings: &mut Findings) {
     let keys_path = format!("lights[{index}].keys");
-    findings.frames(&keys_path, light.keys.iter().map(|key| key.frame));
+    findings.keys(&keys_path, &light.keys);
     for (number, key) in light.keys.iter().enumerate() {
         let path = |field: &str| format!("{keys_path}[{number}].{field}");
         if let Some(intensity) = key.intensity {

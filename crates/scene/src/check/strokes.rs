@@ -135,13 +135,13 @@ fn check_settings(strokes_path: &str, settings: &StrokeSettings, findings: &mut 
 }
 
 fn check_keys(keys_path: &str, keys: &[StrokesKey], findings: &mut Findings) {
-    findings.frames(keys_path, keys.iter().map(|key| key.frame));
+    findings.keys(keys_path, keys);
     for (index, key) in keys.iter().enumerate() {
         let mut number = |field: &str, value: f64, limits: RangeInclusive<f64>| {
             findings.number(&format!("{keys_path}[{index}].{field}"), value, limits);
         };
-        number("size", key.size, 0.05..=20.0);
-        number("coverage", key.coverage, 0.0..=4.0);
+        number("size", key.size, limits::KEY_STROKE_SIZE);
+        number("coverage", key.coverage, limits::KEY_COVERAGE);
         number("dryness", key.dryness, 0.0..=1.0);
         number("palette_mix", key.palette_mix, 0.0..=1.0);
     }

@@ -69,6 +69,17 @@ fn cameras_look_somewhere_that_has_an_up() {
         &[(Error, "camera.keys[0].eye")],
     );
     let good = "eye: (0, 1, 4), target: (0, 0, 0)";
+    let eased = |ease: &str| keys(&format!("(frame: 0, {good}, ease: {ease})"));
+    assert_finds(&eased("Curve((0, -2), (1, 3))"), &[]);
+    for bad in [
+        "(-0.01, 0), (1, 1)",
+        "(0, 0), (1.01, 1)",
+        "(0, -2.01), (1, 1)",
+        "(0, 0), (1, 3.01)",
+        "(0, 0), (NaN, 0)",
+    ] {
+        assert_finds(&eased(&format!("Curve({bad})")), &[(Error, "camera.keys[0].ease")]);
+    }
     let unsorted = keys(&format!("(frame: 0, {good}), (frame: 2, {good}), (frame: 1, {good})"));
     assert_finds(&unsorted, &[(Error, "camera.keys[2].frame")]);
     let twice = keys(&format!("(frame: 1, {good}), (frame: 1, {good}), (frame: NaN, {good})"));

@@ -1,14 +1,16 @@
 //! Where a frame lies between keys.
 
+use std::ops::RangeInclusive;
+
 use glam::DVec3;
 
-use crate::document::{Ease, Key};
+use crate::document::Key;
 
 /// The two keys round a frame, and the weight of the second after easing.
 pub(crate) struct Span {
     pub(crate) left: usize,
     pub(crate) right: usize,
-    /// 0 at the left key, 1 at the right one.
+    /// 0 at the left key, 1 at the right one; beyond where the ease overshoots.
     pub(crate) share: f64,
 }
 
@@ -23,17 +25,23 @@ impl Span {
         }
         let (left_frame, ease) = (keys[right - 1].frame(), keys[right - 1].ease());
         let t = (frame - left_frame) / (keys[right].frame() - left_frame);
-        let share = match ease {
-            Ease::Step => 0.0,
-            Ease::Linear => t,
-            Ease::Smooth => t * t * (3.0 - 2.0 * t),
-        };
-        Some(Self { left: right - 1, right, share })
+        Some(Self { left: right - 1, right, share: ease.share(t) })
     }
 
     /// A value between that of the left key and that of the right one; exactly `left` at share 0.
     pub(crate) fn mix(&self, left: f64, right: f64) -> f64 {
         left + (right - left) * self.share
+    }
+
+    /// As [`Span::mix`], for a value that no overshoot may take out of these limits.
+    pub(crate) fn mix_within(&self, left: f64, right: f64, limits: RangeInclusive<f64>) -> f64 {
+        let mixed = self.mix(left, right);
+        if self.overshoots() { mixed.clamp(*limits.start(), *limits.end()) } else { mixed }
+    }
+
+    /// Whether the moment lies beyond the values of both keys.
+    pub(crate) fn overshoots(&self) -> bool {
+        !(0.0..=1.0).contains(&self.share)
     }
 
     pub(crate) fn mix_vec3(&self, left: [f64; 3], right: [f64; 3]) -> DVec3 {

@@ -3,7 +3,7 @@
 use glam::{DVec3, DVec4};
 
 use super::*;
-use crate::document::{Camera, Ease};
+use crate::document::{BackgroundKey, Camera, Color, Ease, Light, LightKey, LightKind, StrokesKey};
 
 fn key(frame: f64) -> ObjectKey {
     ObjectKey::at(frame)
@@ -100,6 +100,67 @@ fn eases_are_step_linear_and_smooth() {
         let x_at = |frame| poses_at(&scene, frame)[0].translation.x;
         assert_eq!([-100.0, 4.0, 5.0, 8.0, 100.0].map(x_at), [0.0, 0.0, at_quarter, 10.0, 10.0], "{ease:?}");
     }
+}
+
+#[test]
+fn an_overshoot_moves_and_turns_but_keeps_what_has_limits() {
+    let ease = Ease::Curve([0.5, -2.0], [0.5, 3.0]);
+    let [least, most] = ease.reach();
+    let from = ObjectKey { ease, scale: Scale::even(500.0), ..key(0.0) };
+    let to = ObjectKey {
+        translation: [10.0, 0.0, 0.0],
+        rotation_deg: [0.0, 0.0, 90.0],
+        scale: Scale::even(1000.0),
+        morph: 1.0,
+        ..key(1000.0)
+    };
+    let mut scene = scene(
+        vec![
+            CameraKey { fov_y_deg: Some(2.0), ease, ..camera_key(0.0, 0.0) },
+            CameraKey { fov_y_deg: Some(169.0), ..camera_key(1000.0, 0.0) },
+        ],
+        vec![object("a", None, vec![from, to])],
+    );
+    scene.background_keys = vec![
+        BackgroundKey { frame: 0.0, color: Color([0.1; 3]), ease },
+        BackgroundKey { frame: 1000.0, color: Color([0.9; 3]), ease },
+    ];
+    let mut light = Light::new("lamp", LightKind::Point);
+    light.keys = vec![
+        LightKey { intensity: Some(1.0), position: Some([0.0; 3]), ease, ..LightKey::at(0.0) },
+        LightKey { intensity: Some(9.0), position: Some([1.0, 0.0, 0.0]), ..LightKey::at(1000.0) },
+    ];
+    let strokes = [
+        StrokesKey { size: 0.1, coverage: 0.2, palette_mix: 0.1, ease, ..StrokesKey::at(0.0) },
+        StrokesKey { size: 19.0, coverage: 3.9, dryness: 0.9, ..StrokesKey::at(1000.0) },
+    ];
+    let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
+    for frame in (0..=1000).map(f64::from) {
+        let key = key_at(&scene, &scene.objects[0], frame);
+        let moved = key.translation[0] / 10.0;
+        (lowest, highest) = (lowest.min(moved), highest.max(moved));
+        assert!((key.rotation_deg[2] / 90.0 - moved).abs() < 1e-12);
+        assert!(limits::KEY_SCALE.contains(&key.scale.0[0]) && (0.0..=1.0).contains(&key.morph), "{key:?}");
+        assert!(poses_at(&scene, frame)[0].matrix3.x_axis.length() <= 1000.0 + 1e-6);
+        assert!((0.0..=1.0).contains(&morphs_at(&scene, frame)[0]));
+        let Lens::Perspective { fov_y_deg, .. } = camera_at(&scene, frame).lens else {
+            panic!("another lens")
+        };
+        assert!(limits::FOV_Y_DEG.contains(&fov_y_deg), "{fov_y_deg}");
+        assert!(background_at(&scene, frame).0.iter().all(|channel| (0.0..=1.0).contains(channel)));
+        let light = light_at(&scene, &light, frame);
+        assert!(light.intensity >= 0.0, "{}", light.intensity);
+        assert!((light.position.unwrap_or_default()[0] - moved).abs() < 1e-12);
+        let strokes = stroke_key_at(&strokes, frame);
+        assert!(limits::KEY_STROKE_SIZE.contains(&strokes.size), "{}", strokes.size);
+        assert!(limits::KEY_COVERAGE.contains(&strokes.coverage), "{}", strokes.coverage);
+        assert!((0.0..=1.0).contains(&strokes.dryness) && (0.0..=1.0).contains(&strokes.palette_mix));
+    }
+    assert!((lowest - least).abs() < 1e-3 && (highest - most).abs() < 1e-3, "{lowest} to {highest}");
+    assert!(least < -0.2 && most > 1.2, "{least} to {most}");
+    assert_eq!(farthest_morph(&scene.objects[0]), 1.0);
+    scene.objects[0].keys[1].morph = 0.5;
+    assert_eq!(farthest_morph(&scene.objects[0]), 0.5 * most);
 }
 
 #[test]

@@ -6,8 +6,8 @@ use glam::{DQuat, DVec3};
 use impasto_core::color::{linear_from_srgb, srgb_from_linear};
 
 use super::span::Span;
-use crate::document::{Color, Light, LightKey, ResolvedStrokes, Scene, StrokesKey};
-use crate::limits::{MAX_COVERAGE, MAX_STROKE_PX};
+use crate::document::{Color, Ease, Light, LightKey, ResolvedStrokes, Scene, StrokesKey};
+use crate::limits::{self, MAX_COVERAGE, MAX_STROKE_PX};
 
 /// The background at a frame.
 pub fn background_at(scene: &Scene, frame: f64) -> Color {
@@ -41,7 +41,11 @@ fn keyed(light: &Light, frame: f64) -> Light {
     let still = Light { keys: Vec::new(), ..light.clone() };
     let stated = Stated { keys: &light.keys, span: &span };
     Light {
-        intensity: stated.mixed(light.intensity, |key| key.intensity, |a, b| span.mix(a, b)),
+        intensity: stated.mixed(
+            light.intensity,
+            |key| key.intensity,
+            |a, b| span.mix_within(a, b, 0.0..=limits::MAX_INTENSITY),
+        ),
         color: stated.mixed(light.color, |key| key.color, |a, b| mixed(&span, a, b)),
         ground: stated.mixed_if_any(light.ground, |key| key.ground, |a, b| mixed(&span, a, b)),
         direction: stated.mixed_if_any(light.direction, |key| key.direction, |a, b| turned(&span, a, b)),
@@ -60,10 +64,10 @@ pub fn stroke_key_at(keys: &[StrokesKey], frame: f64) -> StrokesKey {
     let (left, right) = (&keys[span.left], &keys[span.right]);
     StrokesKey {
         frame,
-        size: span.mix(left.size, right.size),
-        coverage: span.mix(left.coverage, right.coverage),
-        dryness: span.mix(left.dryness, right.dryness),
-        palette_mix: span.mix(left.palette_mix, right.palette_mix),
+        size: span.mix_within(left.size, right.size, limits::KEY_STROKE_SIZE),
+        coverage: span.mix_within(left.coverage, right.coverage, limits::KEY_COVERAGE),
+        dryness: span.mix_within(left.dryness, right.dryness, 0.0..=1.0),
+        palette_mix: span.mix_within(left.palette_mix, right.palette_mix, 0.0..=1.0),
         ease: left.ease,
     }
 }
@@ -88,14 +92,15 @@ impl ResolvedStrokes {
         Cow::Owned(strokes)
     }
 
-    /// Frames that show how the strokes change: each key, and three frames between each two keys. Frame 0 alone without
-    /// keys.
+    /// Frames that show how the strokes change: each key, and three frames between each two keys, or more where the ease may
+    /// overshoot. Frame 0 alone without keys.
     pub fn moments(&self) -> Vec<f64> {
-        const BETWEEN: usize = 4;
         let Some(last) = self.keys.last() else { return vec![0.0] };
         let between = self.keys.windows(2).flat_map(|pair| {
-            (0..BETWEEN)
-                .map(|step| pair[0].frame + (pair[1].frame - pair[0].frame) * step as f64 / BETWEEN as f64)
+            let between = if matches!(pair[0].ease, Ease::Curve(..)) { 32 } else { 4 };
+            (0..between).map(move |step| {
+                pair[0].frame + (pair[1].frame - pair[0].frame) * f64::from(step) / f64::from(between)
+            })
         });
         between.chain([last.frame]).collect()
     }
@@ -134,7 +139,7 @@ fn mixed(span: &Span, Color(left): Color, Color(right): Color) -> Color {
     }
     let linear = |channel: f32| f64::from(linear_from_srgb(channel));
     Color(std::array::from_fn(|channel| {
-        srgb_from_linear(span.mix(linear(left[channel]), linear(right[channel])) as f32)
+        srgb_from_linear(span.mix_within(linear(left[channel]), linear(right[channel]), 0.0..=1.0) as f32)
     }))
 }
 
@@ -151,7 +156,7 @@ fn turned(span: &Span, left: [f64; 3], right: [f64; 3]) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::{BackgroundKey, Ease, LightKind};
+    use crate::document::{BackgroundKey, LightKind};
     use crate::{new_scene, presets};
 
     fn sun(keys: Vec<LightKey>) -> Light {

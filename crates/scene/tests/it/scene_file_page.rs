@@ -130,6 +130,7 @@ impl Page<'_> {
     fn arguments(&self, kinds: &str) -> String {
         let example = |kind: &str| match kind {
             "f64" | "i64" => "30".to_owned(),
+            "[f64; 2]" => "(x, y)".to_owned(),
             "[f64; 3]" => "(0, 1, 0)".to_owned(),
             "String" => "\"name\"".to_owned(),
             kind if kind.starts_with("Vec<") => "[…]".to_owned(),

@@ -166,6 +166,6 @@ fn keys_that_cannot_work_are_refused() {
 fn a_key_on_a_lane_hides_what_it_does_elsewhere() {
     let delete = id("Delete (keys on a lane)");
     assert_eq!(BLENDER.hidden(delete, &[chord("K")]), [id("Compare with the reference")]);
-    assert_eq!(BLENDER.hidden(delete, &[chord("C")]), [], "Comb has this key in Paint only");
+    assert_eq!(BLENDER.hidden(delete, &[chord("V")]), [], "Guide curve has this key in Paint only");
     assert_eq!(BLENDER.hidden(id("Along X"), &[chord("K")]), []);
 }

@@ -232,7 +232,8 @@ pub fn command(scene: &Scene, (kind, which, other, x, y): Dice) -> Command {
             2 => Time::MoveKeys(vec![(key_of, frame)], f64::from(which % 5)),
             3 if other % 2 == 0 => Time::CopyKeys(vec![(key_of, frame)], f64::from(which % 5) - 2.0),
             3 => Time::DeleteKeys(vec![(key_of, frame)]),
-            _ => Time::SetEase(vec![(key_of, frame)], Ease::Step),
+            _ if other % 2 == 0 => Time::SetEase(vec![(key_of, frame)], Ease::Step),
+            _ => Time::SetEase(vec![(key_of, frame)], Ease::Curve([0.2, -0.5], [0.4, 1.5])),
         }),
         39 => Command::Amounts(match other % 6 {
             0 => Amounts::Clear(region, usize::from(which % 3)),

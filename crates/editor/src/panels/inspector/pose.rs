@@ -18,9 +18,6 @@ use crate::widgets::{self, Button};
 /// Width of the label before three fields.
 pub(super) const NARROW_LABEL: f32 = 48.0;
 
-/// Width of the label before the three eases.
-const EASE_LABEL: f32 = 64.0;
-
 /// The numbers of an object's pose. In Animate, a changed number keys this frame; in other modes it shifts the motion.
 pub(super) fn of_object(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]: [&Object; 2]) {
     let frame = asker.shown.session.frame;
@@ -154,12 +151,7 @@ pub(super) fn key_rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: KeyOf, ease: 
         let session = impasto_editor_model::Session { frame: frame + by, ..asker.shown.session.clone() };
         asker.asks.push(Ask::Session(Box::new(session)));
     }
-    // The label is narrow, so that the three choices fit into the width of the column.
-    super::parts::row_with(ui, "Ease out", EASE_LABEL, |ui| {
-        let kinds = [Ease::Smooth, Ease::Linear, Ease::Step];
-        let mut chosen = kinds.iter().position(|kind| *kind == ease).unwrap_or(0);
-        if widgets::segmented_of(ui, "Ease", &["Smooth", "Linear", "Hold"], &mut chosen).changed() {
-            asker.ask(Command::Time(Time::SetEase(vec![(of.clone(), frame)], kinds[chosen])));
-        }
-    });
+    if let Some(ease) = widgets::ease_choice(ui, ease) {
+        asker.ask(Command::Time(Time::SetEase(vec![(of.clone(), frame)], ease)));
+    }
 }

@@ -125,5 +125,10 @@ fn key_menu(layout: &LaneLayout<'_>, at: Pos2, key: Option<KeyAt>, shown: &Panel
         Some(key) => vec![key.clone()],
         None => between(layout, at).into_iter().collect(),
     };
-    KeyMenu { keys, is_on_key: key.is_some(), at, frame, lane: lane.map(|lane| lane.of.clone()) }
+    let ease_of = |(of, frame): &KeyAt| {
+        let lane = layout.lanes.iter().find(|lane| lane.of == *of)?;
+        lane.keys.iter().find(|key| key.frame == *frame).map(|key| key.ease)
+    };
+    let ease = keys.first().and_then(ease_of);
+    KeyMenu { keys, ease, is_on_key: key.is_some(), at, frame, lane: lane.map(|lane| lane.of.clone()) }
 }

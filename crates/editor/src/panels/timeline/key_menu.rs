@@ -3,17 +3,19 @@
 use egui::containers::menu::menu_style;
 use egui::{Id, Popup, PopupAnchor, PopupKind, Pos2, Ui};
 use impasto_editor_model::command::{Command, KeyOf, Time, ease_name};
-use impasto_editor_model::timeline::{KeyAt, TimelineEvent};
+use impasto_editor_model::timeline::{KeyAt, TimelineEvent, eases};
 use impasto_scene::document::Ease;
 
 use crate::panels::Ask;
-use crate::widgets::MenuRow;
+use crate::widgets::{MenuRow, ease_before_row};
 
 /// What the menu is about.
 #[derive(Clone, Debug)]
 pub(super) struct KeyMenu {
     /// The keys that it changes: those that were hit, or the key before the place that was hit.
     pub(super) keys: Vec<KeyAt>,
+    /// The ease of the first of them.
+    pub(super) ease: Option<Ease>,
     /// Whether a key was hit.
     pub(super) is_on_key: bool,
     /// Where it opens.
@@ -30,6 +32,19 @@ enum Does {
     Copy,
 }
 
+impl Does {
+    /// The ease that it gives to keys.
+    fn ease(&self) -> Option<Ease> {
+        match self {
+            Self::Ask(ask) => match **ask {
+                Ask::Do(Command::Time(Time::SetEase(_, ease))) => Some(ease),
+                _ => None,
+            },
+            Self::Copy => None,
+        }
+    }
+}
+
 impl KeyMenu {
     /// Shows the menu while it is open. Returns the keys if they are to be copied.
     pub(super) fn show(&self, ui: &Ui, id: Id, copied: &[KeyAt], asks: &mut Vec<Ask>) -> Option<Vec<KeyAt>> {
@@ -44,7 +59,11 @@ impl KeyMenu {
             ui.set_width(wide);
             let mut chosen = None;
             for (words, keys, does) in rows {
-                if (MenuRow { words: &words, keys, ..MenuRow::default() }).show(ui).clicked() {
+                let response = MenuRow { words: &words, keys, ..MenuRow::default() }.show(ui);
+                if let Some(ease) = does.ease() {
+                    ease_before_row(ui, response.rect, ease);
+                }
+                if response.clicked() {
                     chosen = Some(does);
                     ui.close();
                 }
@@ -67,7 +86,7 @@ impl KeyMenu {
         let frame = self.frame;
         let mut rows = Vec::new();
         if !self.keys.is_empty() {
-            rows.extend([Ease::Smooth, Ease::Linear, Ease::Step].map(|ease| {
+            rows.extend(eases(self.ease).map(|ease| {
                 (format!("Ease {}", ease_name(ease)), "", time(Time::SetEase(self.keys.clone(), ease)))
             }));
         }

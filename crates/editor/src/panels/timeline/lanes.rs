@@ -12,10 +12,13 @@ use super::across::{FrameScale, KEY, diamond, filled};
 use crate::icons::{self, Icon};
 use crate::panels::{Ask, PanelInput, text_width};
 use crate::theme::{Tokens, measure, type_face};
-use crate::widgets::{self, Tip};
+use crate::widgets::{self, Tip, ease_line};
 
 /// How far the curve between two keys reaches above and below the middle, in points.
 const SWING: f32 = 3.0;
+
+/// How far it may reach where the ease overshoots.
+const MOST_SWING: f32 = 11.0;
 
 /// Where a lane is drawn.
 #[derive(Clone, Copy)]
@@ -63,6 +66,7 @@ pub(super) fn name(ui: &mut Ui, row: LaneRow, lane: &Lane, shown: &PanelInput<'_
     let label = format!("Select {}", lane.of.name());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
     if response.clicked() {
+        super::curves::choose_lane(ui, &lane.of);
         asks.push(Ask::Select(item(&lane.of).map(Selection::only).unwrap_or_default()));
     }
     if response.secondary_clicked() {
@@ -128,7 +132,8 @@ pub(super) fn keys(ui: &mut Ui, row: LaneRow, lane: &Lane, shown: &PanelInput<'_
     for pair in lane.keys.windows(2) {
         let [from, to] = [0, 1].map(|index| row.across.x(pair[index].frame));
         if to - from > 2.0 * KEY + 4.0 {
-            painter.line(curve([from + KEY + 2.0, to - KEY - 2.0], middle, pair[0].ease), (1.3, tokens.out));
+            let line = curve([from + KEY + 2.0, to - KEY - 2.0], middle, pair[0].ease);
+            painter.line(line, (1.3, tokens.out));
         }
     }
     let hand = &shown.time.keys;
@@ -167,7 +172,7 @@ pub(super) fn keys(ui: &mut Ui, row: LaneRow, lane: &Lane, shown: &PanelInput<'_
 }
 
 /// The accessibility node of a key; a click by a screen reader selects the key.
-fn key_node(
+pub(super) fn key_node(
     ui: &mut Ui,
     lane: &Lane,
     key: &LaneKey,
@@ -191,12 +196,12 @@ fn key_node(
 
 fn mark(painter: &egui::Painter, at: Pos2, ease: Ease, colour: Color32) {
     match ease {
-        Ease::Smooth => drop(painter.add(filled(diamond(at, KEY + 1.5), colour))),
         Ease::Linear => drop(painter.circle_filled(at, KEY, colour)),
         Ease::Step => {
             let rect = Rect::from_center_size(at, vec2(2.0 * KEY - 1.0, 2.0 * KEY - 1.0));
             painter.rect_filled(rect, 0.0, colour);
         }
+        _ => drop(painter.add(filled(diamond(at, KEY + 1.5), colour))),
     }
 }
 
@@ -204,16 +209,8 @@ fn mark(painter: &egui::Painter, at: Pos2, ease: Ease, colour: Color32) {
 fn curve([from, to]: [f32; 2], middle: f32, ease: Ease) -> Vec<Pos2> {
     // A short curve is no steeper than a long one.
     let swing = SWING.min((to - from) / 12.0);
-    let (low, high) = (middle + swing, middle - swing);
-    match ease {
-        Ease::Step => vec![pos2(from, low), pos2(to, low), pos2(to, high)],
-        Ease::Linear => vec![pos2(from, low), pos2(to, high)],
-        Ease::Smooth => (0..=24_u8)
-            .map(|step| {
-                let part = f32::from(step) / 24.0;
-                let share = part * part * (3.0 - 2.0 * part);
-                pos2(from + (to - from) * part, low + (high - low) * share)
-            })
-            .collect(),
-    }
+    let mut line = ease_line([from, to], [middle + swing, middle - swing], ease);
+    // An overshoot stays within the lane.
+    line.iter_mut().for_each(|at| at.y = at.y.clamp(middle - MOST_SWING, middle + MOST_SWING));
+    line
 }

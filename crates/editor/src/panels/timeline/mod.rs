@@ -1,6 +1,7 @@
 //! The timeline with its lanes: transport, ruler, and a lane of keys for the camera and for each object.
 
 pub(super) mod across;
+mod curves;
 mod hand;
 mod key_menu;
 mod lanes;
@@ -59,7 +60,6 @@ pub(super) fn lanes(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
         let first = within(ui, rows, egui::Layout::top_down(egui::Align::Min), |ui| {
             rows_of(ui, &lanes, lane_height, names.right(), across, shown, asks)
         });
-        ruler::over(ui, right, across, shown);
         let layout = LaneLayout {
             area: Rect::from_x_y_ranges(right.x_range(), rows.top()..=rows.bottom() - ruler::PIN),
             top: first,
@@ -67,6 +67,12 @@ pub(super) fn lanes(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
             across,
             lanes: &lanes,
         };
+        if shown.session.shows_curves() {
+            curves::curves(ui, &layout, shown, asks);
+            ruler::over(ui, right, across, shown);
+            return;
+        }
+        ruler::over(ui, right, across, shown);
         hand::hand(ui, &layout, shown, asks);
         if let Some([from, to]) = shown.time.keys.boxed() {
             let corner = |[x, y]: [f64; 2]| pos2(x as f32, first + y as f32);
@@ -116,10 +122,14 @@ fn rows_of(
             let tokens = Tokens::of(ui);
             let is_selected = lanes::is_selected(shown.document.selection(), &lane.of);
             let fill = if is_selected { tokens.sel.gamma_multiply(0.8) } else { Color32::TRANSPARENT };
-            ui.painter().rect_filled(rect, 0.0, fill);
+            let shows_curves = shown.session.shows_curves();
+            let filled = if shows_curves { rect.with_max_x(names) } else { rect };
+            ui.painter().rect_filled(filled, 0.0, fill);
             let row = LaneRow { rect, names, across };
             lanes::name(ui, row, lane, shown, asks);
-            lanes::keys(ui, row, lane, shown, asks);
+            if !shows_curves {
+                lanes::keys(ui, row, lane, shown, asks);
+            }
         }
         rect.top()
     });

@@ -1,6 +1,7 @@
 //! The buttons and fields of the timeline: playback and frame at the left, range, rate and loop at the right.
 
 use egui::{Rect, RichText, Role, Ui, WidgetInfo, accesskit, pos2, vec2};
+use impasto_editor_model::Session;
 use impasto_editor_model::command::{Command, Time};
 use impasto_editor_model::keymap::Action;
 use impasto_editor_model::playback::Pacing;
@@ -18,6 +19,9 @@ const FPS: std::ops::RangeInclusive<f64> = 0.001..=1e6;
 
 /// In a window narrower than this, in points, the bar leaves out what is no control: the time and the key of *Set key*.
 const NARROW: f32 = 900.0;
+
+/// In a window narrower than this, in points, *Curves* is an icon.
+const ROOM_FOR_CURVES: f32 = 1200.0;
 
 /// The buttons that go to the ends, step and play; and the field of the frame that is shown.
 pub(in crate::panels) fn transport(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
@@ -57,7 +61,7 @@ pub(in crate::panels) fn transport(ui: &mut Ui, shown: &PanelInput<'_>, asks: &m
     }
 }
 
-/// What follows the playback buttons while the lanes are open: the time, Auto key and Set key.
+/// What follows the playback buttons while the lanes are open: the time, Auto key, Set key and Curves.
 pub(super) fn keying(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let is_narrow = ui.ctx().content_rect().width() < NARROW;
     if !is_narrow {
@@ -86,6 +90,24 @@ pub(super) fn keying(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     }
     if !keys.is_empty() && !is_narrow {
         widgets::key_cap(ui, &keys);
+    }
+    ui.add_space(8.0);
+    curves(ui, shown, asks);
+}
+
+/// The button that shows curves in the place of the lanes' keys.
+fn curves(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
+    let on = shown.session.shows_curves();
+    let effect = "Shows how values come from key to key, with handles to drag, in the place of the keys.";
+    let response = if ui.ctx().content_rect().width() < ROOM_FOR_CURVES {
+        let mut shows = on;
+        widgets::icon_toggle(ui, icons::CURVES, "Curves", &mut shows)
+    } else {
+        Button::new("Curves").icon(icons::CURVES).on(on).show(ui)
+    };
+    let keys = shown.keys_of(Action::Curves);
+    if (Tip { name: "Curves", key: &keys, effect, range: "" }).on(response).clicked() {
+        asks.push(shown.session_with(Session::toggle_curves));
     }
 }
 

@@ -5,7 +5,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use impasto_editor_model::session::Mode;
 use impasto_editor_model::{Item, Selection};
-use impasto_scene::document::{Direction, Seam, Sense};
+use impasto_scene::document::{Direction, Ease, Seam, Sense};
 
 use super::{Column, assert_named, click, drag, harness, object, pick, region, type_in, with_guides};
 
@@ -373,10 +373,22 @@ fn fields_shift_the_motion_in_arrange_and_key_it_in_animate() {
     type_in(&mut harness, "Turn Z", "12");
     assert_eq!(keys(&harness).len(), before.len() + 1);
     assert_eq!(harness.get_by_label("Key frame").accesskit_node().value().as_deref(), Some("41"));
+    let ease = |harness: &Harness<'_, Column>| {
+        let key = keys(harness).into_iter().find(|key| key.frame == 41.0);
+        key.map(|key| key.ease).expect("the key is there")
+    };
+    for (name, chosen) in [("Ease in", Ease::In), ("Ease out", Ease::Out), ("Ease bounce", Ease::Bounce)] {
+        click(&mut harness, name);
+        assert_eq!(ease(&harness), chosen);
+    }
+    click(&mut harness, "Ease curve");
+    assert_eq!(ease(&harness), Ease::USUAL_CURVE);
+    harness.state_mut().document.undo();
+    assert_eq!(ease(&harness), Ease::Bounce);
     click(&mut harness, "Ease hold");
     type_in(&mut harness, "Key frame", "42");
     let moved = keys(&harness).into_iter().find(|key| key.frame == 42.0).expect("the key has moved");
-    assert_eq!((moved.rotation_deg[2], moved.ease), (12.0, impasto_scene::document::Ease::Step));
+    assert_eq!((moved.rotation_deg[2], moved.ease), (12.0, Ease::Step));
     assert_eq!(harness.state().session.frame, 42.0);
     // A step of the wheel takes the frame along too, so that the key stays in sight.
     turn_the_wheel(&mut harness, "Key frame", 1.0, Modifiers::COMMAND);

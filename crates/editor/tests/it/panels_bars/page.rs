@@ -42,6 +42,8 @@ pub struct Page {
     pub asked: Vec<Ask>,
     pub left: Option<welcome::Left>,
     pub answer: Option<Answer>,
+    /// Whether the page carries out what is asked of the document, in place of keeping it in `asked`.
+    pub applies: bool,
 }
 
 fn scenes() -> PathBuf {
@@ -88,6 +90,7 @@ impl Page {
             asked: Vec::new(),
             left: None,
             answer: None,
+            applies: false,
         }
     }
 
@@ -160,6 +163,12 @@ impl Page {
                     let command = self.time.keys.take(event, &lanes);
                     self.asked.extend(command.map(Ask::Do));
                 }
+                Ask::Do(command) if self.applies => drop(self.document.apply(&command).expect("done")),
+                Ask::DoMerged(command, of) if self.applies => {
+                    drop(self.document.apply_merged(&command, &of, 0.0).expect("done"));
+                }
+                Ask::Preview(command) if self.applies => self.document.preview(&command).expect("shown"),
+                Ask::EndPreview if self.applies => self.document.end_preview(),
                 other => self.asked.push(other),
             }
         }

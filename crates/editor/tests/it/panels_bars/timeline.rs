@@ -21,12 +21,12 @@ use super::{acts, click, harness, snapshot};
 const NARROW: (f32, f32) = (1280.0, 620.0);
 const WIDE: (f32, f32) = (1920.0, 620.0);
 
-fn apple(frame: f64) -> KeyAt {
+pub(super) fn apple(frame: f64) -> KeyAt {
     (KeyOf::Object("apple".to_owned()), frame)
 }
 
 /// A page in the mode Animate, with an apple that has keys at frames 0, 37, 60 and 96.
-fn animated() -> Page {
+pub(super) fn animated() -> Page {
     let mut page = Page { document: page::apple(), ..Page::new() }.in_mode(Mode::Animate);
     let mut apply = |time: Time| drop(page.document.apply(&Command::Time(time)).expect("it can be done"));
     apply(Time::SetRange(0, 119));
@@ -66,7 +66,7 @@ fn commands(page: &Page) -> Vec<&Time> {
         .collect()
 }
 
-fn drag(harness: &mut Harness<'_, Page>, from: Pos2, to: Pos2) {
+pub(super) fn drag(harness: &mut Harness<'_, Page>, from: Pos2, to: Pos2) {
     harness.drag_at(from);
     harness.run();
     for part in [0.3, 0.7, 1.0] {
@@ -89,6 +89,7 @@ fn every_control_of_the_timeline_has_its_name() {
         "Current frame",
         "Auto key",
         "Set key",
+        "Curves",
         "Pacing",
         "Range start",
         "Range end",
@@ -174,13 +175,24 @@ fn a_click_between_keys_changes_the_ease_and_a_right_click_lists_them() {
     assert!(harness.query_by_label("Delete key").is_none(), "no key is there");
     click(&mut harness, "Ease hold");
     assert_eq!(commands(harness.state()), [&Time::SetEase(vec![apple(37.0)], Ease::Step)]);
+    for (name, ease) in [
+        ("Ease in", Ease::In),
+        ("Ease out", Ease::Out),
+        ("Ease bounce", Ease::Bounce),
+        ("Ease curve", Ease::USUAL_CURVE),
+    ] {
+        harness.state_mut().asked.clear();
+        right_click(&mut harness, between);
+        click(&mut harness, name);
+        assert_eq!(commands(harness.state()), [&Time::SetEase(vec![apple(37.0)], ease)]);
+    }
     harness.state_mut().asked.clear();
     right_click(&mut harness, places[3].1);
     click(&mut harness, "Delete key");
     assert_eq!(commands(harness.state()), [&Time::DeleteKeys(vec![apple(96.0)])]);
 }
 
-fn right_click(harness: &mut Harness<'_, Page>, at: Pos2) {
+pub(super) fn right_click(harness: &mut Harness<'_, Page>, at: Pos2) {
     harness.event(egui::Event::PointerMoved(at));
     for pressed in [true, false] {
         let button = egui::PointerButton::Secondary;

@@ -23,7 +23,17 @@ fn any_color() -> impl Strategy<Value = Color> {
 }
 
 fn ease() -> impl Strategy<Value = Ease> {
-    prop_oneof![Just(Ease::Step), Just(Ease::Linear), Just(Ease::Smooth)]
+    prop_oneof![
+        proptest::sample::select(vec![
+            Ease::Step,
+            Ease::Linear,
+            Ease::Smooth,
+            Ease::In,
+            Ease::Out,
+            Ease::Bounce
+        ]),
+        [number(), number(), number(), number()].prop_map(|[a, b, c, d]| Ease::Curve([a, b], [c, d])),
+    ]
 }
 
 fn name() -> impl Strategy<Value = String> {

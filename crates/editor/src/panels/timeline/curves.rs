@@ -1,0 +1,414 @@
+//! The curves of the timeline: for one lane, how far its values have come from key to key, with handles to drag.
+
+use egui::{
+    Align2, CursorIcon, EventFilter, Id, Key, Popup, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui,
+    Vec2, WidgetInfo, pos2, vec2,
+};
+use impasto_editor_model::command::{Command, KeyOf, Time, ease_name};
+use impasto_editor_model::timeline::{KeyAt, Lane, LaneKey, lanes};
+use impasto_scene::document::Ease;
+use impasto_scene::limits;
+
+use super::across::{FrameScale, KEY, diamond, filled};
+use super::hand::LaneLayout;
+use super::key_menu::KeyMenu;
+use super::lanes::{is_selected, item, key_node};
+use crate::panels::{Ask, PanelInput};
+use crate::theme::{Tokens, measure, type_face};
+use crate::widgets::{Tip, ease_line};
+
+/// Room above and below the curves, points.
+const MARGIN: f32 = 14.0;
+
+/// The arrows move a handle by this share of time and value; with `Shift` ten times as far.
+const STEP: f64 = 0.01;
+
+/// The names of the handles.
+const HANDLES: [&str; 2] = ["First handle", "Second handle"];
+
+/// The handles of a straight curve.
+const STRAIGHT: [[f64; 2]; 2] = [[1.0 / 3.0, 1.0 / 3.0], [2.0 / 3.0, 2.0 / 3.0]];
+
+/// Maps frames and shares to the window.
+#[derive(Clone, Copy)]
+struct Plot {
+    area: Rect,
+    across: FrameScale,
+    /// The shares at the bottom and at the top.
+    shares: [f64; 2],
+}
+
+impl Plot {
+    fn y(self, share: f64) -> f32 {
+        let [least, most] = self.shares;
+        let part = (share - least) / (most - least);
+        self.area.bottom() - MARGIN - (self.area.height() - 2.0 * MARGIN) * part as f32
+    }
+
+    fn share(self, y: f32) -> f64 {
+        let [least, most] = self.shares;
+        let part = (self.area.bottom() - MARGIN - y) / (self.area.height() - 2.0 * MARGIN).max(1.0);
+        least + (most - least) * f64::from(part)
+    }
+
+    /// Where a handle between two keys is.
+    fn at(self, [from, to]: [f64; 2], [time, share]: [f64; 2]) -> Pos2 {
+        pos2(self.across.x(from + (to - from) * time), self.y(share))
+    }
+
+    /// The handle that is here, within what a curve may have.
+    fn handle(self, [from, to]: [f64; 2], at: Pos2) -> [f64; 2] {
+        kept([(self.across.place(at.x) - from) / (to - from), self.share(at.y)])
+    }
+}
+
+/// A handle brought within its limits and to thousandths, so that files stay short.
+fn kept([time, share]: [f64; 2]) -> [f64; 2] {
+    let rounded = |value: f64| (value * 1000.0).round() / 1000.0;
+    [rounded(time.clamp(0.0, 1.0)), rounded(share.clamp(*limits::EASE_Y.start(), *limits::EASE_Y.end()))]
+}
+
+/// The curve of an ease with one handle put elsewhere. Two straight handles are no curve.
+fn with_handle(ease: Ease, index: usize, handle: [f64; 2]) -> Ease {
+    let mut handles = match ease {
+        Ease::Curve(first, second) => [first, second],
+        named => named.handles().map(kept),
+    };
+    handles[index] = kept(handle);
+    if handles == STRAIGHT.map(kept) { Ease::Linear } else { Ease::Curve(handles[0], handles[1]) }
+}
+
+/// The drag of a handle.
+#[derive(Clone, Debug)]
+struct Drag {
+    key: KeyAt,
+    handle: usize,
+    /// From the pointer to the middle of the handle.
+    off: Vec2,
+    /// The ease at the press.
+    before: Ease,
+    /// The shares at the bottom and the top at the press; the scale stays while the drag lasts.
+    shares: [f64; 2],
+}
+
+/// What is remembered between passes.
+#[derive(Clone, Debug, Default)]
+struct Memory {
+    /// The key at the left of the segment that was chosen.
+    chosen: Option<KeyAt>,
+    drag: Option<Drag>,
+    menu: Option<KeyMenu>,
+}
+
+/// Two neighbouring keys, of which the first has the ease.
+#[derive(Clone, Copy)]
+struct Segment {
+    left: LaneKey,
+    right: LaneKey,
+}
+
+impl Segment {
+    fn frames(&self) -> [f64; 2] {
+        [self.left.frame, self.right.frame]
+    }
+}
+
+/// The id of the menu of the curves with this id.
+fn menu_id(curves: Id) -> Id {
+    curves.with("menu")
+}
+
+fn lane_id() -> Id {
+    Id::unique("lane of the curves")
+}
+
+/// Notes that the name of this lane was clicked; what nothing can select, as the background, is chosen so.
+pub(super) fn choose_lane(ui: &Ui, of: &KeyOf) {
+    ui.data_mut(|data| data.insert_temp(lane_id(), Some(of.clone())));
+}
+
+/// The lane whose curves show: that of what is selected, else that whose name was clicked last, else the first with curves.
+fn shown_lane<'a>(ui: &Ui, lanes: &'a [Lane], shown: &PanelInput<'_>) -> Option<&'a Lane> {
+    let clicked = ui.data(|data| data.get_temp::<Option<KeyOf>>(lane_id())).flatten();
+    let selection = shown.document.selection();
+    let active = selection.active();
+    let by_name = lanes.iter().find(|lane| {
+        Some(&lane.of) == clicked.as_ref() && (active.is_none() || is_selected(selection, &lane.of))
+    });
+    by_name
+        .or_else(|| lanes.iter().find(|lane| active.is_some() && item(&lane.of).as_ref() == active))
+        .or_else(|| lanes.iter().find(|lane| is_selected(selection, &lane.of)))
+        .or_else(|| lanes.iter().find(|lane| lane.keys.len() > 1))
+        .or_else(|| lanes.first())
+}
+
+/// Shows the curves of one lane over the place of the lanes, and what is done to them.
+pub(super) fn curves(ui: &mut Ui, layout: &LaneLayout<'_>, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
+    let area = layout.area;
+    let all = lanes(&shown.document.shown().scene);
+    let Some(lane) = shown_lane(ui, &all, shown) else { return };
+    let id = ui.scope_id().with("curves");
+    let mut memory = ui.data_mut(|data| data.get_temp::<Memory>(id)).unwrap_or_default();
+    let whole = ui.interact(area, id, Sense::click());
+    let label = format!("{} curves", lane.of.name());
+    whole.widget_info(|| WidgetInfo::labeled(Role::List, true, &label));
+    choose(&whole, layout, lane, &mut memory);
+    let segment = chosen_segment(lane, memory.chosen.as_ref(), shown.session.frame);
+    let shares = memory.drag.as_ref().map_or_else(|| reach(lane, segment), |drag| drag.shares);
+    let plot = Plot { area, across: layout.across, shares };
+
+    draw(ui, plot, lane, segment);
+    if lane.keys.len() < 2 {
+        let words = if lane.of_shot { "moves as the shot has it" } else { "no two keys to go between" };
+        let at = pos2(plot.across.left + 8.0, area.center().y);
+        ui.painter().text(at, Align2::LEFT_CENTER, words, type_face::small(), Tokens::of(ui).weak);
+    }
+    draw_keys(ui, plot, lane, &whole, shown, asks);
+    if let Some(segment) = segment {
+        draw_now(ui, plot, segment, shown.session.frame);
+        if !lane.locked && !lane.of_shot {
+            for index in 0..HANDLES.len() {
+                Handle { plot, segment, lane, index }.show(ui, &mut memory, asks);
+            }
+        }
+    }
+    if memory.drag.is_some() && !ui.input(|input| input.pointer.any_down()) {
+        // The key of the handle is gone.
+        memory.drag = None;
+        asks.push(Ask::EndPreview);
+    }
+    if let Some(menu) = &memory.menu {
+        menu.show(ui, menu_id(id), &[], asks);
+    }
+    ui.data_mut(|data| data.insert_temp(id, memory));
+}
+
+/// Chooses the segment that is clicked; a right click also opens its menu.
+fn choose(whole: &Response, layout: &LaneLayout<'_>, lane: &Lane, memory: &mut Memory) {
+    if !whole.clicked() && !whole.secondary_clicked() {
+        return;
+    }
+    let Some(at) = whole.interact_pointer_pos() else { return };
+    let frame = layout.across.place(at.x);
+    let Some(left) = lane.left_of(frame) else { return };
+    let key = (lane.of.clone(), left.frame);
+    memory.chosen = Some(key.clone());
+    if whole.secondary_clicked() {
+        memory.menu = Some(KeyMenu {
+            keys: vec![key],
+            ease: Some(left.ease),
+            is_on_key: false,
+            at,
+            frame: frame.round(),
+            lane: (!lane.locked && !lane.of_shot).then(|| lane.of.clone()),
+        });
+        Popup::open_id(&whole.ctx, menu_id(whole.id));
+    }
+}
+
+/// The segment that has the handles: the one that was chosen, else the one at the frame, else the first.
+fn chosen_segment(lane: &Lane, chosen: Option<&KeyAt>, frame: f64) -> Option<Segment> {
+    let starts = &lane.keys[..lane.keys.len().saturating_sub(1)];
+    let of_chosen = chosen
+        .filter(|(of, _)| *of == lane.of)
+        .and_then(|(_, frame)| starts.iter().position(|key| key.frame == *frame));
+    let at_frame = || {
+        let left = lane.left_of(frame)?;
+        starts.iter().position(|key| key.frame == left.frame)
+    };
+    let index = of_chosen.or_else(at_frame).or((!starts.is_empty()).then_some(0))?;
+    Some(Segment { left: lane.keys[index], right: lane.keys[index + 1] })
+}
+
+/// The least and the greatest share of all curves of a lane and of the handles that show.
+fn reach(lane: &Lane, segment: Option<Segment>) -> [f64; 2] {
+    let curves = lane.keys.iter().flat_map(|key| key.ease.reach());
+    let handles = segment.into_iter().flat_map(|segment| segment.left.ease.handles()).map(|handle| handle[1]);
+    curves.chain(handles).fold([0.0, 1.0], |[least, most], share| [share.min(least), share.max(most)])
+}
+
+/// Draws the lines of shares 0 and 1, and the curves.
+fn draw(ui: &Ui, plot: Plot, lane: &Lane, chosen: Option<Segment>) {
+    let tokens = Tokens::of(ui);
+    let painter = ui.painter().with_clip_rect(plot.area);
+    for (share, words) in [(0.0, "0"), (1.0, "1")] {
+        let y = plot.y(share);
+        painter.hline(plot.area.x_range(), y, (1.0, tokens.div));
+        let at = pos2(plot.area.left() + 8.0, y);
+        let font = type_face::ruler();
+        let ground = Rect::from_center_size(at + vec2(3.0, 0.0), vec2(14.0, 12.0));
+        painter.rect_filled(ground, 0.0, tokens.app);
+        painter.text(at, Align2::LEFT_CENTER, words, font, tokens.weak);
+    }
+    for pair in lane.keys.windows(2) {
+        let [from, to] = [0, 1].map(|index| plot.across.x(pair[index].frame));
+        let is_chosen = chosen.is_some_and(|chosen| chosen.left.frame == pair[0].frame);
+        let line = ease_line([from, to], [plot.y(0.0), plot.y(1.0)], pair[0].ease);
+        let stroke = if is_chosen { Stroke::new(2.0, tokens.text) } else { Stroke::new(1.5, tokens.out) };
+        if is_chosen {
+            let rect = Rect::from_x_y_ranges(from..=to, plot.area.y_range());
+            painter.rect_filled(rect, 0.0, tokens.sel.gamma_multiply(0.35));
+        }
+        painter.line(line, stroke);
+    }
+    if let Some(chosen) = chosen {
+        let [from, to] = chosen.frames();
+        let words = format!("{}, {from} to {to}", ease_name(chosen.left.ease));
+        // Below the curves, where no handle is.
+        let at = pos2(plot.across.x(from).max(plot.area.left()) + 12.0, plot.area.bottom() + 12.0);
+        ui.painter().text(at, Align2::LEFT_CENTER, words, type_face::small(), tokens.weak);
+    }
+}
+
+/// Draws the keys: each at the begin of its curve and at the end of the one before.
+fn draw_keys(
+    ui: &mut Ui,
+    plot: Plot,
+    lane: &Lane,
+    whole: &Response,
+    shown: &PanelInput<'_>,
+    asks: &mut Vec<Ask>,
+) {
+    let tokens = Tokens::of(ui);
+    let painter = ui.painter().with_clip_rect(plot.area);
+    let last = lane.keys.len().saturating_sub(1);
+    for (index, key) in lane.keys.iter().enumerate() {
+        let x = plot.across.x(key.frame);
+        let [begin, end] = [0.0, 1.0].map(|share| pos2(x, plot.y(share)));
+        if index > 0 && index < last {
+            painter.vline(x, end.y..=begin.y, (1.0, tokens.div));
+        }
+        if index > 0 {
+            painter.add(filled(diamond(end, KEY + 1.0), tokens.key));
+        }
+        if index < last || last == 0 {
+            painter.add(filled(diamond(begin, KEY + 1.0), tokens.key));
+        }
+        let at = if index < last { begin } else { end };
+        let is_selected = shown.time.keys.contains(&lane.of, key.frame);
+        if is_selected {
+            painter.add(Shape::closed_line(diamond(at, 10.0), Stroke::new(1.5, tokens.text)));
+        }
+        key_node(ui, lane, key, at, whole, is_selected, asks);
+    }
+}
+
+/// Marks where the value is at the frame that is shown.
+fn draw_now(ui: &Ui, plot: Plot, segment: Segment, frame: f64) {
+    let [from, to] = segment.frames();
+    let time = (frame - from) / (to - from);
+    if (0.0..1.0).contains(&time) {
+        let at = plot.at([from, to], [time, segment.left.ease.share(time)]);
+        ui.painter().with_clip_rect(plot.area).circle_filled(at, 3.5, Tokens::of(ui).accent_text);
+    }
+}
+
+/// A handle of the chosen segment.
+#[derive(Clone, Copy)]
+struct Handle<'a> {
+    plot: Plot,
+    segment: Segment,
+    lane: &'a Lane,
+    /// 0 for that of the left key, 1 for that of the right one.
+    index: usize,
+}
+
+impl Handle<'_> {
+    fn key(&self) -> KeyAt {
+        (self.lane.of.clone(), self.segment.left.frame)
+    }
+
+    fn set(&self, ease: Ease) -> Command {
+        Command::Time(Time::SetEase(vec![self.key()], ease))
+    }
+
+    /// Its line and its circle, and what is done to it.
+    fn show(&self, ui: &mut Ui, memory: &mut Memory, asks: &mut Vec<Ask>) {
+        let Self { plot, segment, lane, index } = *self;
+        let [time, share] = segment.left.ease.handles()[index];
+        let centre = plot.at(segment.frames(), [time, share]);
+        let end = plot.at(segment.frames(), [index as f64; 2]);
+        let hit = Rect::from_center_size(centre, vec2(measure::HIT, measure::HIT));
+        let id = ui.scope_id().with(("handle", &lane.of, segment.left.frame.to_bits(), index));
+        let response = ui.interact(hit, id, Sense::click_and_drag()).on_hover_cursor(CursorIcon::Grab);
+        let words = format!("{time:.3}, {share:.3}");
+        response.widget_info(|| {
+            let mut info = WidgetInfo::labeled(Role::Slider, true, HANDLES[index]);
+            info.current_text_value = Some(words.clone());
+            info
+        });
+        let tokens = Tokens::of(ui);
+        let painter = ui.painter().with_clip_rect(plot.area);
+        painter.line_segment([end, centre], (1.2, tokens.accent_text));
+        let radius = if response.hovered() || response.dragged() { 6.5 } else { 5.5 };
+        painter.circle(centre, radius, tokens.panel, Stroke::new(2.0, tokens.accent_text));
+        if response.has_focus() {
+            painter.circle_stroke(centre, 9.5, Stroke::new(2.0, tokens.accent_text));
+        }
+        if response.double_clicked() {
+            memory.drag = None;
+            asks.push(Ask::Do(self.set(with_handle(segment.left.ease, index, STRAIGHT[index]))));
+        } else {
+            self.drag(ui, &response, memory, asks);
+            if let Some(moved) = stepped(ui, &response, [time, share]) {
+                let ease = with_handle(segment.left.ease, index, moved);
+                asks.push(Ask::DoMerged(self.set(ease), format!("{id:?}")));
+            }
+        }
+        let effect =
+            "How the value leaves or reaches a key. A double click straightens it; Esc takes a drag back.";
+        Tip { name: HANDLES[index], key: "", effect, range: "" }.on(response);
+    }
+
+    /// A drag is shown at once, and is one entry of the history when the handle is let go.
+    fn drag(&self, ui: &Ui, response: &Response, memory: &mut Memory, asks: &mut Vec<Ask>) {
+        if response.drag_started() {
+            // With the focus, the handle gets Esc before the window does.
+            response.request_focus();
+            memory.chosen = Some(self.key());
+            let pressed = ui.input(|input| input.pointer.press_origin()).unwrap_or(response.rect.center());
+            memory.drag = Some(Drag {
+                key: self.key(),
+                handle: self.index,
+                off: response.rect.center() - pressed,
+                before: self.segment.left.ease,
+                shares: self.plot.shares,
+            });
+        }
+        let is_this = |drag: &Drag| drag.key == self.key() && drag.handle == self.index;
+        let Some(drag) = memory.drag.clone().filter(is_this) else { return };
+        if ui.input(|input| input.key_pressed(Key::Escape)) {
+            memory.drag = None;
+            ui.ctx().stop_dragging();
+            asks.push(Ask::EndPreview);
+            return;
+        }
+        let to = response.interact_pointer_pos().map(|at| {
+            let handle = self.plot.handle(self.segment.frames(), at + drag.off);
+            with_handle(drag.before, self.index, handle)
+        });
+        if response.dragged() {
+            asks.extend(to.map(|ease| Ask::Preview(self.set(ease))));
+        } else {
+            memory.drag = None;
+            let ease = to.unwrap_or(self.segment.left.ease);
+            asks.push(if ease == drag.before { Ask::EndPreview } else { Ask::Do(self.set(ease)) });
+        }
+    }
+}
+
+/// Where the arrows take a handle that has the focus.
+fn stepped(ui: &Ui, response: &Response, [time, share]: [f64; 2]) -> Option<[f64; 2]> {
+    if !response.has_focus() {
+        return None;
+    }
+    let filter = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
+    let (along, up) = ui.input(|input| {
+        let pressed = |key: Key| f64::from(u8::from(input.key_pressed(key)));
+        let step = if input.modifiers.shift { 10.0 * STEP } else { STEP };
+        let along = pressed(Key::ArrowRight) - pressed(Key::ArrowLeft);
+        (along * step, (pressed(Key::ArrowUp) - pressed(Key::ArrowDown)) * step)
+    });
+    (along != 0.0 || up != 0.0).then(|| kept([time + along, share + up]))
+}

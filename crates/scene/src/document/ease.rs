@@ -1,0 +1,135 @@
+//! How values move from one key to the next.
+
+use serde::{Deserialize, Serialize};
+
+/// How a value moves from one key to the next.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, Serialize)]
+pub enum Ease {
+    /// Holds until the next key.
+    Step,
+    /// At a constant rate.
+    #[default]
+    Linear,
+    /// Starts and ends at rest.
+    Smooth,
+    /// Starts at rest, and gets ever faster.
+    In,
+    /// Starts fast, and comes to rest.
+    Out,
+    /// Falls to the next key and bounces back from it three times, ever lower, as a ball.
+    Bounce,
+    /// A cubic Bézier curve from (0, 0) to (1, 1) through these two handles, as `cubic-bezier` of CSS: `x` is time, from 0 to 1,
+    /// and `y` how far the value has come, from -2 to 3. Where `y` leaves 0 to 1, places and turns overshoot; sizes, colours and
+    /// strengths stop at their limits.
+    Curve([f64; 2], [f64; 2]),
+}
+
+impl Ease {
+    /// The curve that a file would most often want, in the place of one that it does not state: `ease` of CSS.
+    pub const USUAL_CURVE: Self = Self::Curve([0.25, 0.1], [0.25, 1.0]);
+
+    /// How far the value has come, 0 at the key and 1 at the next one, when the part `time` of the time from key to key has
+    /// passed. Exactly 0 up to time 0, and 1 from time 1 on. Only [`Ease::Curve`] leaves the range from 0 to 1.
+    pub fn share(self, time: f64) -> f64 {
+        if time <= 0.0 {
+            return 0.0;
+        }
+        if time >= 1.0 {
+            return 1.0;
+        }
+        match self {
+            Self::Step => 0.0,
+            Self::Linear => time,
+            Self::Smooth => time * time * (3.0 - 2.0 * time),
+            Self::In => time * time,
+            Self::Out => time * (2.0 - time),
+            Self::Bounce => bounced(time),
+            Self::Curve(first, second) => {
+                let part = part_at(time, first[0], second[0]);
+                bezier(part, first[1], second[1])
+            }
+        }
+    }
+
+    /// The least and the greatest share that it passes.
+    pub fn reach(self) -> [f64; 2] {
+        let Self::Curve([_, first], [_, second]) = self else { return [0.0, 1.0] };
+        // The derivative, a quadratic in the part of the curve: a·s² + b·s + c.
+        let (a, b, c) = (1.0 + 3.0 * (first - second), 2.0 * (second - 2.0 * first), first);
+        let root = (b * b - 4.0 * a * c).max(0.0).sqrt();
+        let turns =
+            if a.abs() < 1e-12 { [-c / b, 0.0] } else { [(-b - root) / (2.0 * a), (-b + root) / (2.0 * a)] };
+        let inside = turns.into_iter().filter(|part| (0.0..=1.0).contains(part));
+        inside
+            .map(|part| bezier(part, first, second))
+            .fold([0.0, 1.0], |[least, most], share| [f64::min(least, share), f64::max(most, share)])
+    }
+
+    /// The curve nearest to it in look, as the two handles of [`Ease::Curve`]. `Smooth`, `In`, `Out` and `Linear` are exactly
+    /// such curves; `Step` and `Bounce` are none.
+    pub fn handles(self) -> [[f64; 2]; 2] {
+        const THIRD: f64 = 1.0 / 3.0;
+        match self {
+            Self::Linear | Self::Step => [[THIRD, THIRD], [2.0 * THIRD, 2.0 * THIRD]],
+            Self::Smooth => [[THIRD, 0.0], [2.0 * THIRD, 1.0]],
+            Self::In => [[THIRD, 0.0], [2.0 * THIRD, THIRD]],
+            Self::Out | Self::Bounce => [[THIRD, 2.0 * THIRD], [2.0 * THIRD, 1.0]],
+            Self::Curve(first, second) => [first, second],
+        }
+    }
+}
+
+/// A ball that falls, and bounces to a quarter, a sixteenth and a 64th of its height: parabolas of one and the same curvature, so
+/// that the times from floor to floor are as 2 × 1/2, 2 × 1/4 and 2 × 1/8 of the first fall (R. Penner, *Motion, Tweening and
+/// Easing*, 2002).
+fn bounced(time: f64) -> f64 {
+    // In units of the first fall, which is 1 of 1 + 1 + 1/2 + 1/4.
+    let falls = 2.75 * time;
+    let (middle, height) = match falls {
+        ..1.0 => (0.0, 1.0),
+        ..2.0 => (1.5, 0.25),
+        ..2.5 => (2.25, 0.0625),
+        _ => (2.625, 0.015_625),
+    };
+    (1.0 - height + (falls - middle) * (falls - middle)).min(1.0)
+}
+
+/// One coordinate of a cubic Bézier curve from 0 to 1, with these coordinates of its handles.
+fn bezier(part: f64, first: f64, second: f64) -> f64 {
+    let rest = 1.0 - part;
+    part * (3.0 * rest * (rest * first + part * second) + part * part)
+}
+
+/// Its derivative by `part`.
+fn bezier_slope(part: f64, first: f64, second: f64) -> f64 {
+    let rest = 1.0 - part;
+    3.0 * (rest * rest * first + 2.0 * rest * part * (second - first) + part * part * (1.0 - second))
+}
+
+/// The part of the curve at which its `x` is this time, by Newton's method; where a step leaves the bracket, by bisection.
+fn part_at(time: f64, first_x: f64, second_x: f64) -> f64 {
+    const MOST_STEPS: usize = 80;
+    let (mut low, mut high, mut part) = (0.0, 1.0, time);
+    for step in 0..MOST_STEPS {
+        let off = bezier(part, first_x, second_x) - time;
+        if off == 0.0 || high - low <= f64::EPSILON {
+            break;
+        }
+        if off < 0.0 {
+            low = part
+        } else {
+            high = part
+        }
+        let newton = part - off / bezier_slope(part, first_x, second_x);
+        // Newton's method has converged long before; what is left to do where it has not is for bisection.
+        let next = if step < 12 && newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        if next == part {
+            break;
+        }
+        part = next;
+    }
+    part
+}
+
+#[cfg(test)]
+mod tests;
