@@ -4,12 +4,13 @@ use egui::{
     Align2, CursorIcon, EventFilter, Id, Key, Popup, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui,
     Vec2, WidgetInfo, pos2, vec2,
 };
-use impasto_editor_model::command::{Command, KeyOf, Time, ease_name};
+use impasto_editor_model::command::{Command, Time, ease_name};
 use impasto_editor_model::timeline::{KeyAt, Lane, LaneKey, lanes};
 use impasto_scene::document::Ease;
 use impasto_scene::limits;
 
 use super::across::{FrameScale, KEY, diamond, filled};
+use super::clicked_lane;
 use super::hand::LaneLayout;
 use super::key_menu::KeyMenu;
 use super::lanes::{is_selected, item, key_node};
@@ -118,18 +119,9 @@ fn menu_id(curves: Id) -> Id {
     curves.with("menu")
 }
 
-fn lane_id() -> Id {
-    Id::unique("lane of the curves")
-}
-
-/// Notes that the name of this lane was clicked; what nothing can select, as the background, is chosen so.
-pub(super) fn choose_lane(ui: &Ui, of: &KeyOf) {
-    ui.data_mut(|data| data.insert_temp(lane_id(), Some(of.clone())));
-}
-
 /// The lane whose curves show: that of what is selected, else that whose name was clicked last, else the first with curves.
 fn shown_lane<'a>(ui: &Ui, lanes: &'a [Lane], shown: &PanelInput<'_>) -> Option<&'a Lane> {
-    let clicked = ui.data(|data| data.get_temp::<Option<KeyOf>>(lane_id())).flatten();
+    let clicked = clicked_lane::last(ui);
     let selection = shown.document.selection();
     let active = selection.active();
     let by_name = lanes.iter().find(|lane| {

@@ -9,6 +9,7 @@ use impasto_editor_model::{Item, Selection};
 use impasto_scene::document::Ease;
 
 use super::across::{FrameScale, KEY, diamond, filled};
+use super::clicked_lane;
 use crate::icons::{self, Icon};
 use crate::panels::{Ask, PanelInput, text_width};
 use crate::theme::{Tokens, measure, type_face};
@@ -66,7 +67,7 @@ pub(super) fn name(ui: &mut Ui, row: LaneRow, lane: &Lane, shown: &PanelInput<'_
     let label = format!("Select {}", lane.of.name());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
     if response.clicked() {
-        super::curves::choose_lane(ui, &lane.of);
+        clicked_lane::note(ui, &lane.of);
         asks.push(Ask::Select(item(&lane.of).map(Selection::only).unwrap_or_default()));
     }
     if response.secondary_clicked() {

@@ -1,6 +1,7 @@
 //! The timeline with its lanes: transport, ruler, and a lane of keys for the camera and for each object.
 
 pub(super) mod across;
+mod clicked_lane;
 mod curves;
 mod hand;
 mod key_menu;

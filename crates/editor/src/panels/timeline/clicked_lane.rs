@@ -1,0 +1,18 @@
+//! The lane whose name was clicked last: what nothing can select, as the background, is chosen so for its curves.
+
+use egui::{Id, Ui};
+use impasto_editor_model::command::KeyOf;
+
+fn id() -> Id {
+    Id::unique("lane that was clicked")
+}
+
+/// Notes that the name of this lane was clicked.
+pub(super) fn note(ui: &Ui, of: &KeyOf) {
+    ui.data_mut(|data| data.insert_temp(id(), Some(of.clone())));
+}
+
+/// The owner of the lane, if one was clicked.
+pub(super) fn last(ui: &Ui) -> Option<KeyOf> {
+    ui.data(|data| data.get_temp::<Option<KeyOf>>(id())).flatten()
+}
