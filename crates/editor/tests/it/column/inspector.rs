@@ -83,7 +83,7 @@ fn a_region_shows_all_that_can_be_set() {
     assert_eq!(on("Brush filbert"), Some(egui::accesskit::Toggled::True));
     assert_eq!(on("Brush fan"), Some(egui::accesskit::Toggled::False));
     let length = harness.get_by_label("Length");
-    assert_eq!(length.accesskit_node().value().as_deref(), Some("64px"));
+    assert_eq!(length.accesskit_node().value().as_deref(), Some("72px"));
 }
 
 /// Turns the wheel over a field by `by` lines, up where positive.
@@ -120,7 +120,7 @@ fn the_wheel_scrolls_the_column_and_steps_only_a_field_with_the_focus_or_with_ct
 
     turn_the_wheel(&mut harness, "Length", 1.0, Modifiers::COMMAND);
     let by_ctrl = length(&harness).expect("a step");
-    assert_eq!(harness.state().log, ["merged Length 65 px"]);
+    assert_eq!(harness.state().log, ["merged Length 73 px"]);
     harness.get_by_role_and_label(Role::SpinButton, "Length").focus();
     harness.run();
     let place = top(&harness);
@@ -242,7 +242,7 @@ fn a_drag_on_length_previews_and_is_one_entry() {
     assert_eq!(column.document.undo_count(), 1, "{log:?}");
     // A drag across the whole width of the field covers its range of 156.
     let wide = harness.get_by_label("Length").rect().width();
-    let wanted = (64.0_f64 + 40.0 * 156.0 / f64::from(wide)).round();
+    let wanted = (72.0_f64 + 40.0 * 156.0 / f64::from(wide)).round();
     assert_eq!(column.region("apple").strokes.length_px, Some(wanted));
     assert_eq!(column.document.undo_text(), Some(format!("Length {wanted} px").as_str()));
     assert!(
@@ -279,7 +279,7 @@ fn steps_of_a_number_are_one_entry_and_reset_brings_the_scene_back() {
         harness.key_press(Key::ArrowRight);
         harness.run();
     }
-    assert_eq!(harness.state().region("apple").strokes.width_px, Some(18.0));
+    assert_eq!(harness.state().region("apple").strokes.width_px, Some(20.0));
     assert_eq!(harness.state().document.undo_count(), 1);
     click(&mut harness, "Reset Width");
     assert_eq!(harness.state().region("apple").strokes.width_px, None);
