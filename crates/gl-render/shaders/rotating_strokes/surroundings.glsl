@@ -14,7 +14,8 @@ const float AROUND_PX = 8.0;
 const vec2 SAME_FACE = vec2(0.8, 0.97);
 
 // How far before the stroke's plane its body must be to cover the stroke: from the first depth on in part, from the
-// second wholly. Smaller depths are mere errors of coarse meshes.
+// second wholly. Smaller depths are mere errors of coarse meshes. In pictures under half the scene's size, where grooves
+// are shallower, so are these.
 const vec2 COVERS_PX = vec2(2.0, 6.0);
 
 // Depth and body id of the pixel at a place.
@@ -38,6 +39,7 @@ float freedom(float id) {
     ivec2 corner = ivec2(floor(at));
     ivec2 last = textureSize(depth_and_id, 0) - 1;
     vec2 part = at - vec2(corner);
+    vec2 covers_px = COVERS_PX * min(2.0 * px_scale, 1.0);
     float covered = 0.0;
     for (int index = 0; index < 4; index++) {
         ivec2 offset = ivec2(index & 1, index >> 1);
@@ -45,7 +47,7 @@ float freedom(float id) {
         if (there.y != id) continue;
         float before_px = (plane_depth(vec2(offset) - part) - there.x) / units_per_px(place.z);
         vec2 near = mix(1.0 - part, part, vec2(offset));
-        covered += near.x * near.y * smoothstep(COVERS_PX.x, COVERS_PX.y, before_px);
+        covered += near.x * near.y * smoothstep(covers_px.x, covers_px.y, before_px);
     }
     return 1.0 - covered;
 }
