@@ -431,6 +431,26 @@ fn mistakes_are_told_with_the_mend() {
 }
 
 #[test]
+fn what_noise_colours_takes_no_light_and_has_no_normal() {
+    let mut renderer = pictures::renderer(Driver::Egl);
+    let options = FrameOptions::new([160, 90]);
+    let shot = shot(&mut renderer, &scenes::painting("explosion"), 12.0, &options);
+    let [x, y, z] = ["N.X", "N.Y", "N.Z"].map(|name| shot.plane(name));
+    let mut coloured = 0;
+    for at in 0..x.len() {
+        for name in ["light.R", "light.G", "light.B", "shadow.X"] {
+            let value = shot.plane(name)[at];
+            assert!(value.is_finite(), "{name} is {value} at pixel {at}");
+            if [x[at], y[at], z[at]] == [0.0; 3] && shot.plane("objectid.X")[at] > 0.0 {
+                coloured += 1;
+                assert_eq!(value, 1.0, "{name} at pixel {at}");
+            }
+        }
+    }
+    assert!(coloured > 400, "the fire is not seen: {coloured}");
+}
+
+#[test]
 fn exposure_brightens_what_is_shown_and_leaves_the_linear_picture() {
     let mut renderer = pictures::renderer(Driver::Auto);
     let painting = scenes::painting("roll");

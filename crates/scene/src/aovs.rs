@@ -89,7 +89,13 @@ const fn row(
 /// All AOVs, in the order in which they are listed.
 pub const AOVS: [AovRow; 26] = [
     row(Aov::Depth, "depth", "Z", "float", "distance along the gaze, world units; 1e10 where nothing is"),
-    row(Aov::Normal, "normal", "N.X N.Y N.Z", "half", "surface normal, world space; towards the eye"),
+    row(
+        Aov::Normal,
+        "normal",
+        "N.X N.Y N.Z",
+        "half",
+        "surface normal, world space; towards the eye; 0 where noise colours the surface",
+    ),
     row(Aov::Position, "position", "P.X P.Y P.Z", "float", "place of the surface, world space"),
     row(
         Aov::Motion,

@@ -47,7 +47,7 @@ impl FileKind {
     }
 
     /// The endings of the files; the first is that of the pattern.
-    pub fn endings(self) -> &'static [&'static str] {
+    pub const fn endings(self) -> &'static [&'static str] {
         match self {
             Self::Png8 | Self::Png16 => &["png"],
             Self::Exr => &["exr"],

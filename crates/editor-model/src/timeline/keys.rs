@@ -287,7 +287,7 @@ impl KeysHand {
                     // A click between two keys.
                     Some((lane, key)) if !adds => {
                         let keys = vec![(lane.of.clone(), key.frame)];
-                        Some(Command::Time(Time::SetEase(keys, next_ease(key.ease))))
+                        next_ease(key.ease).map(|ease| Command::Time(Time::SetEase(keys, ease)))
                     }
                     _ => {
                         if !adds {

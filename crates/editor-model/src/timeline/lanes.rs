@@ -76,16 +76,18 @@ pub fn keyed_frames(scene: &Scene) -> Vec<f64> {
     frames
 }
 
-/// The ease that a click changes this one to; repeated clicks go through all eases.
-pub fn next_ease(ease: Ease) -> Ease {
-    match ease {
+/// The ease that a click changes this one to; repeated clicks go through all named eases. `None` for a curve: it was made
+/// by hand, and no click throws it away.
+pub fn next_ease(ease: Ease) -> Option<Ease> {
+    Some(match ease {
         Ease::Smooth => Ease::Linear,
         Ease::Linear => Ease::Step,
         Ease::Step => Ease::In,
         Ease::In => Ease::Out,
         Ease::Out => Ease::Bounce,
-        Ease::Bounce | Ease::Curve(..) => Ease::Smooth,
-    }
+        Ease::Bounce => Ease::Smooth,
+        Ease::Curve(..) => return None,
+    })
 }
 
 /// The eases to choose from, in the order of menus, for a key that has this one now: its own curve stays.

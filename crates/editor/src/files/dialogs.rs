@@ -12,9 +12,10 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::{Duration, Instant};
 
 use egui::{Align2, Area, Context, Frame, Id, Margin, RichText, vec2};
+use impasto_editor_model::render_settings::FileKind;
 
 use super::file_ask::FileAsk;
-use super::incoming::{MOVIES, PICTURES};
+use super::incoming::PICTURES;
 use super::path_sheet::{PathSheet, Picked};
 use crate::theme::{Theme, measure, type_face};
 use crate::widgets::Button;
@@ -200,7 +201,8 @@ fn has_session_bus() -> bool {
 fn filters(ask: FileAsk) -> Vec<(&'static str, Vec<String>)> {
     const SCENES: &[&str] = &["ron"];
     const MESHES: &[&str] = &["obj", "gltf", "glb"];
-    const RENDERED: &[&str] = &["png", "exr"];
+    const RENDERED: &[&str] = FileKind::PngAndExr.endings();
+    const MOVIES: &[&str] = FileKind::Movie.endings();
     let filters: &[(&str, &[&[&str]])] = match ask {
         FileAsk::Open => {
             &[("Scenes and meshes", &[SCENES, MESHES]), ("Scenes", &[SCENES]), ("Meshes", &[MESHES])]

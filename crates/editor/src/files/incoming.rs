@@ -7,6 +7,7 @@ mod tests;
 use std::path::{Path, PathBuf};
 
 use impasto_editor_model::Document;
+use impasto_editor_model::render_settings::FileKind;
 use impasto_scene::load::strokes_file::is_preset;
 use impasto_scene::mesh_format;
 
@@ -14,9 +15,6 @@ pub use adopt::{AdoptError, Adopted, adopt_mesh, adopt_picture, bring};
 
 /// File extensions of pictures that can serve as textures and brushes.
 pub const PICTURES: &[&str] = &["png", "jpg", "jpeg", "bmp", "tga", "webp"];
-
-/// File extensions of movies that can be written.
-pub(super) const MOVIES: &[&str] = &["mp4", "mov", "webm", "mkv"];
 
 /// The kind of a file, by its extension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -43,7 +41,7 @@ impl Kind {
             "ron" if is_preset(path) => Some(Self::Preset),
             "ron" => Some(Self::Scene),
             "exr" => Some(Self::Exr),
-            ending if MOVIES.contains(&ending) => Some(Self::Movie),
+            ending if FileKind::Movie.endings().contains(&ending) => Some(Self::Movie),
             _ if mesh_format::is_mesh(path) => Some(Self::Mesh),
             ending => PICTURES.contains(&ending).then_some(Self::Picture),
         }
@@ -179,7 +177,7 @@ pub(super) fn refusal(path: &Path) -> String {
             format!("{name} is a model that Impasto does not read: export it as glTF or OBJ")
         }
         "exr" => format!("{name} is a rendered picture: Impasto writes EXR files and does not read them"),
-        ending if MOVIES.contains(&ending) => {
+        ending if FileKind::Movie.endings().contains(&ending) => {
             format!("{name} is a movie: Impasto writes movies and does not read them")
         }
         "mtl" => format!("{name} holds materials only: open the OBJ file that names it"),

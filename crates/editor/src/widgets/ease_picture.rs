@@ -1,12 +1,13 @@
 //! Eases as lines, and a choice of them: each with its picture and its name.
 
-use egui::{Align2, Color32, Painter, Pos2, Rect, Role, Sense, Ui, pos2, vec2};
+use egui::{Align2, Color32, Painter, Pos2, Rect, Sense, Ui, pos2, vec2};
 use impasto_editor_model::command::{ease_name, same_ease};
 use impasto_editor_model::timeline::eases;
 use impasto_scene::document::Ease;
 
 use super::draw;
-use crate::theme::{Tokens, measure, type_face};
+use super::segmented::choice;
+use crate::theme::{Tokens, type_face};
 
 /// Size of the picture of an ease beside its name.
 const PICTURE: egui::Vec2 = vec2(17.0, 12.0);
@@ -60,20 +61,12 @@ pub fn ease_choice(ui: &mut Ui, now: Ease) -> Option<Ease> {
             picked = Some(ease);
         }
         let seen = part.shrink(2.0);
-        let fill = match (on, response.hovered()) {
-            (true, _) => tokens.act,
-            (false, true) => tokens.hov,
-            (false, false) => Color32::TRANSPARENT,
-        };
-        ui.painter().rect_filled(seen, draw::corner(), fill);
-        let colour = if on || response.hovered() { tokens.text } else { tokens.weak };
+        let name = ease_name(ease);
+        let colour = choice(ui, &response, seen, &format!("Ease {name}"), on);
         let picture = Rect::from_center_size(seen.left_center() + vec2(14.0, 0.0), PICTURE);
         ease_picture(ui.painter(), picture, ease, colour);
         let at = seen.left_center() + vec2(27.0, 0.0);
-        let name = ease_name(ease);
         draw::words(ui.painter(), at, Align2::LEFT_CENTER, &capital(name), type_face::small(), colour);
-        draw::focus_ring(ui, &response, seen, measure::CORNER);
-        draw::named_state(&response, Role::RadioButton, &format!("Ease {name}"), on);
     }
     picked
 }

@@ -51,16 +51,23 @@ pub fn segmented_named(ui: &mut Ui, choices: &[(&str, &str)], chosen: &mut usize
         }
         let on = *chosen == index;
         let seen = part.shrink2(vec2(0.0, INSET));
-        let fill = match (on, response.hovered()) {
-            (true, _) => tokens.act,
-            (false, true) => tokens.hov,
-            (false, false) => Color32::TRANSPARENT,
-        };
-        ui.painter().rect_filled(seen, draw::corner(), fill);
-        let colour = if on || response.hovered() { tokens.text } else { tokens.weak };
+        let colour = choice(ui, &response, seen, name, on);
         draw::words(ui.painter(), seen.center(), Align2::CENTER_CENTER, words, type_face::small(), colour);
-        draw::focus_ring(ui, &response, seen, measure::CORNER);
-        draw::named_state(&response, Role::RadioButton, name, on);
     }
     whole
+}
+
+/// Paints the ground of one of several choices and its ring of focus, and gives it its name. Returns the colour of what is
+/// drawn on it.
+pub(super) fn choice(ui: &Ui, response: &Response, seen: Rect, name: &str, on: bool) -> Color32 {
+    let tokens = Tokens::of(ui);
+    let fill = match (on, response.hovered()) {
+        (true, _) => tokens.act,
+        (false, true) => tokens.hov,
+        (false, false) => Color32::TRANSPARENT,
+    };
+    ui.painter().rect_filled(seen, draw::corner(), fill);
+    draw::focus_ring(ui, response, seen, measure::CORNER);
+    draw::named_state(response, Role::RadioButton, name, on);
+    if on || response.hovered() { tokens.text } else { tokens.weak }
 }

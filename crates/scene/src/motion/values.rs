@@ -215,6 +215,13 @@ mod tests {
         let dry = strokes.at(10.0).body().dryness;
         assert!((dry - (0.5 + 0.5 * before.body().dryness)).abs() < 1e-6, "{dry}");
         assert_eq!(strokes.moments(), [0.0, 2.5, 5.0, 7.5, 10.0]);
+        // Halfway, an ease that overshoots asks for more strokes than either key: the moments meet that peak.
+        scene.strokes.keys[0].ease = Ease::Curve([0.1, 3.0], [0.4, 3.0]);
+        let swung = presets::resolve(&scene, None);
+        let coverage_at = |frame: f64| swung.at(frame).body().coverage;
+        let peak = (0..=1000).map(|step| coverage_at(f64::from(step) / 100.0)).fold(0.0, f32::max);
+        let met = swung.moments().into_iter().map(coverage_at).fold(0.0, f32::max);
+        assert!(peak > 1.2 * coverage_at(10.0) && met > 0.99 * peak, "{met} of {peak}");
         scene.background_keys = vec![BackgroundKey { frame: 4.0, color: Color::white(), ease: Ease::Linear }];
         assert_eq!(background_at(&scene, 0.0), Color::white());
     }

@@ -117,6 +117,14 @@ fn a_box_selects_across_lanes_and_a_click_between_keys_changes_the_ease() {
     assert_eq!(eased(&mut hand, 30.0), Some(Time::SetEase(vec![apple(0.0)], Ease::Linear)));
     assert_eq!(eased(&mut hand, 80.0), Some(Time::SetEase(vec![apple(60.0)], Ease::Step)));
     assert_eq!(hand.selected().len(), 2);
+    // A curve was made by hand: no click throws it away.
+    let mut curved = scene();
+    for key in curved.objects.iter_mut().flat_map(|object| &mut object.keys) {
+        key.ease = Ease::Curve([0.2, 0.0], [0.4, 1.2]);
+    }
+    let curved = super::super::lanes(&curved);
+    hand.take(press(None, at(30.0, 1)), &curved);
+    assert_eq!(hand.take(KeysEvent::Release, &curved), None);
     // After the last key there is no ease to change: a click selects nothing.
     assert_eq!(eased(&mut hand, 110.0), None);
     assert_eq!(hand.selected(), []);

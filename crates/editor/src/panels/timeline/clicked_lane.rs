@@ -9,10 +9,10 @@ fn id() -> Id {
 
 /// Notes that the name of this lane was clicked.
 pub(super) fn note(ui: &Ui, of: &KeyOf) {
-    ui.data_mut(|data| data.insert_temp(id(), Some(of.clone())));
+    ui.data_mut(|data| data.insert_temp(id(), of.clone()));
 }
 
 /// The owner of the lane, if one was clicked.
 pub(super) fn last(ui: &Ui) -> Option<KeyOf> {
-    ui.data(|data| data.get_temp::<Option<KeyOf>>(id())).flatten()
+    ui.data(|data| data.get_temp(id()))
 }

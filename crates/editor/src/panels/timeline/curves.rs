@@ -1,8 +1,8 @@
 //! The curves of the timeline: for one lane, how far its values have come from key to key, with handles to drag.
 
 use egui::{
-    Align2, CursorIcon, EventFilter, Id, Key, Popup, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui,
-    Vec2, WidgetInfo, pos2, vec2,
+    Align2, CursorIcon, EventFilter, Id, Key, PointerButton, Popup, Pos2, Rect, Response, Role, Sense, Shape,
+    Stroke, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 use impasto_editor_model::command::{Command, Time, ease_name};
 use impasto_editor_model::timeline::{KeyAt, Lane, LaneKey, lanes};
@@ -26,9 +26,6 @@ const STEP: f64 = 0.01;
 
 /// The names of the handles.
 const HANDLES: [&str; 2] = ["First handle", "Second handle"];
-
-/// The handles of a straight curve.
-const STRAIGHT: [[f64; 2]; 2] = [[1.0 / 3.0, 1.0 / 3.0], [2.0 / 3.0, 2.0 / 3.0]];
 
 /// Maps frames and shares to the window.
 #[derive(Clone, Copy)]
@@ -75,8 +72,16 @@ fn with_handle(ease: Ease, index: usize, handle: [f64; 2]) -> Ease {
         Ease::Curve(first, second) => [first, second],
         named => named.handles().map(kept),
     };
+    if handles[index] == kept(handle) {
+        // A press without a move leaves a named ease what it is.
+        return ease;
+    }
     handles[index] = kept(handle);
-    if handles == STRAIGHT.map(kept) { Ease::Linear } else { Ease::Curve(handles[0], handles[1]) }
+    if handles == Ease::Linear.handles().map(kept) {
+        Ease::Linear
+    } else {
+        Ease::Curve(handles[0], handles[1])
+    }
 }
 
 /// The drag of a handle.
@@ -114,6 +119,11 @@ impl Segment {
     }
 }
 
+/// The id of the curves, under which their memory is kept.
+fn memory_id(ui: &Ui) -> Id {
+    ui.scope_id().with("curves")
+}
+
 /// The id of the menu of the curves with this id.
 fn menu_id(curves: Id) -> Id {
     curves.with("menu")
@@ -139,12 +149,14 @@ pub(super) fn curves(ui: &mut Ui, layout: &LaneLayout<'_>, shown: &PanelInput<'_
     let area = layout.area;
     let all = lanes(&shown.document.shown().scene);
     let Some(lane) = shown_lane(ui, &all, shown) else { return };
-    let id = ui.scope_id().with("curves");
+    let id = memory_id(ui);
     let mut memory = ui.data_mut(|data| data.get_temp::<Memory>(id)).unwrap_or_default();
     let whole = ui.interact(area, id, Sense::click());
     let label = format!("{} curves", lane.of.name());
     whole.widget_info(|| WidgetInfo::labeled(Role::List, true, &label));
-    choose(&whole, layout, lane, &mut memory);
+    if whole.clicked() || whole.secondary_clicked() {
+        choose(&whole, layout, lane, &mut memory);
+    }
     let segment = chosen_segment(lane, memory.chosen.as_ref(), shown.session.frame);
     let shares = memory.drag.as_ref().map_or_else(|| reach(lane, segment), |drag| drag.shares);
     let plot = Plot { area, across: layout.across, shares };
@@ -160,7 +172,10 @@ pub(super) fn curves(ui: &mut Ui, layout: &LaneLayout<'_>, shown: &PanelInput<'_
         draw_now(ui, plot, segment, shown.session.frame);
         if !lane.locked && !lane.of_shot {
             for index in 0..HANDLES.len() {
-                Handle { plot, segment, lane, index }.show(ui, &mut memory, asks);
+                let on_handle = Handle { plot, segment, lane, index }.show(ui, &mut memory, asks);
+                if on_handle.is_some_and(|response| response.secondary_clicked()) {
+                    choose(&whole, layout, lane, &mut memory);
+                }
             }
         }
     }
@@ -175,17 +190,26 @@ pub(super) fn curves(ui: &mut Ui, layout: &LaneLayout<'_>, shown: &PanelInput<'_
     ui.data_mut(|data| data.insert_temp(id, memory));
 }
 
-/// Chooses the segment that is clicked; a right click also opens its menu.
-fn choose(whole: &Response, layout: &LaneLayout<'_>, lane: &Lane, memory: &mut Memory) {
-    if !whole.clicked() && !whole.secondary_clicked() {
-        return;
+/// Where curves no longer show while a handle is dragged, by a key: takes the drag back.
+pub(super) fn leave(ui: &Ui, asks: &mut Vec<Ask>) {
+    let id = memory_id(ui);
+    let memory = ui.data(|data| data.get_temp::<Memory>(id)).filter(|memory| memory.drag.is_some());
+    if let Some(memory) = memory {
+        ui.data_mut(|data| data.insert_temp(id, Memory { drag: None, ..memory }));
+        asks.push(Ask::EndPreview);
     }
-    let Some(at) = whole.interact_pointer_pos() else { return };
+}
+
+/// Chooses the segment that was clicked; a right click also opens its menu.
+fn choose(whole: &Response, layout: &LaneLayout<'_>, lane: &Lane, memory: &mut Memory) {
+    let (at, opens_menu) =
+        whole.ctx.input(|input| (input.pointer.interact_pos(), input.pointer.secondary_released()));
+    let Some(at) = at else { return };
     let frame = layout.across.place(at.x);
     let Some(left) = lane.left_of(frame) else { return };
     let key = (lane.of.clone(), left.frame);
     memory.chosen = Some(key.clone());
-    if whole.secondary_clicked() {
+    if opens_menu {
         memory.menu = Some(KeyMenu {
             keys: vec![key],
             ease: Some(left.ease),
@@ -314,13 +338,20 @@ impl Handle<'_> {
         Command::Time(Time::SetEase(vec![self.key()], ease))
     }
 
-    /// Its line and its circle, and what is done to it.
-    fn show(&self, ui: &mut Ui, memory: &mut Memory, asks: &mut Vec<Ask>) {
+    /// Its line and its circle, and what is done to it. `None` where it lies outside the plot, and is not dragged there.
+    fn show(&self, ui: &mut Ui, memory: &mut Memory, asks: &mut Vec<Ask>) -> Option<Response> {
         let Self { plot, segment, lane, index } = *self;
         let [time, share] = segment.left.ease.handles()[index];
         let centre = plot.at(segment.frames(), [time, share]);
         let end = plot.at(segment.frames(), [index as f64; 2]);
-        let hit = Rect::from_center_size(centre, vec2(measure::HIT, measure::HIT));
+        let painter = ui.painter().with_clip_rect(plot.area);
+        let tokens = Tokens::of(ui);
+        painter.line_segment([end, centre], (1.2, tokens.accent_text));
+        let whole = Rect::from_center_size(centre, vec2(measure::HIT, measure::HIT));
+        let hit = if memory.drag.is_some() { whole } else { whole.intersect(plot.area) };
+        if !hit.is_positive() {
+            return None;
+        }
         let id = ui.scope_id().with(("handle", &lane.of, segment.left.frame.to_bits(), index));
         let response = ui.interact(hit, id, Sense::click_and_drag()).on_hover_cursor(CursorIcon::Grab);
         let words = format!("{time:.3}, {share:.3}");
@@ -329,9 +360,6 @@ impl Handle<'_> {
             info.current_text_value = Some(words.clone());
             info
         });
-        let tokens = Tokens::of(ui);
-        let painter = ui.painter().with_clip_rect(plot.area);
-        painter.line_segment([end, centre], (1.2, tokens.accent_text));
         let radius = if response.hovered() || response.dragged() { 6.5 } else { 5.5 };
         painter.circle(centre, radius, tokens.panel, Stroke::new(2.0, tokens.accent_text));
         if response.has_focus() {
@@ -339,7 +367,8 @@ impl Handle<'_> {
         }
         if response.double_clicked() {
             memory.drag = None;
-            asks.push(Ask::Do(self.set(with_handle(segment.left.ease, index, STRAIGHT[index]))));
+            let ease = with_handle(segment.left.ease, index, Ease::Linear.handles()[index]);
+            asks.extend((ease != segment.left.ease).then(|| Ask::Do(self.set(ease))));
         } else {
             self.drag(ui, &response, memory, asks);
             if let Some(moved) = stepped(ui, &response, [time, share]) {
@@ -349,20 +378,22 @@ impl Handle<'_> {
         }
         let effect =
             "How the value leaves or reaches a key. A double click straightens it; Esc takes a drag back.";
-        Tip { name: HANDLES[index], key: "", effect, range: "" }.on(response);
+        Tip { name: HANDLES[index], key: "", effect, range: "" }.on(response.clone());
+        Some(response)
     }
 
     /// A drag is shown at once, and is one entry of the history when the handle is let go.
     fn drag(&self, ui: &Ui, response: &Response, memory: &mut Memory, asks: &mut Vec<Ask>) {
-        if response.drag_started() {
+        if response.drag_started_by(PointerButton::Primary) {
             // With the focus, the handle gets Esc before the window does.
             response.request_focus();
             memory.chosen = Some(self.key());
-            let pressed = ui.input(|input| input.pointer.press_origin()).unwrap_or(response.rect.center());
+            let centre = self.plot.at(self.segment.frames(), self.segment.left.ease.handles()[self.index]);
+            let pressed = ui.input(|input| input.pointer.press_origin()).unwrap_or(centre);
             memory.drag = Some(Drag {
                 key: self.key(),
                 handle: self.index,
-                off: response.rect.center() - pressed,
+                off: centre - pressed,
                 before: self.segment.left.ease,
                 shares: self.plot.shares,
             });
@@ -379,12 +410,12 @@ impl Handle<'_> {
             let handle = self.plot.handle(self.segment.frames(), at + drag.off);
             with_handle(drag.before, self.index, handle)
         });
-        if response.dragged() {
+        if response.dragged_by(PointerButton::Primary) {
             asks.extend(to.map(|ease| Ask::Preview(self.set(ease))));
         } else {
             memory.drag = None;
-            let ease = to.unwrap_or(self.segment.left.ease);
-            asks.push(if ease == drag.before { Ask::EndPreview } else { Ask::Do(self.set(ease)) });
+            let changed = to.filter(|ease| *ease != drag.before);
+            asks.push(changed.map_or(Ask::EndPreview, |ease| Ask::Do(self.set(ease))));
         }
     }
 }

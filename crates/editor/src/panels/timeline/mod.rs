@@ -73,6 +73,7 @@ pub(super) fn lanes(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
             ruler::over(ui, right, across, shown);
             return;
         }
+        curves::leave(ui, asks);
         ruler::over(ui, right, across, shown);
         hand::hand(ui, &layout, shown, asks);
         if let Some([from, to]) = shown.time.keys.boxed() {

@@ -129,6 +129,43 @@ fn escape_takes_a_drag_back() {
 }
 
 #[test]
+fn curves_that_go_while_a_handle_is_dragged_take_the_drag_back() {
+    let mut harness = curves_of(curved());
+    let count = harness.state().document.undo_count();
+    let from = place(&harness, "First handle");
+    harness.drag_at(from);
+    harness.run();
+    harness.hover_at(from + vec2(30.0, -20.0));
+    harness.run();
+    assert!(matches!(eases(harness.state(), 37.0)[1], Ease::Curve(..)));
+    harness.state_mut().session.toggle_curves();
+    harness.run();
+    assert_eq!(eases(harness.state(), 37.0), [Ease::Smooth; 2], "the preview stays");
+    harness.drop_at(from + vec2(30.0, -20.0));
+    harness.state_mut().session.toggle_curves();
+    harness.run();
+    assert_eq!(eases(harness.state(), 37.0), [Ease::Smooth; 2]);
+    assert_eq!(harness.state().document.undo_count(), count);
+}
+
+#[test]
+fn a_long_press_changes_nothing_and_a_right_click_on_a_handle_lists_the_eases() {
+    let mut harness = curves_of(curved());
+    let count = harness.state().document.undo_count();
+    let at = place(&harness, "First handle");
+    harness.drag_at(at);
+    // Longer than a click may last, so that egui begins a drag.
+    harness.run_steps(120);
+    harness.drop_at(at);
+    harness.run();
+    assert_eq!(eases(harness.state(), 37.0), [Ease::Smooth; 2]);
+    assert_eq!(harness.state().document.undo_count(), count);
+    right_click(&mut harness, at);
+    click(&mut harness, "Ease bounce");
+    assert_eq!(eases(harness.state(), 37.0)[0], Ease::Bounce);
+}
+
+#[test]
 fn a_double_click_straightens_and_arrows_step() {
     let mut harness = curves_of(curved());
     harness.ctx.options_mut(|options| options.input_options.max_double_click_delay = 2.0);
