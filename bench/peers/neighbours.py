@@ -1,4 +1,4 @@
-"""scipy's tree: the k nearest within the radius. WAY POINTS RADIUS MOST FOUND"""
+"""scipy's tree: the nearest MOST within the radius. Arguments: WAY POINTS RADIUS MOST FOUND."""
 
 import sys
 

@@ -9,7 +9,10 @@ THREADS = int(os.environ.get("BENCH_THREADS", "1"))
 
 
 def serve(task, first_secs=0.0):
-    """Says that all is ready and how long the first run took, then does the task as often as each line asks and says how long that took."""
+    """Prints that it is ready and `first_secs`, the seconds of a first run (0: not measured).
+
+    Then for each line `go N` it does the task N times and prints how long that took.
+    """
     print(json.dumps({"ready": True, "secs": first_secs}), flush=True)
     for line in sys.stdin:
         times = int(line.split()[1])

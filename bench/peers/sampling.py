@@ -1,4 +1,4 @@
-"""Points on a mesh. WAY VERTICES TRIANGLES FOUND COUNT"""
+"""Points on a mesh. Arguments: WAY VERTICES TRIANGLES FOUND COUNT."""
 
 import sys
 import time

@@ -1,4 +1,7 @@
-"""The turn of each particle from its neighbours, in numpy or numba. WAY POSITIONS REFERENCE LISTS ROWS ANGLES"""
+"""The turn of each particle from its neighbours, in numpy or numba.
+
+Arguments: WAY POSITIONS REFERENCE LISTS ROWS ANGLES.
+"""
 
 import math
 import sys

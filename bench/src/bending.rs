@@ -50,7 +50,7 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
     let strain = || Carrier::new(&bent.positions, &gradients.at(&bent.positions));
     let contenders = vec![
         Contender::here("Impasto", "", strain),
-        // In: six edges of three numbers, M⁻¹ and the position. Out: position and F.
+        // In: six edges of three numbers, the matrix M⁻¹ that `Gradients` keeps, and the position. Out: position and F.
         Streams::new(mesh.positions.len(), 6 * 3 + 9 + 3, 12).contender(),
     ];
     let figures = race(&bench.pace(false), contenders)?;
@@ -87,7 +87,7 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
             }
             sum
         }),
-        // In, for every particle: place, number, normal and height (8 numbers). Out: one number.
+        // In, for every particle: place, number, normal and height (8 numbers). Out: a bit, counted as a number.
         Streams::new(places.len(), 8, 1).contender(),
     ];
     let figures = race(&bench.pace(false), contenders)?;

@@ -72,7 +72,7 @@ pub const LARGEST: usize = PAPER_SCENES[2].particles;
 
 /// The particles of one body as points, in the order in which Impasto keeps them.
 pub struct Cloud {
-    /// The body's name and the number of points, for the table of results.
+    /// The scene's name, or `objects`, and the number of points, for the table of results.
     pub name: String,
     /// Positions, model space.
     pub positions: Vec<Vec3>,

@@ -79,7 +79,8 @@ fn edits_of(
     Ok(())
 }
 
-/// Versions of a scene in which an apple is combed: each has one more point of the gesture.
+/// Versions of a scene in which an apple is combed: the first without a gesture, the second with two points of it, each
+/// later one with one point more.
 fn combed(particles: u64) -> impl Iterator<Item = Arc<LoadedScene>> {
     let mesh = shapes::apple_skin();
     let view = gestures::camera([0.0, 0.5, 4.0], [0.0, 0.5, 0.0]);

@@ -1,5 +1,6 @@
-//! Measures memory in bytes per particle: what a painting takes during playback, and the peak while it is prepared. The
-//! scene's files, which are loaded before, do not count; the painting's own copies of their meshes do.
+//! Measures memory: bytes per particle that a painting takes during playback and at the peak of preparing, and the peak
+//! bytes of computing a frame. The scene's files, which are loaded before, do not count; the painting's own copies of
+//! their meshes do.
 
 use std::sync::Arc;
 

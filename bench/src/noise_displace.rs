@@ -1,5 +1,6 @@
 //! Repeats table 9 of Hong and Park: how long spheres take to draw with the noise-displaced material and without, in
-//! the plain render at 1024 × 1024. Here the processor draws everything, so only the ratio can be compared with theirs.
+//! the plain render at 1024 × 1024. They drew on a graphics card, and here the processor may draw, so only the ratio
+//! can be compared with theirs.
 
 use std::sync::Arc;
 use std::time::Instant;

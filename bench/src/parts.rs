@@ -1,9 +1,9 @@
 //! The list of the benchmark's parts, by name.
 //!
-//! A part is a function that adds rows to [`Bench::table`]. It fails if its contenders do not give equal answers. It
-//! hands them to [`crate::race::race`] as [`crate::race::Contender`]s, ours first and the floor (`floor.rs`) last, and
-//! makes a [`crate::table::Row`] of the figures. To add a part, write a module with `pub fn run(&mut Bench)` and add a
-//! line here.
+//! A part is a function that adds rows to [`Bench::table`]. It fails if the answers of its peers differ from ours.
+//! Most parts with peers hand all to [`crate::race::race`] as [`crate::race::Contender`]s, ours first and the floor
+//! (`floor.rs`), if any, last, and make a [`crate::table::Row`] of the figures. To add a part, write a module with
+//! `pub fn run(&mut Bench) -> anyhow::Result<()>` and add a line here.
 
 use crate::bench::Bench;
 use crate::{
@@ -17,7 +17,7 @@ pub struct Part {
     pub name: &'static str,
     /// What it measures.
     pub about: &'static str,
-    /// Whether `--quick` runs it when the command line names no parts. A full run then includes every part.
+    /// Whether `--quick` without names of parts runs it. Without `--quick` and names, all parts run.
     pub quick: bool,
     /// Measures it.
     pub run: fn(&mut Bench) -> anyhow::Result<()>,

@@ -110,7 +110,7 @@ impl Peer {
     /// Runs the task `times` times; returns the seconds of all runs together.
     ///
     /// # Errors
-    /// When the peer has ended.
+    /// When the peer has ended, or its reply has no seconds.
     pub fn go(&mut self, times: usize) -> anyhow::Result<f64> {
         let input = self.input.as_mut().context("a peer without input")?;
         writeln!(input, "go {times}")

@@ -16,7 +16,7 @@ pub enum Plot {
     Sampling,
     /// Lists of neighbours.
     Neighbours,
-    /// Preparing and frames.
+    /// Preparing, the solve alone, and frames.
     Growth,
 }
 

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use crate::table::{Figure, Spread, Unit};
 
-/// Runs the task this many times and returns the seconds of all runs together.
+/// Runs the task as many times as it is told, and returns the seconds of all runs together.
 type Run<'a> = Box<dyn FnMut(usize) -> anyhow::Result<f64> + 'a>;
 
 /// Something that does the task, or why it is missing on this machine.
@@ -62,8 +62,8 @@ pub struct Pace {
     pub rounds: usize,
     /// Shortest measurement, seconds: quicker tasks are done several times in a row.
     pub least_secs: f64,
-    /// A contender that has taken this many seconds in three rounds or more gets no further round. If its warm-up
-    /// alone took as long, that is its only round.
+    /// A contender that has had three rounds or more gets no further one once it has taken this many seconds, its first
+    /// warm-up included. If that warm-up alone took as long, it counts as its only round.
     pub most_secs: f64,
 }
 
@@ -147,7 +147,7 @@ mod tests {
             figures.iter().map(Figure::median).collect::<Vec<_>>(),
             [Some(0.01), None, Some(6.0), Some(20.0)]
         );
-        // Two warm-ups of the quick one, then rounds in which they alternate.
+        // Warm-ups, two of them the quick one's; then rounds in which the quick and the slow one alternate.
         assert_eq!(order.borrow()[..7], ["quick", "quick", "slow", "once", "quick", "slow", "quick"]);
     }
 

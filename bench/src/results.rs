@@ -49,7 +49,7 @@ fn name_of(unit: Unit) -> &'static str {
 
 impl Results {
     /// The figures of a table that have a value: ours, those of the peers (others that do the same task), and the
-    /// floors (the least times that memory allows).
+    /// floors (the times of minimal work in place of the task).
     pub fn of(table: &Table) -> Self {
         let mut entries = Vec::new();
         for row in &table.rows {
@@ -148,7 +148,7 @@ impl Results {
         text
     }
 
-    /// The ratio of another's time (a peer's or a floor's) to ours; `None` if the entry is ours.
+    /// The ratio of another's time (a peer's or a floor's) to ours; `None` if the entry is ours or has another unit.
     fn over_ours(&self, entry: &Entry) -> Option<Entry> {
         let ours =
             self.entries.iter().find(|other| other.what == entry.what && other.input == entry.input)?;

@@ -1,5 +1,5 @@
 //! Times how the mesh of the paper's largest scene is sampled, by chance and as blue noise, and measures the spacing
-//! that each method reaches.
+//! that each blue-noise method reaches.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -179,9 +179,9 @@ fn blue(bench: &mut Bench, mesh: &TriangleMesh, count: usize) -> anyhow::Result<
     Ok(())
 }
 
-/// The distance of each point to the nearest other one, divided by the hexagonal spacing of as many points: the mean,
-/// and the value that one point in a thousand is below. The first two numbers count only points on the same side of
-/// the surface (n·n' > 0), since only their strokes crowd each other; the last two count all points.
+/// The distance of each point to the nearest other one, divided by the hexagonal spacing of as many points and capped
+/// at 1.5: the mean, and the value that one point in a thousand is below. The first two numbers count only points on
+/// the same side of the surface (n·n' > 0), since only their strokes crowd each other; the last two count all points.
 fn spacing(sample: &Sample, area: f64) -> [f64; 4] {
     let points = &sample.points;
     let hexagonal = hexagonal_spacing(area, points.len());

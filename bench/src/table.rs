@@ -1,5 +1,5 @@
-//! The table of the benchmark's results. Each row has our figure, the figures of the peers, the floor that memory sets,
-//! and the goals for ours.
+//! The table of the benchmark's results. Each row has our figure, the figures of the peers, the floor (the time of
+//! minimal work in place of the task), and the goals for ours.
 
 mod shown;
 
@@ -44,7 +44,7 @@ impl Spread {
         Self { median: at(0.5), low: at(0.25), high: at(0.75), runs }
     }
 
-    /// A number that is the same in every run.
+    /// A number of one run, or the same in every run.
     pub fn exact(number: f64) -> Self {
         Self::of(vec![number])
     }
@@ -122,7 +122,7 @@ pub struct Row {
     pub ours: Figure,
     /// The figures of others that do the same.
     pub peers: Vec<Figure>,
-    /// The time that memory alone takes: no method can be faster.
+    /// The time of minimal work in place of the task: its memory traffic (`floor.rs`) or a bare draw (`stroke_pass`).
     pub floor: Option<Figure>,
     /// The goals.
     pub goals: Vec<Goal>,
@@ -193,7 +193,7 @@ pub struct Table {
     pub rows: Vec<Row>,
 }
 
-/// A number with its unit, to three digits.
+/// A number with its unit, rounded for display.
 pub fn shown(number: f64, unit: Unit) -> String {
     shown::number(number, unit)
 }

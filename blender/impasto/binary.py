@@ -28,7 +28,7 @@ _good: dict[str, float] = {}
 def find() -> Path:
     """The program: that of the preferences, else the one beside this add-on, else the one on the PATH.
 
-    Raises Failure where there is none, or where it is too old."""
+    Raises Failure where there is none, where it does not run, or where its version does not go with this add-on."""
     named = preferences.program()
     if named:
         if not Path(named).is_file():

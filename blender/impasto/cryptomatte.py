@@ -1,4 +1,4 @@
-"""The notes of mattes: Blender's Cryptomatte node finds a matte by the name of its view layer and knows things by their names."""
+"""Metadata of Cryptomatte: Blender's node finds a matte by the name of its view layer, and things by their names."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def murmur3(text: str) -> int:
 
 
 def stamp(result: bpy.types.RenderResult, layer_name: str, notes: dict[str, str]) -> None:
-    """Gives a result the notes of our file, under the names that Blender uses. Where several layers are painted, each has its own."""
+    """Gives a result the Cryptomatte metadata of our file, under Blender's names: they begin with the view layer's."""
     for key, kind in notes.items():
         if not key.startswith("cryptomatte/") or not key.endswith("/name"):
             continue

@@ -49,7 +49,7 @@ class ImpastoEngine(bpy.types.RenderEngine):
         if export_request.is_on:
             export_request.failure = words
             return
-        # The operator raises what is reported; the render's window shows the other.
+        # `report` makes the render operator raise an error, `error_set` shows the words in the render's window.
         self.report({"ERROR"}, words)
         self.error_set(words)
 
@@ -114,14 +114,14 @@ class ImpastoEngine(bpy.types.RenderEngine):
         )
         self.frame_set(frame, 0.0)
         export_request.warnings = warnings
-        # Where the operator asked, it tells them.
+        # An operator that asked for the export reports its warnings itself.
         for words in [] if export_request.is_on else warnings:
             self.report({"WARNING"}, words)
 
     def _hand_over(
         self, planes: Planes, rows: list[passes.RenderPass], depsgraph: bpy.types.Depsgraph
     ) -> None:
-        """Copies the pixels of all passes into Blender's result."""
+        """Copies the pixels of all passes, and the metadata of mattes, into Blender's result."""
         left, bottom, width, height = refusals.part_px(depsgraph.scene.render, planes.size_px)
         found = [(row, passes.pixels(row, planes)) for row in rows]
         result = self.begin_result(0, 0, width, height, layer=depsgraph.view_layer.name)
@@ -134,7 +134,7 @@ class ImpastoEngine(bpy.types.RenderEngine):
                     target.rect.foreach_set(part.ravel())
         finally:
             self.end_result(result)
-        # The result above is a part that is merged into this one, pixels only.
+        # `end_result` merges only pixels into the whole result; its metadata has to be set there directly.
         cryptomatte.stamp(self.get_result(), depsgraph.view_layer.name, planes.notes)
 
 

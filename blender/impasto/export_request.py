@@ -27,7 +27,7 @@ export_request = ExportRequest()
 
 @contextmanager
 def _settings(scene: bpy.types.Scene) -> Iterator[None]:
-    """Render settings under which nothing but the engine works: no compositor writes files, and no picture is replaced."""
+    """Render settings for an export alone: no compositor writes files, and only the last slot loses its picture."""
     render = scene.render
     kept = (render.engine, render.use_compositing, render.use_sequencer)
     result = bpy.data.images.get("Render Result")

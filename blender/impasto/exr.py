@@ -21,7 +21,7 @@ class Planes:
     ) -> None:
         self.size_px = size_px
         self.channels = channels
-        # The texts of the head of the file.
+        # The text attributes of the header.
         self.notes = notes
 
     def flat(self, names: list[str]) -> np.ndarray | None:
@@ -55,7 +55,7 @@ def _planes(data: bytes) -> Planes:
     row_type = np.dtype(
         [("y", "<i4"), ("bytes", "<i4")] + [(f"c{index}", kind, width) for index, kind in enumerate(types)]
     )
-    # Behind the head stand the places of all rows; the rows follow in their order.
+    # After the header comes the table of the rows' offsets, 8 bytes each; then the rows, in order.
     first = at + 8 * height
     rows = np.frombuffer(data, dtype=row_type, count=height, offset=first)
     if rows["bytes"][0] != row_type.itemsize - 8 or rows["y"][-1] != top:

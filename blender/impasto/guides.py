@@ -16,11 +16,12 @@ from . import painting, scene_file
 from .failure import Failure
 
 COLLECTION = "Impasto guides"
-# Strokes follow a guide this far to its sides, over its length, where the curve does not say it by its radius.
+# How far to its sides strokes follow a guide, as a share of its length.
 _RADIUS_OF_LENGTH = 0.25
-# A curve farther from every surface than this share of its length is on none.
+# A curve is on no surface if its points lie farther off, on average, than this share of its length.
 _FARTHEST_OF_LENGTH = 0.5
-# Which guides were read from curves, beside the scene file: those of the window stay when curves are read again.
+# The file beside the scene file that notes which guides were read from curves. Only these are replaced when curves are
+# read again; guides that were combed in Impasto's window stay.
 _READ_NAME = "guides_of_blender.json"
 # A curve is taken with at most so many points.
 _MOST_POINTS = 64
@@ -80,7 +81,7 @@ def _lines(thing: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[list
 
 
 def _of_splines(evaluated: bpy.types.Object, world: Matrix) -> list[list[Vector]]:
-    """A curve as its mesh without thickness has it: the edges one after the other."""
+    """The splines of a curve object, read from the edges of its mesh; the curve must have no thickness."""
     mesh = evaluated.to_mesh()
     try:
         following = {}
@@ -165,7 +166,8 @@ def _at_rest(scene: bpy.types.Scene, guides: list[Guide]) -> None:
 
 
 def _object_from_world(thing: bpy.types.Object, is_cached: bool) -> Matrix:
-    """From the world (Y up) into the object's own space in the scene file: its place and turn taken out, its size kept."""
+    """From the world (Y up) into the object's own space in the scene file: its place and turn taken out, its size kept.
+    With a point cache that space is the world."""
     if is_cached:
         return Matrix.Identity(4)
     location, turn, _size = thing.matrix_world.decompose()
@@ -245,7 +247,7 @@ def _write(scene_path: Path, texts: dict[str, list[str]]) -> None:
         values += [f"regions[{index}].guides+={guide}" for guide in guides]
         if values:
             scene_file.write(scene_path, values)
-    # As the program reads them, so that they are known again.
+    # Noted as the program gives them back, so that the next call recognizes them.
     found = scene_file.document(scene_path)
     read_now = {}
     for name, guides in texts.items():

@@ -27,7 +27,7 @@ class _Window:
     def __init__(self, scene_file: Path) -> None:
         self.scene_file = scene_file
         self._said: IO[bytes] = tempfile.TemporaryFile()
-        # A window that no longer reads gets no more lines: what was told last is told once.
+        # What the window was told last; only changes are sent.
         self._told: dict = {}
         self._process = subprocess.Popen(
             [str(binary.find()), "edit", str(scene_file), "--follow"], stdin=subprocess.PIPE, stderr=self._said
@@ -100,7 +100,7 @@ class IMPASTO_OT_comb(bpy.types.Operator):
 
 
 def _beside() -> float | None:
-    """What goes on while the window is open; at its end, why it failed."""
+    """The timer that runs while the window is open: tells it frame and view, and prints why it failed, if it did."""
     if _window is None:
         return None
     if not _window.is_open():
@@ -112,7 +112,7 @@ def _beside() -> float | None:
 
 
 def tell() -> None:
-    """Tells the window where Blender is, where the scene asks for it."""
+    """Tells the window Blender's frame and view, if the scene asks for it."""
     scene = bpy.context.scene
     if _window is None or scene is None or not scene.impasto.follow:
         return
@@ -147,7 +147,7 @@ def _view(region: bpy.types.RegionView3D) -> dict | None:
 
 @persistent
 def _after_save(*_unused: object) -> None:
-    """An export with each save, where the scene asks for it; not inside the save itself."""
+    """Exports with each save, if the scene asks for it: at once in background mode, else by a timer after the save."""
     scene = bpy.context.scene
     if scene.impasto.export_on_save and not export_request.export_request.is_on:
         if bpy.app.background:

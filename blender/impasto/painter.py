@@ -113,7 +113,7 @@ class Painter:
             line = self._next_line(should_stop)
             event = line.get("event")
             if event == "ready":
-                # What an order says again is told once.
+                # Every order repeats the scene's warnings: each is told once.
                 news = [words for words in line.get("warnings", []) if words not in self._warned]
                 self._warned.update(news)
                 self._warnings += news
@@ -180,7 +180,7 @@ _painters: dict[Path, Painter] = {}
 
 
 def painter_of(scene_file: Path) -> Painter:
-    """The painter of a scene file; a new one where there is none, or where it has ended."""
+    """The painter of a scene file; a new one where there is none, or where it has ended or is another program."""
     known = _painters.get(scene_file)
     if known is not None and known.is_alive() and known.program == binary.find():
         return known

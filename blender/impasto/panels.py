@@ -154,7 +154,7 @@ _TAKEN_IN = ("EEVEE_MATERIAL_PT_context_material", "EEVEE_MATERIAL_PT_surface", 
 
 
 def _shared_panels() -> list[type]:
-    """The panels of Blender that make sense with any engine (output, format, frame range, lights, cameras), and some of one."""
+    """Blender's panels that make sense with any engine (output, frame range, lights, cameras, ...), and `_TAKEN_IN`."""
 
     def is_shared(panel: type) -> bool:
         compatible = getattr(panel, "COMPAT_ENGINES", set())

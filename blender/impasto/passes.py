@@ -1,4 +1,4 @@
-"""The passes: what of Impasto's AOVs stands where in Blender."""
+"""The passes: which of Impasto's AOVs fills which pass of Blender."""
 
 from __future__ import annotations
 

@@ -40,7 +40,7 @@ def document(path: Path) -> dict[str, Any]:
 
 
 def sidecar(path: Path) -> dict[str, Any]:
-    """What the sidecar of the shot says; empty where it cannot be read."""
+    """What the sidecar of the shot, or another JSON file beside it, says; empty where it cannot be read."""
     try:
         return json.loads(path.read_text(encoding="utf-8"))
     except (OSError, json.JSONDecodeError):
@@ -70,7 +70,7 @@ def region_of(found: dict[str, Any], on: dict[str, Any]) -> int | None:
     return None
 
 
-# Of regions that cover one place the last one counts, so that those which say less come first.
+# Where regions overlap the last one counts, so the wider ones come first.
 _ORDER = ("Everything", "Collection", "EachMaterial", "Object", "Material", "Group", "Dabs")
 
 

@@ -9,7 +9,7 @@ import bpy
 from . import painting, scene_file
 from .failure import Failure
 
-# As the program has them; the first of each is what a file that says nothing has.
+# The program's presets; the first is the default.
 PRESETS = ("oil study", "impressionist", "dry brush", "gouache", "ink", "paper")
 NO_PRESET = ("NONE", "As the Scene", "As the scene has it, or the oil study")
 
@@ -173,7 +173,7 @@ class SceneSettings(bpy.types.PropertyGroup):
         name="Folder",
         description="Where the painting's files are; left empty, a folder beside the .blend",
         subtype="DIR_PATH",
-        # Paths that begin with // are told of from Blender 4.5 on.
+        # From Blender 4.5 on a property must say that its path may begin with //.
         options={"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5, 0) else set(),
     )
     export_on_save: bpy.props.BoolProperty(  # type: ignore[valid-type]
@@ -198,7 +198,7 @@ class SceneSettings(bpy.types.PropertyGroup):
 
 
 class LayerSettings(bpy.types.PropertyGroup):
-    """Which passes of its own a view layer has."""
+    """Which of Impasto's own passes a view layer has."""
 
     strokes: bpy.props.BoolProperty(  # type: ignore[valid-type]
         name="Strokes", description="Angle, number, trust and layer of the stroke that shows most"

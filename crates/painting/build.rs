@@ -1,5 +1,5 @@
-//! Puts a hash of the sources that preparing depends on, and of the compiler, into `IMPASTO_SOURCES`. The hash is part
-//! of the key of what is kept on disk, so that a program never uses what a build of other sources has kept.
+//! Puts a hash of the sources that preparing depends on, and of the compiler and its flags, into `IMPASTO_SOURCES`. The
+//! hash is part of the key of what is kept on disk, so that a program never uses what a different build has kept.
 
 use std::env;
 use std::path::{Path, PathBuf};

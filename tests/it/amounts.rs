@@ -138,7 +138,7 @@ fn sizes_follow_the_coverage_and_less_density_is_a_part_of_more() {
             assert!(few.is_subset(&many), "{by}: a stroke is there that was not with more density");
             assert!(few.len() < many.len(), "{by}");
             for (particle, stroke) in &strokes {
-                // The lowest ranks stay, and each stroke stays where and as large as it is.
+                // A stroke that stays keeps its place and size; only its supply may fall.
                 let was = &more[particle];
                 assert!(stroke.supply_ln <= was.supply_ln);
                 assert_eq!(Stroke { supply_ln: was.supply_ln, ..*stroke }, *was);

@@ -194,7 +194,8 @@ fn strokes_on_a_rolled_sheet_have_the_angle_of_the_roll() {
     }
 }
 
-/// The same strokes have the same numbers in another frame: most of what the middle shows is still there.
+/// A stroke has the same number in every frame: when the camera has rolled by half a turn, most pixels near the middle
+/// show the stroke that the opposite pixel showed before.
 #[test]
 fn a_stroke_keeps_its_number() {
     let mut renderer = pictures::renderer(Driver::Auto);
@@ -210,8 +211,8 @@ fn a_stroke_keeps_its_number() {
     let (mut same, mut all) = (0, 0);
     for row in 70..110 {
         for column in 140..180 {
-            // Half a turn about the middle.
             all += 1;
+            // Half a turn about the middle.
             same += usize::from(first[inside(row, column)] == last[inside(179 - row, 319 - column)]);
         }
     }

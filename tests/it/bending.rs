@@ -125,7 +125,7 @@ fn twisted(at: DVec3) -> DVec3 {
     DVec3::new(at.x, at.y * cos - at.z * sin, at.y * sin + at.z * cos)
 }
 
-/// Sheared and stretched threefold.
+/// Sheared, and scaled by 1.5 along X, 0.7 along Y and 0.5 along Z.
 fn stretched(at: DVec3) -> DVec3 {
     DVec3::new(1.5 * at.x + 0.4 * at.y, 0.7 * at.y, 0.5 * at.z)
 }
@@ -169,7 +169,8 @@ fn a_stated_angle_shows_in_the_reference_whatever_the_rest() {
     }
 }
 
-/// Strokes that are raised above the surface have the stated angle, even if the body is bent in the reference.
+/// Strokes that are raised above the surface have the stated angle and length, even if the body is bent in the
+/// reference.
 #[test]
 fn raised_strokes_show_as_stated_in_a_bent_reference() {
     let target = shapes::moved(&shapes::sheet(32), stretched);
@@ -331,6 +332,33 @@ fn changed_parade(change: impl FnOnce(&mut serde_json::Value, &mut Vec<u8>)) -> 
         }
         Err(report) => (false, report.to_string()),
     }
+}
+
+/// glTF places a skinned mesh by its joints alone: what its own node says of its place means nothing.
+#[test]
+fn the_place_of_a_skinned_node_is_passed_over() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("parade.glb");
+    let shot = impasto_tests::command::root().join("scenes/meshes/parade.glb");
+    std::fs::copy(shot, &path).expect("copied");
+    let scene = folder.path().join("still.ron");
+    std::fs::write(&scene, "(version: 1, objects: [(name: \"all\", mesh: \"parade.glb\")], camera: (keys: [(frame: 0, eye: (0, 1, 9), target: (0, 1, 0))]))").expect("written");
+    let positions = || {
+        let loaded = load(&scene, &LoadOptions::default()).unwrap_or_else(|report| panic!("{report}"));
+        loaded.meshes["parade.glb"].mesh.positions.clone()
+    };
+    let before = positions();
+    let mut count = 0;
+    impasto_tests::glb::edit(&path, |root, _| {
+        for node in root["nodes"].as_array_mut().expect("nodes") {
+            if node["skin"].is_number() {
+                (node["translation"], node["scale"]) =
+                    (serde_json::json!([5, 1, 0]), serde_json::json!([0.01, 0.01, 0.01]));
+                count += 1;
+            }
+        }
+    });
+    assert!(count > 0 && positions() == before);
 }
 
 /// The bytes of an accessor.

@@ -326,7 +326,7 @@ fn a_wrong_command_line_ends_with_2() {
     assert_eq!(code(&folder.run(&["--help"])), 0);
 }
 
-/// Angle of each stroke by id, layer and size, from CSV.
+/// Angle of each stroke by id, layer and length, from CSV.
 fn angles(text: &str) -> BTreeMap<(String, String), f64> {
     // The object's name holds a comma and quotes, so fields are counted from the end.
     let row = |line: &str| -> ((String, String), f64) {

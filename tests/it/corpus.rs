@@ -1,5 +1,6 @@
-//! Tests with good and hostile files: always those of a small corpus made here, and those of the large corpus if
-//! `IMPASTO_CORPUS` names its folder. The real command checks them with little memory and little time.
+//! Tests with good and hostile files: always those of the small corpus that `impasto_tests::corpus` makes, and those of
+//! the large corpus if `IMPASTO_CORPUS` names its folder. The real command checks them with little memory and little
+//! time.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -10,7 +11,7 @@ use impasto_scene::obj;
 use impasto_tests::command::impasto;
 use impasto_tests::corpus::{self, Outcome};
 
-/// Limits of address space and time for all files of one kind together.
+/// Limits of address space and time for one run of the command, which checks all files of a test.
 const MEMORY_KIB: u32 = 1 << 20;
 const SECONDS: u32 = 120;
 

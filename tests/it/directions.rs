@@ -9,7 +9,8 @@ use impasto_core::TriangleMesh;
 use impasto_painting::frame::LayerKind;
 use impasto_painting::{Frame, FrameOptions, Painting, prepare};
 use impasto_scene::document::{
-    Bend, Dab, Direction, Guide, ObjectKey, Reference, Region, Scale, Scene, Seam, Selector, StrokeSettings,
+    Bend, Dab, Direction, Guide, ObjectKey, Reference, Region, Scale, Scene, Seam, Selector, Sense,
+    StrokeSettings,
 };
 use impasto_scene::motion::CameraPose;
 use impasto_tests::gestures::{camera, drag};
@@ -69,8 +70,8 @@ fn painted(scene: Scene, mesh: TriangleMesh) -> Painting {
     prepare(shapes::loaded(scene, [mesh])).unwrap()
 }
 
-/// Views of the point (0, `height`, 0): as the reference sees it, from both sides, and from above. Each comes with the
-/// angle by which it is turned from the reference's view, degrees.
+/// Views of the point (0, `height`, 0): as the reference sees it, from both sides, and from above. Each comes with
+/// roughly the angle by which it is turned from the reference's view, degrees.
 fn off_the_reference(height: f64) -> Vec<(f64, CameraPose)> {
     let eye = |yaw: f64, pitch: f64| {
         let (yaw, pitch) = (yaw.to_radians(), pitch.to_radians());
@@ -268,6 +269,29 @@ fn seams_are_hard_or_soft_as_the_region_says() {
     assert!(soft < 12.0, "{soft}");
 }
 
+#[test]
+fn arrows_and_lines_on_one_body_meet_where_they_agree() {
+    // Both halves state the same 50 degrees, one as arrows. A soft seam has nothing to turn.
+    let mut scene = combed(Direction::Angle(50.0), Vec::new(), 8000);
+    let right = (0..40).map(|index| Dab {
+        at: [0.25 + 0.25 * f64::from(index % 4), -1.0 + 0.22 * f64::from(index / 4), 0.0],
+        normal: [0.0, 0.0, 1.0],
+        radius: 0.3,
+        take_away: false,
+    });
+    scene.regions.push(Region {
+        direction: Direction::Angle(50.0),
+        seam: Seam::Soft(0.4),
+        sense: Sense::Arrows,
+        ..Region::new("dabbed", Selector::Dabs("thing".to_owned(), right.collect()))
+    });
+    let painting = painted(scene, shapes::sheet(20));
+    let strokes = seen_by(&painting, &camera([0.0, 0.0, 4.0], [0.0; 3]));
+    let worst =
+        strokes.values().map(|seen| lines_apart(seen.angle_rad, 50f64.to_radians())).fold(0.0, f64::max);
+    assert!(strokes.values().any(|seen| seen.region == 1) && worst < 0.6, "{worst} degrees off");
+}
+
 /// A tube round Y, open at both ends.
 fn tube() -> TriangleMesh {
     let mut mesh = shapes::sphere(64, 24);
@@ -315,8 +339,8 @@ fn toward_a_point_runs_there() {
 }
 
 /// Compares each stroke whose surface faces away from the reference with its ten nearest neighbours. Returns the median
-/// and the 95th percentile of the angles between them, degrees, and the number of such strokes. (`impasto measure`
-/// calls this M6.)
+/// and the 95th percentile of the angles between them, degrees, and the number of such strokes. (A simple form of M6
+/// of `impasto measure`.)
 fn coherence(painting: &Painting, now: &CameraPose, reference: DVec3) -> (f64, f64, usize) {
     let strokes = seen_by(painting, now);
     let particles = painting.particles(0);

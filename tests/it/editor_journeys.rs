@@ -83,7 +83,7 @@ fn from_a_mesh_to_a_saved_film() {
     editor.wait_for_value("Animate, select, shot camera, frame 0, reference");
     type_number(&mut editor, "Current frame", "60");
     editor.wait_for_value("Animate, select, shot camera, frame 60");
-    // The object is in the middle of the picture.
+    // The click meets the apple, which is in the middle of the viewport, and selects it.
     editor.click("Viewport");
     editor.keys(&["g", "x", "period", "3", "Return"]);
     shown = editor.rest_after(shown);

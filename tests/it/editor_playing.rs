@@ -20,7 +20,7 @@ use crate::editor_window::apple_alone;
 /// Frames of the film.
 const FRAMES: f64 = 120.0;
 
-/// A folder with a scene of 120 frames: the apple alone, of few particles, rolls while the camera passes.
+/// A folder with a scene of 120 frames: the apple alone, of few particles, turns while the camera rolls.
 fn folder() -> tempfile::TempDir {
     let (folder, alone) = apple_alone(1500);
     let key = "keys: [(frame: 0, translation: (0, 0, 0), rotation_deg: (0, -25, 0))]";

@@ -7,7 +7,7 @@ use impasto_tests::screen::{EditorWindow, Screen, wait_for};
 
 use crate::editor_window::{folder, read};
 
-/// Adds the missing texture `skin.png` to the apple's material.
+/// Makes the apple's material name a texture that does not exist, `skin.png`.
 fn with_a_missing_texture(folder: &Path) {
     let mtl = folder.join("meshes/apple.mtl");
     let text = std::fs::read_to_string(&mtl).unwrap();

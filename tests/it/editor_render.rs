@@ -16,7 +16,8 @@ use impasto_scene::aovs::AovSet;
 use impasto_scene::load::LoadOptions;
 use impasto_tests::command::{impasto, root};
 
-/// A scene of two moving cubes, with enough frames for two painters, saved in a folder whose name a shell needs quoted.
+/// A scene of two cubes, of which one turns, with enough frames for two painters, saved under a name with a space,
+/// which a shell needs quoted.
 fn document(folder: &Path) -> Document {
     std::fs::create_dir(folder).unwrap();
     std::fs::copy(root().join("scenes/meshes/cube.obj"), folder.join("cube.obj")).unwrap();
@@ -170,7 +171,7 @@ fn what_is_rendered_is_the_document_as_it_was() {
     };
     let plan = settings.plan(&document, 2.0).unwrap();
     let before = commanded(&plan, &document);
-    // The document is edited and even saved after rendering began.
+    // The document is edited and even saved after the plan was made.
     document.apply(&Command::Scene(SceneEdit::SetSeed(6))).unwrap();
     document.save().unwrap();
     assert!(commanded(&plan, &document) != before, "another seed is another picture");

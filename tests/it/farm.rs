@@ -23,7 +23,7 @@ const SCENE: &str = r#"#![enable(implicit_some)]
 const SHEET: &str =
     "mtllib sheet.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 1\nusemtl a\nf 1/1 2/2 3/1 4/2\n";
 
-/// A folder with a scene; what `far/other.obj` needs lies in a further folder.
+/// A folder with a scene in `shot`; its mesh `far/other.obj`, and what that needs, lie in the asset folder `library`.
 fn shot() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &[u8]| {
@@ -255,7 +255,7 @@ fn frames_of_another_state_are_not_taken_for_this_ones() {
     for more in [&["--size", "64x32"][..], &["--alpha"], &["--set", "strokes.scale=2"], &["--bits", "16"]] {
         assert!(!is_taken(more), "{more:?}");
     }
-    // A comment in the scene makes no other state. A changed field, mesh or texture does.
+    // A comment in the scene makes no other state. A changed field does, and any changed byte of a mesh or texture.
     std::fs::write(here.join("shot/scene.ron"), format!("// mine\n{SCENE}")).unwrap();
     assert!(is_taken(&[]));
     std::fs::write(here.join("shot/scene.ron"), SCENE.replace("roll_deg: 30", "roll_deg: 31")).unwrap();

@@ -1,4 +1,4 @@
-//! Tests that shipped scenes look as they did: compares small pictures of each technique, through both drivers, with
+//! Tests that shipped scenes look as they did: compares small pictures of some techniques, through both drivers, with
 //! stored pictures that a person found good. `IMPASTO_BLESS=1` rewrites the stored ones: look at each.
 
 use std::path::PathBuf;
@@ -24,8 +24,8 @@ const SHOWN: &[(&str, &str, f64)] = &[
     ("light_billboards", "roll", 7.0),
 ];
 
-/// How many pixels may be wrong. Rounding can swap the order of strokes and change single pixels; the limit is too
-/// small to hide a wrong stroke.
+/// How many pixels may be wrong. Drivers round differently, which changes single pixels; the limit is too small to hide
+/// a wrong stroke.
 const MOST_WRONG_PIXELS: usize = 20;
 /// A pixel is wrong when one of its channels is off by more than this, of 255.
 const MOST_OFF: u8 = 16;

@@ -13,7 +13,7 @@ use impasto_tests::shapes;
 
 use crate::directions::{SIZE_PX, Seen, body_strokes};
 
-/// A view of the sheet that fills the picture, 360 pixels high.
+/// A view straight at the sheet, which is 285 pixels high in a picture of 360.
 fn straight_on() -> CameraPose {
     camera([0.0, 0.0, 4.0], [0.0; 3])
 }

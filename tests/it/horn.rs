@@ -18,7 +18,7 @@ struct View {
     clip: ClipView,
 }
 
-/// A camera at `distance` from the origin in a random direction, rolled at random.
+/// A camera about `distance` from the origin in a random direction, rolled and shifted sideways at random.
 fn view(seed: u32, fov_y_deg: f64, distance: f64) -> View {
     let number = |index: u32| f64::from(hash::unit(hash::combine(seed, index)));
     let rotation = DQuat::from_rotation_z(number(0) * 6.0)
@@ -142,7 +142,7 @@ fn horn_is_close_to_the_papers_unweighted_sum() {
     assert!(cases.len() > 25_000, "{} strokes with neighbours", cases.len());
     let mut errors: Vec<f64> = Vec::new();
     for (index, fov) in [20.0, 40.0, 60.0, 80.0, 100.0].into_iter().enumerate() {
-        // The sphere fills the picture's height.
+        // The sphere fills most of the picture's height.
         let distance = 1.15 / (0.5 * fov * std::f64::consts::PI / 180.0).sin();
         let seed = 100 + 2 * index as u32;
         let (reference, now) = (view(seed, fov, distance), view(seed + 1, fov, distance));

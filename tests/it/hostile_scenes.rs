@@ -207,7 +207,8 @@ const CASES: [Case; 35] = [
     case("seed_same", "seed: 1", Good, ""),
 ];
 
-/// Cases that other tests cover, and cases about output files, which are not part of a scene.
+/// Cases of the large corpus that are not in `CASES`: other tests cover them, or they are about output files, which are
+/// not part of a scene.
 const CASES_ELSEWHERE: [&str; 4] = ["particles_sum", "text_crlf", "output_is_input", "output_unwritable"];
 
 pub(crate) fn scene_text(fields: &str) -> String {

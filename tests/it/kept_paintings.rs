@@ -56,7 +56,8 @@ fn is_taken(painting: &Painting) -> bool {
     matches!(painting.kept(), Kept::Taken(..))
 }
 
-/// Asserts that all that a picture or `impasto info` is made from is the same in two paintings.
+/// Asserts that two paintings have the same counts, areas, singularities and poles, and the same strokes, marks and
+/// finish at these frames.
 fn assert_same(what: &str, a: &Painting, b: &Painting, frames: &[f64]) {
     assert_eq!(a.particle_counts(), b.particle_counts(), "{what}");
     for object in 0..a.particle_counts().len() {
@@ -190,7 +191,7 @@ fn a_mesh_a_texture_and_a_brush_that_change_change_the_key() {
     assert_eq!(own, key(&Arc::new(elsewhere)), "where the file lies does not matter");
 }
 
-/// A scene that is prepared quickly, but has every kind of array that is kept.
+/// A scene that is prepared quickly. With `Solver::Horn`, lists of neighbours are kept of it too.
 fn small(solver: Solver) -> Arc<LoadedScene> {
     let mut scene = shapes::scene(vec![shapes::object("ball", 120)]);
     scene.style = Style::default();
@@ -229,7 +230,8 @@ fn bytes_that_are_cut_changed_or_foreign_are_made_anew() {
         flipped[bit / 8] ^= 1 << (bit % 8);
         unfit(&format!("bit {bit}"), flipped);
     }
-    // Headers with a right checksum but a wrong version, a wrong key, or a claim of more bytes than there are.
+    // Headers with a right checksum. The first is unchanged, so it is taken; the others have a wrong version, a wrong
+    // key, or a claim of more arrays or bytes than there are.
     let with = |at: usize, value: &[u8]| {
         let mut bytes = whole.clone();
         bytes[at..at + value.len()].copy_from_slice(value);

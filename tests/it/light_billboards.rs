@@ -47,8 +47,8 @@ fn shown_at(frame: &Frame, position: Vec3) -> [f32; 2] {
     [(at.x * 0.5 + 0.5) * SIZE_PX[0] as f32, (0.5 - at.y * 0.5) * SIZE_PX[1] as f32]
 }
 
-/// The middle of the box round the pixels that differ, half the size of that box, and the sum of the differences.
-/// `None` if no pixel differs.
+/// The middle of the box round the pixels that differ by more than 12 (the sum over their channels), half the size of
+/// that box, and the sum of these differences. `None` if there are no such pixels.
 fn difference(a: &Picture, b: &Picture) -> Option<([f32; 2], [f32; 2], f64)> {
     let (mut low, mut high, mut sum) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2], 0.0);
     for (index, (a, b)) in a.rgba8.chunks(4).zip(b.rgba8.chunks(4)).enumerate() {

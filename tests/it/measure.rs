@@ -1,4 +1,5 @@
-//! Tests of the measures of `impasto measure`: each must fail with a planted fault, and pass without.
+//! Tests of the measures of `impasto measure`: each must pass on a sound painting, and all but M11, M12 and M13 must
+//! fail with a planted fault.
 //!
 //! - M1: the picture turns with the camera's roll.
 //! - M2: stroke angles turn with the camera's roll.
@@ -58,7 +59,7 @@ fn options(rotation: Rotation) -> FrameOptions {
     FrameOptions { rotation, ..FrameOptions::new(SMALL) }
 }
 
-/// A speckled ball that turns by a degree a frame about a tilted axis, seen a little from above.
+/// A speckled ball with tilted poles that turns by a degree a frame about the vertical, seen a little from above.
 fn ball() -> Arc<LoadedScene> {
     let mut scene = shapes::scene(vec![shapes::object("sphere", 12_000)]);
     scene.timeline.last = 90;

@@ -55,8 +55,8 @@ fn relief_canvas_and_varnish_each_show_and_each_go() {
     let mut renderer = renderer(Driver::Egl);
     let bare = [("style.relief", "0"), ("style.weave", "0"), ("style.varnish", "0")];
     let mut picture = |set: &[(&str, &str)]| {
-        // Large enough for threads of the canvas to be more than a pixel apart.
         let set: Vec<(&str, &str)> = set.iter().copied().chain([("strokes.scale", "2")]).collect();
+        // Large enough for threads of the canvas to be more than a pixel apart.
         let frame = scenes::painting_with("apple", &set).at(0.0, &options([960, 540]));
         renderer.render(&frame).unwrap().rgba8
     };
@@ -300,8 +300,8 @@ fn paint_ends_at_a_crease() {
     let mean = |rows: Range<usize>| rows.clone().map(row).sum::<f64>() / rows.len() as f64;
     let (lit, dark) = (mean(104..116), mean(218..230));
     let share = |rows: Range<usize>| (mean(rows) - dark) / (lit - dark);
-    // Strokes from the other side of the crease, which is at row 166, would reach both ranges of rows. With strokes
-    // that run on past the crease, the shares were 0.87 and 0.28.
+    // The crease is at row 161. Strokes from its other side are long enough to reach the rows that are checked here:
+    // when they ran on past the crease, the shares were 0.87 and 0.28.
     assert!(share(122..150) > 0.95, "dark strokes run on over the top: {}", share(122..150));
     assert!(share(178..200) < 0.18, "light strokes run on over the front: {}", share(178..200));
 }

@@ -301,7 +301,7 @@ fn faults_of_several_bodies_are_told_once_each() {
     assert!(faults[0].contains("at frame 0") && faults[1].contains("at frame 2.5"), "{faults:?}");
 }
 
-/// Every way to make pictures or figures of a painting says what went wrong.
+/// Rendering from the editor fails, and measuring warns, if a cache was lost after the scene was read.
 #[test]
 fn who_draws_frames_tells_of_a_lost_cache() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -176,7 +176,7 @@ fn a_lateral_move_of_an_orthographic_camera_turns_nothing() {
 
 #[test]
 fn a_turning_object_is_a_turning_camera_seen_backwards() {
-    // An object that turns by −a about the gaze gives the picture of a camera that rolls by +a.
+    // An object that turns by −a about Z, which points at the eye, gives the picture of a camera that rolls by +a.
     let mut scene = shapes::scene(vec![shapes::object("sphere", 8000)]);
     scene.timeline.last = 1;
     let key = |frame: f64, z: f64| ObjectKey {

@@ -40,7 +40,7 @@ fn errors(frame: &Frame, renderer: &mut Renderer) -> Errors {
     for (stroke, drawn) in of_body {
         let [x, y] = stroke.center_px;
         let from_end = (y - BOTTOM_PX).min(TOP_PX - y);
-        // Only level, visible strokes away from the corners are compared.
+        // Only level, visible strokes away from the lower and upper borders are compared.
         if drawn.alpha <= 0.0 || stroke.angle_rad.abs() > 1e-3 || from_end < stroke.width_px {
             continue;
         }

@@ -146,7 +146,7 @@ fn a_shot_without_lights_says_so() {
 fn of_several_cameras_the_one_that_sees_most_is_looked_through() {
     let home = Home::new();
     glb::edit(&home.shot(), |root, _| {
-        // The first camera looks away; another, behind it, sees all.
+        // The first camera is turned away from the objects; another one sees all.
         let nodes = root["nodes"].as_array_mut().unwrap();
         let camera = nodes.iter().position(|node| node["name"] == "Cam").unwrap();
         nodes[camera]["rotation"] = json!([0.0, 1.0, 0.0, 0.0]);

@@ -107,11 +107,11 @@ fn a_touch_turns_with_its_object_and_is_gone_where_that_faces_away() {
         }
         let before = middle(&seen(&still, &view));
         assert_eq!(found.len(), before.len());
-        // Where the line is on the plane, from where it shows when nothing is turned.
         let focal = 180.0 / 17.5f64.to_radians().tan();
         let half = DVec2::new(320.0, 180.0);
         let turned = glam::DQuat::from_rotation_y(f64::to_radians(turn_deg));
         for (was, now) in before.iter().zip(&found) {
+            // Where the line is on the plane, from where it shows when nothing is turned.
             let on_plane = (*was - half) * (4.0 / focal);
             let wanted = shown(&view, turned * on_plane.extend(0.0));
             assert!(now.distance(wanted) < 0.02, "{turn_deg}: {now}, not {wanted}");

@@ -194,7 +194,7 @@ fn preparing_again_after_giving_up_gives_the_same_bits() {
     preparer.prepare(start()).unwrap();
     let mut given_up = 0;
     for (index, Version { name, loaded, cold }) in versions().iter().enumerate() {
-        // Each edit is given up at another step.
+        // Preparing is given up the first to the fifth time that it asks, in turn.
         let asked = AtomicUsize::new(0);
         let give_up = || asked.fetch_add(1, Ordering::Relaxed) >= index % 5;
         let options = PrepareOptions { give_up: &give_up, ..PrepareOptions::default() };

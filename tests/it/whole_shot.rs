@@ -116,7 +116,7 @@ fn chatter_steps_and_flicker_see_what_boils() {
 
 #[test]
 fn fixed_angles_are_clearly_worse_over_several_frames() {
-    // The ball turns in the picture's plane, so its strokes do too.
+    // The ball turns nearly in the picture's plane, so its strokes do too.
     let loaded = ball(|scene| {
         let key = |frame: f64| ObjectKey { rotation_deg: [0.0, 0.0, frame], ..ObjectKey::at(frame) };
         scene.objects[0].keys = vec![key(0.0), key(90.0)];

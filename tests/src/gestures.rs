@@ -41,7 +41,7 @@ pub fn drag(mesh: &TriangleMesh, camera: &CameraPose, height_px: f64, ends_px: [
     })
 }
 
-/// Where a ray hits its nearest triangle (Möller and Trumbore 1997): the place and its smooth normal.
+/// Where a ray first hits the front of a triangle (Möller and Trumbore 1997): the place and its smooth normal.
 fn first_hit(mesh: &TriangleMesh, from: DVec3, ray: DVec3) -> Option<(DVec3, DVec3)> {
     let mut nearest: Option<(f64, DVec3)> = None;
     for (triangle, corners) in mesh.triangles.iter().enumerate() {

@@ -11,7 +11,7 @@ pub struct Node<'a> {
     pub name: &'a str,
     /// What it shows.
     pub mesh: &'a TriangleMesh,
-    /// Where it stands at rest.
+    /// Where it stands, through the whole shot.
     pub translation: [f32; 3],
     /// Turn about Y at the end of the shot, degrees; 0 at its beginning.
     pub turn_deg: f32,

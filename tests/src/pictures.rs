@@ -72,8 +72,8 @@ impl Grey {
         (gx * gx - gy * gy, 2.0 * gx * gy)
     }
 
-    /// The structure tensor at every pixel of the picture: second moments, blurred by a Gaussian of this many pixels.
-    /// Pixels outside the mask count as zero before the blur.
+    /// [`Self::double_angle`] at every pixel, blurred by a Gaussian of this many pixels. Pixels outside the mask count
+    /// as zero before the blur; the mask must leave out the picture's outermost pixels.
     pub fn tensor_field(&self, mask: &[bool], sigma_px: f64) -> Vec<(f64, f64)> {
         let width = self.size_px[0];
         let moments = mask.iter().enumerate().map(|(index, &known)| {
@@ -119,7 +119,8 @@ impl Grey {
         pass(&pass(self, 1, 0), 0, 1)
     }
 
-    /// Bilinear value, with pixel centres at whole coordinates, Y down; `None` outside the picture.
+    /// Bilinear value, with pixel centres at whole coordinates, Y down; `None` where one of the four pixels is missing:
+    /// outside the picture, and on its last row and column.
     pub fn sample(&self, x: f64, y: f64) -> Option<f64> {
         let (left, top) = (x.floor(), y.floor());
         let inside = left >= 0.0 && top >= 0.0;

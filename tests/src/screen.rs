@@ -92,7 +92,7 @@ impl Screen {
     /// Saves the screen as a PNG in `editor_window/` of the target folder, for people to look at; returns its path.
     ///
     /// # Panics
-    /// When Xvfb's picture does not match its header.
+    /// When Xvfb's picture is not of `SIZE_PX` with 32 bits a pixel, or the PNG cannot be written.
     pub fn keep_picture(&self, name: &str) -> PathBuf {
         let target = impasto().ancestors().nth(2).expect("target/debug/impasto lies two folders down");
         let folder = target.join("editor_window");

@@ -235,7 +235,8 @@ pub fn moved(mesh: &TriangleMesh, by: impl Fn(DVec3) -> DVec3) -> TriangleMesh {
     TriangleMesh { positions, normals, ..mesh.clone() }
 }
 
-/// A scene whose first object has the first mesh, and morphs into the second one as `target.obj`.
+/// Gives a scene's first object the first mesh, and adds the second mesh as `target.obj`. The object morphs into it if
+/// its `morph` names `target.obj`.
 pub fn morphing(scene: Scene, [mesh, target]: [TriangleMesh; 2]) -> Arc<LoadedScene> {
     let mut loaded = LoadedScene::clone(&loaded(scene, [mesh]));
     let mut file = MeshFile::clone(loaded.meshes.values().next().expect("the scene has an object"));

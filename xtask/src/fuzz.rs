@@ -1,5 +1,5 @@
 //! `cargo xtask fuzz`: runs the fuzz targets of `fuzz/`, guided by coverage. Each begins with the files of its kind in
-//! the repository and the corpus.
+//! `scenes/` and in the folder that `IMPASTO_CORPUS` names.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -1,4 +1,5 @@
-//! Automation of the repository: `cargo xtask <command>`. Needs nothing but cargo.
+//! Automation of the repository: `cargo xtask <command>`. Cargo alone builds and starts it; some commands call other
+//! programs (apt-get, git, python3, Blender).
 
 #![expect(clippy::print_stdout, reason = "these commands exist to print what they found")]
 

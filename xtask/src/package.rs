@@ -109,7 +109,7 @@ fn debian_architecture() -> anyhow::Result<&'static str> {
     }
 }
 
-/// Packs the tree as it is, for any Linux: names sorted, one time stamp for all files, no owner.
+/// Packs the tree as it is, for any Linux: names sorted, one time stamp for all files, root as owner.
 fn archive(root: &Path, tree: &Path, when: &Moment) -> anyhow::Result<PathBuf> {
     let name = format!("impasto-{}-{}-linux", version(), std::env::consts::ARCH);
     let made = root.join(FOLDER).join(format!("{name}.tar.zst"));

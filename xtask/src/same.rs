@@ -65,7 +65,7 @@ fn subjects(root: &Path) -> anyhow::Result<Vec<Subject>> {
     let mut subjects = Vec::new();
     for path in files(&root.join("scenes"), "ron")? {
         let text = std::fs::read_to_string(&path)?;
-        // A scene may leave its frames to its shot.
+        // A scene may leave its timeline to its shot, which is not read here: then these three frames are drawn.
         let frames = frames(&text).unwrap_or_else(|| vec![0, 12, 24]);
         subjects.push(Subject { name: stem(&path), path, frames });
     }

@@ -94,7 +94,7 @@ fn blush(row: usize, segment: usize, rows: usize, segments: usize) -> &'static s
     }
 }
 
-/// A tilted stem that leans over and thickens where it was cut.
+/// A tilted stem that leans over and thickens towards both ends.
 fn stem(mesh: &mut PolyMesh) {
     const SIDES: usize = 6;
     // Along the stem from its cut top to its buried foot; the first and the last step are the end faces.
@@ -127,7 +127,7 @@ pub(super) fn stem_frame(t: f64, height: f64, off_axis: f64) -> (DVec3, DVec3, D
     (centre(t), forward.cross(along), forward)
 }
 
-/// A leaf on a short stalk, folded along its midrib, its tip hanging.
+/// A leaf, folded along its midrib, its tip hanging.
 fn leaf(mesh: &mut PolyMesh) {
     const ACROSS: usize = 6;
     const ALONG: usize = 8;

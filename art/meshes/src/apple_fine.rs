@@ -157,7 +157,7 @@ fn streaks(round: f64, down: f64) -> f64 {
         .sum()
 }
 
-/// A tilted stem that leans over and thickens where it was cut.
+/// A tilted stem that leans over and thickens towards both ends.
 fn stem(mesh: &mut PolyMesh) {
     const SIDES: usize = 12;
     const ALONG: usize = 16;

@@ -80,7 +80,7 @@ fn fins(mesh: &mut PolyMesh, skin: &impl Fn(f64, f64) -> DVec3) {
         blade(mesh, [20, 10], &shape, FIN);
     };
     for side in [0.0, std::f64::consts::PI] {
-        // Front pair and hind pair: root, bend, tip; all swept back.
+        // The front and the hind pair of fins, swept back. A path is root, bend, tip.
         for (along, reach, back, half_width) in [(0.24, 0.19, 0.16, 0.052), (0.58, 0.10, 0.12, 0.032)] {
             let root = skin(along, side) - DVec3::Y * 0.02;
             let (middle, forward) = place(&SPINE, along);

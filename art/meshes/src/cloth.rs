@@ -23,9 +23,9 @@ struct Fold {
     /// Where its crest is, as a share of the cloth's width: at the hem, at the table's edge, and where the fold ends on
     /// the table.
     crest: [f64; 3],
-    /// Half its width at the table's edge.
+    /// Half its width at the table's edge, as a share of the cloth's width.
     width: f64,
-    /// How far it stands out at the hem.
+    /// About how far it stands out at the hem.
     height: f64,
     /// How far it runs back onto the table.
     reach: f64,
@@ -70,7 +70,7 @@ pub fn cloth() -> PolyMesh {
                 _ if patch > 0.3 => "worn",
                 _ => "linen",
             };
-            // Where the cloth goes round the table's edge, it still counts as lying on the table.
+            // The last two hanging rows, at the table's edge, count as lying on the table.
             Look { group: if row + 2 < HANGING { "fall" } else { "top" }, material }
         },
     );

@@ -78,7 +78,7 @@ fn catmull_rom([before, start, end, after]: [DVec2; 4], t: f64) -> DVec2 {
         + (3.0 * start - before - 3.0 * end + after) * t3)
 }
 
-/// 0 below `low`, 1 above `high`, smooth between.
+/// 0 below `low`, 1 above `high`, smooth between. If `low` > `high`, it falls: 1 below `high`, 0 above `low`.
 pub fn smoothstep(low: f64, high: f64, value: f64) -> f64 {
     let t = ((value - low) / (high - low)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
@@ -89,7 +89,7 @@ pub fn bump(centre: f64, width: f64, value: f64) -> f64 {
     1.0 - smoothstep(0.0, width, (value - centre).abs())
 }
 
-/// Value noise in −1..=1 over `x` turns (periodic: `x` and `x + 1` agree) and `y`, with `cells` cells a turn.
+/// Value noise in −1..=1. `x` counts turns (`x` and `x + 1` agree), each `cells` cells wide; a cell is 1 high in `y`.
 pub fn noise(x: f64, y: f64, cells: u32, seed: u32) -> f64 {
     let across = x.rem_euclid(1.0) * f64::from(cells);
     let (column, row) = (across.floor(), y.floor());

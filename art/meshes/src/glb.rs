@@ -101,7 +101,7 @@ impl Glb {
     }
 
     /// Adds the materials and faces of a mesh and the attributes of its coat. Returns one primitive for each material
-    /// that has faces; all have these attributes and those of the coat.
+    /// that has faces; all have the given `attributes` and those of the coat.
     fn primitives(
         &mut self,
         mesh: &PolyMesh,

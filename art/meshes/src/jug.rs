@@ -57,7 +57,7 @@ fn body(mesh: &mut PolyMesh) {
     const FINE: usize = 24;
     /// About how high the glaze ends.
     const GLAZE: f64 = 0.245;
-    // Finer than the rows, so that rows can be drawn along the wavy border of the glaze.
+    // Sampled more finely than the rows, so that rows can follow the wavy border of the glaze.
     let mut outline = Profile::through(&OUTLINE).spread(ROWS * FINE, 0.45);
     // The lathe runs from the upper pole to the lower one; here that is from the inside floor to the foot.
     outline.reverse();

@@ -42,7 +42,7 @@ pub fn lemon() -> PolyMesh {
             let (radius, along) = (outline[row].x, outline[row].y);
             let round = segment as f64 / SEGMENTS as f64;
             let angle = TAU * round;
-            // Shallow dents, a slight keel, and the neck wrinkled towards the nipple.
+            // Shallow dents, a slightly oval section, and wrinkles on the neck of the nipple.
             let dents = 0.022 * noise(round, along * 5.0 + 7.0, 6, 11) + 0.020 * (2.0 * angle + 0.8).cos();
             let wrinkles = 0.035 * (6.0 * angle + 3.0 * along).cos() * bump(0.42, 0.10, along);
             let radius = radius * (1.0 + (dents + wrinkles) * smoothstep(0.0, 0.05, radius));
@@ -65,7 +65,8 @@ pub fn lemon() -> PolyMesh {
     mesh
 }
 
-/// The outline of half a pear, from the stem to the eye. Each point is its distance from the axis and its height.
+/// The outline of half a pear, from the stem to the blossom end. Each point is its distance from the axis and its
+/// height.
 const PEAR: [[f64; 2]; 16] = [
     [0.0, 0.900],
     [0.030, 0.905],

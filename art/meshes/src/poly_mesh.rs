@@ -204,7 +204,7 @@ impl PolyMesh {
     }
 
     /// The mesh file's text: faces sorted by group, then by material, in the order in which each first appears.
-    /// Positions are rounded to 5 decimals, normals to 3.
+    /// Positions and texture coordinates are rounded to 5 decimals, normals to 3.
     pub fn to_obj(&self) -> anyhow::Result<String> {
         let mut text = format!("# {}\nmtllib {}.mtl\n", self.about, self.name);
         for point in &self.positions {

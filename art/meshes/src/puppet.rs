@@ -35,7 +35,7 @@ struct Shape {
     ear: [f64; 3],
 }
 
-/// The round shape, 1 unit high with its ears, looking to +Z.
+/// The round shape, 0.93 units high with its ears, looking to +Z.
 pub fn puppet_round() -> PolyMesh {
     let outline = &[
         [0.0, 0.900],
@@ -139,7 +139,7 @@ fn direction(row: f64, segment: f64) -> DVec3 {
     DVec3::new(polar.sin() * angle.cos(), polar.cos(), -polar.sin() * angle.sin())
 }
 
-/// The direction `down` degrees below the crown and `aside` degrees from the front towards +X.
+/// The direction `down_deg` degrees below the crown and `aside_deg` degrees from the front towards +X.
 fn seen(down_deg: f64, aside_deg: f64) -> DVec3 {
     let (down, aside) = (down_deg.to_radians(), aside_deg.to_radians());
     DVec3::new(down.sin() * aside.sin(), down.cos(), down.sin() * aside.cos())

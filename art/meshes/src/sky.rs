@@ -99,7 +99,7 @@ fn sheet(mesh: &mut PolyMesh) {
             let across = column as f64 / COLUMNS as f64 * 2.0 - 1.0;
             let up = row as f64 / BANDS as f64;
             let inner = (4.0 * up * (1.0 - up)).min(1.0);
-            // The bands arch over the light on the left, and are wavy.
+            // The bands are wavy arches, highest left of the middle.
             let bow = 0.9 * (1.0 - (across + 0.45) * (across + 0.45)) - 0.4;
             let sway = 0.35 * noise(0.5 * across + 0.5, 2.2 * up, 9, 71);
             hollow(17.0 * across, 1.8 + 9.6 * up.powf(1.1) + (bow + sway) * inner, 0.0)

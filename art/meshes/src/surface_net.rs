@@ -7,12 +7,12 @@ use glam::DVec3;
 
 use super::poly_mesh::{Face, Look, PolyMesh};
 
-/// Where to look for a body, and how finely.
+/// Where to look for a body, and how finely. The whole body must lie within it, at least a cell from its sides.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {
-    /// The corner with the smallest coordinates; it must lie outside the body.
+    /// The corner with the smallest coordinates.
     pub low: DVec3,
-    /// The corner with the greatest coordinates; it must lie outside the body.
+    /// The corner with the greatest coordinates.
     pub high: DVec3,
     /// Size of a cell: about the size of a face.
     pub cell: DVec3,

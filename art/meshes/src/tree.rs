@@ -51,7 +51,7 @@ struct Spray {
     light: f64,
 }
 
-/// A spreading tree about 4 units high, its crown fuller towards +X.
+/// A spreading tree about 4 units high.
 pub fn tree() -> PolyMesh {
     let mut mesh = PolyMesh::new("tree", "A spreading tree about 4 units high.", &PALETTE);
     let limbs = [

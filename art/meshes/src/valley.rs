@@ -20,7 +20,8 @@ const RIVER: [[f64; 2]; 11] = [
     [10.0, 2.2],
 ];
 
-/// The path's middle, in the same form: −z, and the path's x there. The path ends at the cottage's door.
+/// The path's middle, in the same form: −z, and the path's x there. The path ends at the cottage's door (`PATH_END`);
+/// beyond it, the curve only guides the ground's columns.
 const PATH: [[f64; 2]; 8] = [
     [-8.0, 0.9],
     [-6.0, 1.1],

@@ -1,5 +1,5 @@
-// The fragment shader of the bare draw that our stroke pass is timed beside: writes one sample of the brush, times the
-// stroke's colour, to both targets.
+// The fragment shader of the bare draw that our stroke pass is timed beside: takes one sample of the brush (paint,
+// height), and writes colour to one target, height to the other.
 in vec2 mark_at;
 flat in vec4 color;
 flat in vec2 mark;

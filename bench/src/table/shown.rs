@@ -7,7 +7,7 @@ use super::{Figure, Row, Table, Unit};
 const COLUMNS: [&str; 8] =
     ["what", "input", "who", "figure", "spread", "times ours", "ours / floor", "remarks"];
 
-/// A number to three digits, with its unit.
+/// A number with its unit: times and bytes to about three digits, counts in full, ratios with three decimals.
 pub fn number(number: f64, unit: Unit) -> String {
     let digits = |number: f64| {
         let places = 2 - (number.abs().max(1e-9).log10().floor() as i32).clamp(0, 2);

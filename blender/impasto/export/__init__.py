@@ -69,7 +69,7 @@ def export_shot(walk: Callable[[int], bpy.types.Depsgraph], scene: bpy.types.Sce
 
 def _see_all(met: Walk, walk: Callable[[int], bpy.types.Depsgraph], report: Callable[[float], None],
              stop: Callable[[], bool]) -> str:
-    """Walks through all frames; the sum of what the shot is made of."""
+    """Walks through all frames. Returns the checksum of what the shot is made of."""
     first, last = met.frames
     inputs_sum = ""
     for frame in range(first, last + 1):

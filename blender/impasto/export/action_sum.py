@@ -1,4 +1,4 @@
-"""Sums of animation: actions, drivers, NLA strips."""
+"""Checksums of animation: actions, drivers, NLA strips."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -22,7 +22,7 @@ def curves_of(action: bpy.types.Action) -> Iterator[tuple[int, Any]]:
 
 
 def animated_paths(block: bpy.types.ID) -> dict[str, set[int]]:
-    """What curves and drivers set in a data-block: its paths, and the places in arrays."""
+    """The properties of a data-block that curves and drivers set: their data paths, each with its array indices."""
     result: dict[str, set[int]] = {}
     animation = getattr(block, "animation_data", None)
     if animation is None:

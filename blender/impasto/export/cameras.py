@@ -14,7 +14,7 @@ class Camera:
     name: str
     is_perspective: bool
     world_from_object: list[np.ndarray] = field(default_factory=list)
-    # yfov in radians, or ymag; xmag; clip distances.
+    # Heights: yfov in radians, or ymag. Widths: tan(xfov / 2), or xmag. Clips: near and far. Shifts: in NDC.
     heights: list[float] = field(default_factory=list)
     widths: list[float] = field(default_factory=list)
     clips: list[tuple[float, float]] = field(default_factory=list)

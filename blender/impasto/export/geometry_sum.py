@@ -1,4 +1,4 @@
-"""Sums of geometry: the arrays of meshes, curves, lattices, armatures and shape keys."""
+"""Checksums of geometry: the arrays of meshes, curves, lattices, armatures and shape keys."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""Writes a GLB: JSON and one block of binary numbers, each stretch of them kept once."""
+"""Writes a GLB: JSON and one block of binary data, in which equal stretches are stored once."""
 
 import hashlib
 import json
@@ -30,7 +30,7 @@ class Glb:
         self._used.add(extension)
 
     def add(self, kind: str, item: dict[str, Any]) -> int:
-        """Adds to one of the document's lists, as `meshes`; the index."""
+        """Adds an item to one of the document's lists, such as `meshes`; returns its index."""
         items = self.root.setdefault(kind, [])
         items.append(item)
         return len(items) - 1

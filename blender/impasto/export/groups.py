@@ -3,7 +3,7 @@
 import bpy
 import numpy as np
 
-# A face belongs to a group when its corners do by more than this, in the mean.
+# A face belongs to the group with the largest mean weight of its corners, if that is more than this.
 LEAST_WEIGHT = 0.5
 
 

@@ -1,4 +1,4 @@
-"""Pictures of a file: their bytes as they are, or as PNG where glTF has no such kind."""
+"""Pictures for glTF: PNG and JPEG files as they are, where they are unedited and sRGB; all else as a new PNG."""
 
 from pathlib import Path
 

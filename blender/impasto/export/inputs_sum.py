@@ -1,4 +1,4 @@
-"""A sum over all that an export depends on, so that an unchanged shot is not exported again."""
+"""A checksum of all that an export depends on, so that an unchanged shot is not exported again."""
 
 import hashlib
 import os
@@ -15,7 +15,7 @@ from .rna_sum import Sum
 EXPORT_VERSION = 3
 _RENDER = ("fps", "fps_base", "resolution_x", "resolution_y", "resolution_percentage", "pixel_aspect_x", "pixel_aspect_y",
            "frame_map_old", "frame_map_new", "use_motion_blur", "use_simplify", "simplify_subdivision_render", "simplify_child_particles_render")
-# Data-blocks that are summed up by their plain properties, and what is added to these.
+# What the checksum of some types has beside their plain properties (of actions: instead of them).
 _PARTS: dict[type, Any] = {
     bpy.types.Mesh: geometry_sum.add_mesh, bpy.types.Key: geometry_sum.add_shape_keys,
     bpy.types.Curve: geometry_sum.add_curve, bpy.types.Lattice: geometry_sum.add_lattice,
@@ -26,7 +26,7 @@ _NOT_SUMMED = (bpy.types.Scene, bpy.types.Library, bpy.types.Brush, bpy.types.Wi
 
 
 def sum_of_inputs(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, frames: tuple[int, int]) -> str:
-    """The sum of the original data that a shot is made of; the same at every current frame."""
+    """The checksum of the original (not evaluated) data that a shot is made of, whatever the current frame."""
     scene = scene.original if scene.is_evaluated else scene
     whole = Sum({})
     whole.add(EXPORT_VERSION, bpy.app.version, tuple(frames), view_layer.name)
@@ -86,7 +86,7 @@ def _add_plain(total: Sum, block: bpy.types.ID) -> None:
 
 
 def _add_scene(total: Sum, scene: bpy.types.Scene) -> None:
-    """Adds what of the scene itself counts; what is animated in it counts by its curves."""
+    """Adds what counts of the scene itself. Animated render settings and custom properties count by their curves."""
     animated = animated_paths(scene)
     for name in _RENDER:
         if f"render.{name}" not in animated:
@@ -108,7 +108,7 @@ def _add_scene(total: Sum, scene: bpy.types.Scene) -> None:
 
 
 def _cuts(scene: bpy.types.Scene) -> bool:
-    """Whether markers choose the camera, and so change the scene's while frames go by."""
+    """Whether markers choose the camera: Blender then sets `scene.camera` anew as frames go by."""
     return any(marker.camera is not None for marker in scene.timeline_markers)
 
 

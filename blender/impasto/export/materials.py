@@ -31,7 +31,7 @@ class MaterialTable:
     _pictures: dict[str, int | None] = field(default_factory=dict)
 
     def surface(self, material: bpy.types.Material | None) -> Surface:
-        """The material's place in the file; `None` for what wears none."""
+        """The material's entry in the file; for `None` (faces without a material) that of a plain grey."""
         name = "" if material is None else material.name_full
         if name not in self._by_name:
             self._by_name[name] = self._made(material)

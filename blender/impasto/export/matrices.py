@@ -28,7 +28,7 @@ def of_mesh(world_from_object: np.ndarray) -> np.ndarray:
 
 
 def of_looker(world_from_object: np.ndarray) -> np.ndarray:
-    """The matrices for a camera or a light, which look along -Z in both; without scale."""
+    """The matrices for a camera or a light, which look along -Z in Blender and glTF alike; without scale."""
     matrices = Y_UP_FROM_Z_UP @ world_from_object
     lengths = np.linalg.norm(matrices[:, :3, :3], axis=1, keepdims=True)
     matrices[:, :3, :3] /= np.where(lengths > 0.0, lengths, 1.0)
@@ -36,7 +36,7 @@ def of_looker(world_from_object: np.ndarray) -> np.ndarray:
 
 
 def parted(matrices: np.ndarray) -> Parted:
-    """Translation, rotation and scale of matrices in a row; neighbours' quaternions are on the same side."""
+    """Translation, rotation and scale of matrices, frame by frame; quaternions do not flip sign between frames."""
     linear = matrices[:, :3, :3]
     scale = np.linalg.norm(linear, axis=1)
     scale = np.where(np.linalg.det(linear)[:, None] < 0.0, -scale, scale)
@@ -69,7 +69,7 @@ def _quaternions(turned: np.ndarray) -> np.ndarray:
     """Quaternions (x, y, z, w) of rotation matrices, without jumps of the sign."""
     m = turned
     xx, yy, zz = m[:, 0, 0], m[:, 1, 1], m[:, 2, 2]
-    # Each row of `ways` is four times the quaternion's own product with one of its parts; the longest is the most exact.
+    # Row i of `ways` is 4 q[i] q, so each, normalized, is the quaternion q (or -q); the longest is the most exact.
     ways = np.empty((len(m), 4, 4))
     ways[:, 0] = np.stack([1 + xx - yy - zz, m[:, 0, 1] + m[:, 1, 0], m[:, 0, 2] + m[:, 2, 0], m[:, 2, 1] - m[:, 1, 2]], 1)
     ways[:, 1] = np.stack([ways[:, 0, 1], 1 - xx + yy - zz, m[:, 1, 2] + m[:, 2, 1], m[:, 0, 2] - m[:, 2, 0]], 1)

@@ -8,7 +8,7 @@ _NO_NUMBER = 0x7FFFFFFF
 
 
 def is_own_mesh(instance: bpy.types.DepsgraphObjectInstance) -> bool:
-    """Whether an instance is only the mesh of a curve, text or metaball object itself."""
+    """Whether an instance is really the object itself: the mesh of a curve, text or metaball is listed as its instance."""
     if not instance.is_instance or instance.parent is None:
         return False
     same = instance.parent.original == instance.object.original
@@ -33,10 +33,9 @@ class Names:
         self._next: dict[str, int] = {}
         # Objects keep their names, whatever instances are called.
         self._objects = {thing.name for thing in bpy.data.objects}
-        self._given: set[str] = set()
 
     def of(self, instance: bpy.types.DepsgraphObjectInstance) -> str:
-        """A new name for what is seen first."""
+        """A name, not given before, for a thing that turns up for the first time."""
         own = instance.object.name
         if not instance.is_instance or is_own_mesh(instance):
             return self.unique(own, is_object=True)

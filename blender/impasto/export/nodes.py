@@ -31,7 +31,7 @@ class NodeWriter:
         self._tracks.visible(node, body.shows(self._frames))
 
     def bending_body(self, body: Body) -> None:
-        """An object whose points come from a point cache: as it is where it first shows, in the world."""
+        """An object whose points come from a point cache. Its mesh is in world space, as it first shows."""
         assert body.shape is not None
         first = body.world_from_object[min(body.world_from_object)]
         node = self._node({"name": body.name, "mesh": self._mesh(body.shape, first)})
@@ -101,7 +101,7 @@ class NodeWriter:
             self._tracks.node(node, path, rows)
 
     def _mesh(self, shape: Shape, world_from_object: np.ndarray | None) -> int:
-        """A mesh in its own space, or, for a point cache, in the world with the numbers of its points."""
+        """A mesh in its own space or, for a point cache, in the world with `_POINT`: each vertex's row in the cache."""
         item: dict[str, Any] = {"primitives": [self._primitive(part, world_from_object) for part in shape.parts]}
         if shape.group_names:
             item["extras"] = {"groupNames": shape.group_names}
@@ -133,7 +133,7 @@ class NodeWriter:
 
 
 def write_body(writer: NodeWriter, body: Body, frames: int) -> bool:
-    """Writes a body that needs no point cache; whether that was so."""
+    """Writes a body without a point cache. Returns False, and writes nothing, where it is sheared and so needs one."""
     parts = matrices.parted(y_up_matrices(body, frames))
     if parts.is_sheared:
         return False

@@ -1,4 +1,4 @@
-"""Sums of what is set in Blender's data, by way of its RNA."""
+"""Checksums of what is set in Blender's data, read through its RNA."""
 
 import hashlib
 from typing import Any
@@ -20,7 +20,7 @@ _SKIPPED = {
 _SKIPPED_STARTS = ("uv_layer_", "select", "active_", "bl_", "lock_", "texspace_", "cache_frame_", "has_", "show_", "preview_", "view_center",
                    "is_expanded", "paint_")
 _KEPT = {"show_render", "show_instancer_for_render", "show_unborn", "show_dead"}
-# Collections and layers of a data-block whose content its own function adds, or that says nothing.
+# Collections that `geometry_sum` and `action_sum` add in their own way, or that change nothing in a picture.
 _SKIPPED_COLLECTIONS = {
     "vertices", "edges", "loops", "polygons", "loop_triangles", "loop_triangle_polygons", "corner_normals", "vertex_normals",
     "polygon_normals", "attributes", "color_attributes", "uv_layers", "vertex_colors", "skin_vertices", "vertex_layers_float",
@@ -30,11 +30,11 @@ _SKIPPED_COLLECTIONS = {
     "texture_slots", "key_blocks_runtime", "reports", "curves", "curve_offset_data", "normals", "position_data",
 }
 _SCALARS = {"BOOLEAN", "INT", "FLOAT", "STRING", "ENUM"}
-# Nodes have places and sizes on the screen, which say nothing; other things have them too, and mean them.
+# How nodes look in the node editor. For other types, properties of these names do matter.
 _SKIPPED_OF_NODES = {"location", "color", "use_custom_color", "label", "parent", "dimensions"}
-# Second names of what is there already, and may be animated.
+# Follow from other properties, so that they would change from frame to frame where those are animated.
 _DERIVED = {bpy.types.Camera: ("angle", "angle_x", "angle_y")}
-# Names of one value: where one has keys, so has the other.
+# Two names of the same value: where one is animated, so is the other.
 _TWINS = {
     name: twin
     for pair in (("angle", "factor"), ("width", "width_pct"), ("mute", "enabled"), ("mix_mode", "use_offset"),
@@ -115,7 +115,7 @@ class Sum:
             if isinstance(value, bpy.types.ID):
                 self.use(value)
             else:
-                # A file keeps truth as a number.
+                # A .blend stores the boolean inputs of geometry nodes as integers.
                 value = int(value) if isinstance(value, bool) else value
                 plain = value.to_list() if hasattr(value, "to_list") else value
                 self.add(name, plain.to_dict() if hasattr(plain, "to_dict") else plain)

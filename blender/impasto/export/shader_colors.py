@@ -8,7 +8,7 @@ from .picture_use import PictureUse, picture_use
 
 Rgb = tuple[float, float, float]
 WHITE: Rgb = (1.0, 1.0, 1.0)
-# Colours change on the way through these; the first input is what they change.
+# Nodes that change the colour of their input "Color".
 _CHANGERS = {"HUE_SAT": "Hue/Saturation", "GAMMA": "Gamma", "BRIGHTCONTRAST": "Brightness/Contrast",
              "CURVE_RGB": "RGB Curves", "INVERT": "Invert"}
 
@@ -70,7 +70,7 @@ def source_of(socket: bpy.types.NodeSocket, entered: tuple[bpy.types.Node, ...])
 
 
 def own_value(socket: bpy.types.NodeSocket, entered: tuple[bpy.types.Node, ...]) -> bpy.types.NodeSocket:
-    """The socket whose own value holds where nothing is linked: that of a group's node outside, maybe."""
+    """The socket whose own value reaches this one through reroutes and out of or into groups."""
     for _ in range(1000):
         link = next((link for link in socket.links if not link.is_muted), None) if socket.is_linked else None
         if link is None:
@@ -145,7 +145,7 @@ def color_of(socket: bpy.types.NodeSocket, entered: tuple[bpy.types.Node, ...] =
 
 
 def _mixed(node: bpy.types.Node, entered: tuple[bpy.types.Node, ...], depth: int) -> Color | None:
-    """Mix and multiply, where one of both is plain or all can be multiplied."""
+    """The colour of a Mix node, exact where a `Color` can say it, else one side; `None` where it mixes no colours."""
     if node.type == "MIX" and node.data_type != "RGBA":
         return None
     if node.type == "MIX":
@@ -188,7 +188,7 @@ def _between(first: Rgb, second: Rgb, share: float) -> Rgb:
 
 
 def _stand_in(node: bpy.types.Node, entered: tuple[bpy.types.Node, ...], depth: int) -> Color:
-    """The first picture upstream of a node that glTF knows nothing of, else a plain mean."""
+    """For a node that glTF knows nothing of: the first picture upstream, else a colour attribute, else a mean."""
     lost = [f"the node {node.bl_label!r}" if not node.label else f"the node {node.label!r}"]
     found = [color_of(socket, entered, depth + 1) for socket in node.inputs
              if socket.is_linked and socket.type in ("RGBA", "VALUE", "VECTOR") and node.type not in _MADE_OF_NOTHING]
@@ -209,6 +209,6 @@ def _stand_in(node: bpy.types.Node, entered: tuple[bpy.types.Node, ...], depth: 
     return Color((means[0], means[1], means[2]), lost=lost)
 
 
-# Textures that are computed: what their inputs say is where and how, not which colour.
+# Textures whose linked inputs are not followed, since they mostly say where and how, not which colour.
 _MADE_OF_NOTHING = {"TEX_NOISE", "TEX_VORONOI", "TEX_WAVE", "TEX_MAGIC", "TEX_BRICK", "TEX_CHECKER", "TEX_GRADIENT",
                     "TEX_GABOR", "TEX_WHITE_NOISE", "TEX_MUSGRAVE", "TEX_SKY", "TEX_ENVIRONMENT"}

@@ -31,7 +31,7 @@ class Shape:
 
     parts: list[Part]
     group_names: list[str]
-    # Where the points are that triangles use, and which of the mesh's these are (`None`: all).
+    # The places of the points that faces use, and the numbers of these points in the mesh (`None`: all are used).
     places: np.ndarray
     used_points: np.ndarray | None
     # What may not change.

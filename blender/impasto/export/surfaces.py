@@ -130,7 +130,7 @@ def _read_alpha(socket: bpy.types.NodeSocket, entered: Entered, look: Look, is_t
 
 
 def _number(node: bpy.types.Node, name: str, entered: Entered, look: Look) -> float:
-    """A number of a node; its own where something is linked that is not the same everywhere."""
+    """A number of a node. Where what is linked varies or is not known, the socket's own (of Emission Strength: 1)."""
     socket = node.inputs[name]
     if source_of(socket, entered) is None:
         return float(own_value(socket, entered).default_value)

@@ -27,7 +27,7 @@ class Thing:
     world_from_object: dict[int, np.ndarray] = field(default_factory=dict)
 
     def matrices(self, frames: int) -> np.ndarray:
-        """A matrix for every frame; where it does not show, that of the last frame in which it did."""
+        """A matrix for every frame; where it does not show, that of the last frame in which it did, or the first."""
         shown = np.array(sorted(self.world_from_object))
         held = shown[np.maximum(np.searchsorted(shown, np.arange(frames), side="right") - 1, 0)]
         return np.stack([self.world_from_object[place] for place in held.tolist()])
@@ -47,7 +47,7 @@ class Body(Thing):
     cache_name: str = ""
 
     def write_until(self, frame_place: int, path: Path, frames: tuple[int, int]) -> None:
-        """Begins a point cache: so far it moved, but did not bend."""
+        """Begins a point cache with all frames before `frame_place`, in which the body moved but did not bend."""
         assert self.shape is not None
         self.cache = PointCacheFile(path, len(self.shape.places), frames)
         if frame_place == 0:

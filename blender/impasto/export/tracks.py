@@ -6,7 +6,7 @@ import numpy as np
 
 from .glb import Glb
 
-# What differs less than this (relative to its size) is the same.
+# Values that differ by no more than this are the same (relative to the first, where that is larger than 1).
 TOLERANCE = 1e-6
 
 

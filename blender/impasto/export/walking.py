@@ -145,7 +145,7 @@ def owners_of(instance: bpy.types.DepsgraphObjectInstance) -> tuple[str, ...]:
 
 
 def _is_hidden(instance: bpy.types.DepsgraphObjectInstance, hidden: set[str]) -> bool:
-    """Whether something does not render that a graph for the viewport shows all the same."""
+    """Whether something that a depsgraph for the viewport shows is hidden from renders."""
     things = [instance.object] + ([instance.parent] if instance.is_instance and instance.parent else [])
     return any(thing.hide_render or thing.name_full in hidden for thing in things)
 

@@ -78,10 +78,10 @@ fn finished(mut layers: Vec<[f32; 4]>, wanted: [f32; 4]) -> Vec<[f32; 4]> {
             *layer = [layer[0] * share, layer[1] * share, layer[2] * share, alpha];
         }
     }
-    // Rounded as in the file, so that the finish makes up for the rounding.
     let laid = over(&layers);
     for channel in 0..3 {
         let gain = if laid[channel] > 1e-4 { (wanted[channel] / laid[channel]).min(MOST_GAIN) } else { 1.0 };
+        // Rounded as in the file, so that `finish` makes up for the rounding.
         for layer in &mut layers {
             layer[channel] = f16::from_f32(layer[channel] * gain).to_f32();
         }

@@ -4,6 +4,7 @@
 //! ```text
 //! a renderer's last picture ─▶ of_scene: depth, normals, motion, light   (any style)
 //!                           └▶ covering: which strokes show in each pixel ─▶ of_strokes, cryptomatte
+//!                           └▶ of_paint: colour, height, normal and wetness of the paint
 //!                           └▶ layers: each layer of paint as a picture     (styles of strokes)
 //! ```
 

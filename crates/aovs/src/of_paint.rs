@@ -1,4 +1,4 @@
-//! The AOVs of the paint as a surface: its colour without light, its height, its normal, how wet it is.
+//! The AOVs of the paint as a surface: its colour before its relief is lit, its height, its normal, how wet it is.
 
 use half::f16;
 use impasto_frame_files::exr_file::{Channel, Samples};

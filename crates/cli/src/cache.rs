@@ -57,7 +57,7 @@ impl Cache {
         found.map(|file| Box::new(OpenFile(file)) as Box<dyn KeptBytes>)
     }
 
-    /// Keeps a painting that was not taken from the folder, while other work goes on.
+    /// Keeps a painting that was not taken from the folder, and tidies the folder, while other work goes on.
     pub(crate) fn store(self, painting: &Painting) -> Storing {
         let (key, is_new, replace) = match painting.kept() {
             Kept::NotAsked => return Storing::default(),

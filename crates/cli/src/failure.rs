@@ -16,7 +16,7 @@ pub(crate) const USAGE: u8 = 2;
 /// Why a command ends early.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// Everything was reported already; only this exit code is left.
+    /// There is nothing more to say; only this exit code is left.
     Quiet(u8),
     /// Something went wrong that is not the input's fault.
     Other(String),
@@ -40,7 +40,7 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
-    /// The failure that a file could not be written.
+    /// The failure that a file could not be read or written.
     pub(crate) fn of_file(path: &Path, error: impl Display) -> Self {
         Self::Other(format!("{}: {error}", path.display()))
     }

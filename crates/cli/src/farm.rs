@@ -20,7 +20,8 @@ use crate::failure::Failure;
 use crate::farm_args::{FarmArguments, FarmCommand, PackArguments, SlurmArguments};
 
 /// Flags of `impasto render` that the job sets itself.
-const OWN_FLAGS: [&str; 6] = ["-o", "--output", "-f", "--frames", "--skip-existing", "--progress"];
+const OWN_FLAGS: [&str; 8] =
+    ["-o", "--output", "-f", "--frames", "--skip-existing", "--progress", "-q", "--quiet"];
 
 pub(crate) fn farm(command: &FarmCommand) -> Result<(), Failure> {
     let (arguments, text) = match command {
@@ -86,10 +87,14 @@ fn read(scene: &Path, asset_dirs: &[std::path::PathBuf], quiet: bool) -> Result<
 /// The job; the scene is read, so that its errors are found here and not on a hundred machines.
 fn job(arguments: &FarmArguments) -> Result<Job, Failure> {
     let list = arguments.frames.as_deref().map(FrameList::parse).transpose().map_err(Failure::Usage)?;
-    let is_own =
-        |word: &String| OWN_FLAGS.iter().any(|own| word == own || word.starts_with(&format!("{own}=")));
+    let is_own = |word: &String| {
+        let is_attached = word.starts_with("-f") || word.starts_with("-o");
+        is_attached || OWN_FLAGS.iter().any(|own| word == own || word.starts_with(&format!("{own}=")))
+    };
     if let Some(word) = arguments.more.iter().find(|word| is_own(word)) {
-        return Err(Failure::Usage(format!("{word} after --: the job says it itself; give it before --")));
+        let words =
+            format!("{word} after --: the job says it itself; leave it out, or give -o and -f before --");
+        return Err(Failure::Usage(words));
     }
     let loaded = read(&arguments.scene, &arguments.asset_dirs, false)?;
     let timeline = &loaded.scene.timeline;
@@ -175,7 +180,7 @@ pub(crate) fn pack(arguments: &PackArguments) -> Result<(), Failure> {
         Some(output) => {
             let loaded = read(scene, asset_dirs, *quiet)?;
             not_an_input(output, &loaded.inputs())?;
-            // `pack` itself refuses a folder that exists, with a message that fits.
+            // `pack::pack` refuses a folder that exists, with a message that fits.
             if !output.is_dir() {
                 ready_folder(output)?;
             }

@@ -109,7 +109,7 @@ fn example(text: &str) -> String {
         0 => 4,
         digits => digits,
     };
-    let ending = path.extension().unwrap_or_default().to_string_lossy();
+    let ending = path.extension().map_or("png".into(), |ending| ending.to_string_lossy());
     path.with_file_name(format!("{before}{}.{ending}", "#".repeat(digits))).display().to_string()
 }
 

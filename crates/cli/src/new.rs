@@ -1,4 +1,4 @@
-//! `impasto new`: writes the scene that `render MODEL` uses to a file.
+//! `impasto new`: writes a scene file for a model, with the scene that `impasto render MODEL` paints.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -26,7 +26,7 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<(), Failure> {
     for warning in &loaded.warnings {
         eprintln!("{warning}");
     }
-    not_an_input(&arguments.output, std::slice::from_ref(&arguments.model))?;
+    not_an_input(&arguments.output, &loaded.inputs())?;
     let folder = ready_folder(&arguments.output)?;
     let mut scene = loaded.scene.without_shot();
     let mesh = path_from(&folder, &arguments.model)?;

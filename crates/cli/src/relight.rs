@@ -47,8 +47,8 @@ pub(crate) fn run(arguments: &RelightArguments) -> Result<(), Failure> {
     picture_file::write(output, pixels, &provenance).map_err(|error| Failure::of_file(output, error))
 }
 
-/// The picture in this light, lit as the style of strokes lights its paint: shading relative to a flat canvas, and a
-/// small highlight. sRGB with straight alpha, four bytes a pixel.
+/// The picture in this light, lit much as `rotating_strokes/finish.frag` lights paint: shading relative to a flat
+/// canvas, and a small highlight, but no dark furrows. sRGB with straight alpha, four bytes a pixel.
 fn relit(planes: &Planes, light: [f32; 3]) -> Vec<u8> {
     let [r, g, b, a, x, y, z] = [0, 1, 2, 3, 4, 5, 6].map(|index| &planes.values[index]);
     let to_light = unit(light);

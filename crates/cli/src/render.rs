@@ -5,11 +5,11 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use impasto_frame_files::frame_reader::Depth;
+use impasto_frame_files::frame_reader::{self, Depth};
 use impasto_frame_files::picture_file::{self, Pixels};
 use impasto_frame_files::{FrameList, Pattern, not_an_input, ready_folder, scene_of, state_of};
 use impasto_gl_render::shader_folder::ShaderFolder;
-use impasto_gl_render::{Cost, PassTime, Renderer, ShaderTexts};
+use impasto_gl_render::{Cost, PassTime, Picture, Renderer, ShaderTexts};
 use impasto_painting::{FrameOptions, Rotation, StrokeColors};
 use impasto_scene::document::{Scene, Style};
 use impasto_scene::loaded::LoadedScene;
@@ -17,7 +17,7 @@ use impasto_scene::memory;
 use impasto_scene::whole_file::WholeFile;
 use impasto_sequence::movie::{Encoding, FrameFormat, Kind, Movie};
 use impasto_sequence::{
-    Drawn, Ending, FileOutcome, FrameError, FrameFiles, Sequence, Wanted, fits_in_memory,
+    Drawn, Ending, FileOutcome, FrameError, FrameFiles, PngDepth, Sequence, Wanted, fits_in_memory,
 };
 
 use crate::args::{ColorsChoice, RenderArguments, RotationChoice};
@@ -94,6 +94,13 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
                     not_an_input(&pattern.path(frame).with_extension(ending), &inputs)?;
                 }
             }
+            if arguments.contact_sheet && arguments.skip_existing && has_ending(&arguments.output, ".exr") {
+                let words = "--contact-sheet with --skip-existing needs frames in .png: let -o end in it, with --exr for EXR files beside them";
+                return Err(Failure::Usage(words.to_owned()));
+            }
+            if arguments.contact_sheet {
+                not_an_input(&sheet_path(pattern), &inputs)?;
+            }
             ready_folder(&pattern.path(frames.iter().next().unwrap_or(0)))?;
         }
         Destination::Animation(path) | Destination::Movie(path, _) => {
@@ -149,8 +156,8 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
     Ok(Plan { sequence, renderer, frames, destination, storing })
 }
 
-/// Refuses a file that was painted from another scene, or from another state of this one: it is not a frame that is
-/// done.
+/// Refuses a file that was painted from another scene, or from another state of this one: `--skip-existing` must not
+/// take it for a finished frame.
 fn of_this_scene(path: &Path, own_scene: &str, own_state: &str) -> Result<(), Failure> {
     let other = match (scene_of(path), state_of(path)) {
         (Some(scene), _) if scene != own_scene => format!("{scene}, and this is {own_scene}"),
@@ -165,6 +172,21 @@ fn of_this_scene(path: &Path, own_scene: &str, own_state: &str) -> Result<(), Fa
 
 fn name_of(loaded: &LoadedScene) -> String {
     loaded.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+/// The picture in the file of a frame that was there.
+fn picture_in(path: &Path) -> Result<Picture, Failure> {
+    let frame = frame_reader::read(path).map_err(|error| Failure::Refused(error.to_string()))?;
+    let rgba8 = match frame.depth {
+        Depth::Eight => frame.rgba,
+        Depth::Sixteen => frame.rgba.chunks_exact(2).map(|bytes| bytes[0]).collect(),
+    };
+    Ok(Picture { size_px: frame.size_px, rgba8 })
+}
+
+/// Where the contact sheet goes.
+fn sheet_path(pattern: &Pattern) -> PathBuf {
+    pattern.beside("sheet").with_extension("png")
 }
 
 /// What is made of each frame.
@@ -186,6 +208,10 @@ fn wanted(arguments: &RenderArguments, destination: &Destination, scene: &Scene)
     Ok(match destination {
         Destination::Files(_) => Wanted { picture: arguments.contact_sheet, png, exr, ..Wanted::default() },
         Destination::Stream => Wanted { png, ..Wanted::default() },
+        Destination::Animation(_) | Destination::Movie(..) if picture.bits == PngDepth::Sixteen => {
+            let words = "--bits 16 is for PNG files of single frames: leave it out, or let -o end in .png without --apng";
+            return Err(Failure::Usage(words.to_owned()));
+        }
         Destination::Animation(_) | Destination::Movie(..) => Wanted::PICTURE,
     })
 }
@@ -263,7 +289,10 @@ impl Plan {
                         kept += 1;
                         of_this_scene(&path, &sequence.scene_name, &sequence.state)?;
                         if state_of(&path).is_none() {
-                            foreign.push(path);
+                            foreign.push(path.clone());
+                        }
+                        if let Some(sheet) = &mut sheet {
+                            sheet.add(&picture_in(&path)?);
                         }
                     }
                     // This ends the command: a folder that is full or gone would take no further frame either.
@@ -320,7 +349,7 @@ impl Plan {
             );
         }
         if let Some(sheet) = sheet {
-            let path = pattern.beside("sheet").with_extension("png");
+            let path = sheet_path(pattern);
             let picture = sheet.picture();
             let pixels = Pixels { size_px: picture.size_px, rgba8: &picture.rgba8 };
             picture_file::write(&path, pixels, &sheet_provenance)

@@ -110,8 +110,8 @@ impl Server<'_> {
         let loaded = session::read_scene(of_scene, true)?;
         let inputs = loaded.inputs();
         // The stamp of the scene file is from before it was read, so that a change during reading shows the next time.
-        // The other files are known only now, after reading, so a change of one during reading goes unnoticed. Each is
-        // expected to be replaced as a whole.
+        // The other files are known only now, after reading, so a change of one during reading goes unnoticed. Whoever
+        // changes a file is expected to replace it as a whole, so that none is read half-written.
         let mut stamps: Vec<Stamp> = inputs.iter().map(|path| stamp_of(path)).collect();
         if let Some(first) = stamps.first_mut() {
             *first = begun;
@@ -140,6 +140,9 @@ impl Server<'_> {
         self.ready()?;
         tell(&self.words_of_ready(order.id))?;
         let frames = FrameList::parse(&order.frames).map_err(Failure::Usage)?;
+        if !order.output.to_lowercase().ends_with(".exr") {
+            return Err(Failure::Usage(format!("output {}: let the name end in .exr", order.output)));
+        }
         let pattern = Pattern::parse(&order.output, frames.count());
         let Some(Ready { prepared: Prepared { painting, .. }, inputs, .. }) = &self.ready else {
             return Ok(Ending::Stopped);

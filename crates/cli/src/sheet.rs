@@ -51,7 +51,7 @@ impl Sheet {
     }
 }
 
-/// A small copy: each of its pixels is the mean of the pixels that it covers.
+/// A small copy: each of its pixels is the mean of the pixels that it covers, colours weighted by their alpha.
 fn reduced(picture: &Picture, small_px: [u32; 2]) -> Vec<[u8; 4]> {
     let [width, height] = picture.size_px;
     let span = |at: u32, small: u32, whole: u32| {
@@ -62,17 +62,19 @@ fn reduced(picture: &Picture, small_px: [u32; 2]) -> Vec<[u8; 4]> {
     let mut small = Vec::with_capacity(small_px[0] as usize * small_px[1] as usize);
     for y in 0..small_px[1] {
         for x in 0..small_px[0] {
-            let (mut sum, mut count) = ([0u32; 4], 0);
+            let (mut colour, mut alpha, mut count) = ([0u32; 3], 0, 0);
             for py in span(y, small_px[1], height) {
                 for px in span(x, small_px[0], width) {
                     let at = (py as usize * width as usize + px as usize) * 4;
-                    for (sum, &byte) in sum.iter_mut().zip(&picture.rgba8[at..at + 4]) {
-                        *sum += u32::from(byte);
+                    let [r, g, b, a] = std::array::from_fn(|channel| u32::from(picture.rgba8[at + channel]));
+                    for (sum, byte) in colour.iter_mut().zip([r, g, b]) {
+                        *sum += byte * a;
                     }
-                    count += 1;
+                    (alpha, count) = (alpha + a, count + 1);
                 }
             }
-            small.push(sum.map(|sum| (sum / count.max(1)) as u8));
+            let [r, g, b] = colour.map(|sum| (sum / alpha.max(1)) as u8);
+            small.push([r, g, b, (alpha / count.max(1)) as u8]);
         }
     }
     small

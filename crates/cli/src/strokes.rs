@@ -1,5 +1,6 @@
 //! `impasto strokes`: the strokes of a frame as they are drawn, read back from the GPU.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::Path;
@@ -41,7 +42,8 @@ struct Row<'a> {
     rank: f32,
     taper: f32,
     bend_deg: f32,
-    /// How far the stroke bows to the left, in half widths; for drawing only.
+    /// How far the ends of the stroke are bowed to the left of its middle, as in [`Stroke::bow`], but less than 0 where
+    /// the mark is flipped; for SVG only.
     #[serde(skip)]
     bow: f32,
 }
@@ -130,7 +132,7 @@ fn row<'a>(
         rank: source.rank,
         taper: stroke.taper,
         bend_deg: stroke.bend_rad.to_degrees(),
-        bow: stroke.bow,
+        bow: if stroke.mark & Stroke::FLIPPED == 0 { stroke.bow } else { -stroke.bow },
     }
 }
 
@@ -195,13 +197,18 @@ fn svg(frame: &Frame, rows: &[Row<'_>]) -> String {
         );
     }
     let mut layer = "";
+    // A layer may come more than once, and an id must not.
+    let mut times = BTreeMap::<&str, usize>::new();
     for row in rows {
         if row.layer != layer {
             if !layer.is_empty() {
                 text.push_str("</g>\n");
             }
             layer = row.layer;
-            let _ = writeln!(text, "<g id=\"{layer}\">");
+            let count = times.entry(layer).or_default();
+            *count += 1;
+            let again = if *count > 1 { format!("-{count}") } else { String::new() };
+            let _ = writeln!(text, "<g id=\"{layer}{again}\">");
         }
         // SVG counts Y downwards and turns clockwise.
         let _ = writeln!(
@@ -227,15 +234,19 @@ fn hex(color: [f32; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// The outline of a stroke that lies along +X with its centre at the origin: blunt at its start, pointed at its end,
-/// bowed, then tapered and bent.
+/// The outline of a stroke that lies along +X with its centre at the origin: blunt at its start, narrow and round at its
+/// end, bowed, then tapered and bent.
 fn outline(row: &Row<'_>) -> String {
     let (l, w) = (row.length_px * 0.5, row.width_px * 0.5);
-    // The stroke's left is up, which is negative in SVG. A cubic curve rises to 3/4 of its handles, hence 4/3.
-    let bow = -row.bow * w * 4.0 / 3.0;
-    let (upper, lower) = (bow - w, bow + w);
+    // As the shader shifts the mark. The stroke's left is up, which is negative in SVG.
+    let bow_px = -row.bow * w;
+    let shifted = |x: f32| bow_px * (0.176 * (x / l).powi(2) - 0.06);
+    // Where handles lie so that the curve between passes the middle.
+    let handle = (8.0 * shifted(0.0) - shifted(0.92 * l) - shifted(0.8 * l)) / 6.0;
+    let (upper, lower) = (handle - w, handle + w);
     let at = |x: f32, y: f32| {
-        let [x, y] = bent(row, [x, y]);
+        let is_handle = x.abs() == 0.4 * l;
+        let [x, y] = bent(row, [x, if is_handle { y } else { y + shifted(x) }]);
         if y == 0.0 { format!("{x:.2} 0") } else { format!("{x:.2} {y:.2}") }
     };
     let start = at(-0.92 * l, -w);
@@ -301,6 +312,9 @@ mod tests {
             bow: 0.0,
         };
         assert_eq!(bent(&row(0.0, 0.0), [30.0, 4.0]), [30.0, 4.0]);
+        // Bowed by 2 half widths: its end is 0.116 of these to the left, above, and its middle 0.06 below.
+        let bowed = outline(&Row { bow: 2.0, ..row(0.0, 0.0) });
+        assert!(bowed.contains("50.00 -1.16"), "{bowed}");
         assert_eq!(bent(&row(1.0, 0.0), [50.0, 4.0]), [50.0, 0.0]);
         assert_eq!(bent(&row(1.0, 0.0), [-50.0, 4.0]), [-50.0, 8.0]);
         // An eighth of a circle of this radius. It bends to the left, which is up: negative Y.

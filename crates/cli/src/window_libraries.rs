@@ -9,7 +9,7 @@ use impasto_system::{FOR_WAYLAND, FOR_X11, Part};
 pub(crate) struct Found {
     /// The display that a window would be on, such as `X11 :0`, if any.
     pub(crate) display: Option<String>,
-    /// What a window on that display needs and the system lacks; if there is no display, what one on X11 would need.
+    /// What the system lacks for a window on that display; if there is no display, for one on X11.
     pub(crate) missing: Vec<Part>,
 }
 

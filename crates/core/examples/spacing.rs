@@ -9,7 +9,7 @@ use impasto_core::TriangleMesh;
 use impasto_core::neighbours::Neighbours;
 use impasto_core::sampling::{Particle, Surface, hexagonal_spacing, progressive};
 
-/// Shares of the count. Some are uneven (0.11, 0.37, 0.71), so that no level of the order ends there.
+/// Shares of the count. They are not matched to the levels of the order, so most of them end inside a level.
 const BEGINNINGS: [f64; 7] = [0.02, 0.11, 0.25, 0.37, 0.5, 0.71, 1.0];
 
 /// Mean of the particles' distances to their nearest neighbours, and the distance that only one particle in a thousand
@@ -18,7 +18,7 @@ fn spacing(particles: &[Particle], area: f64) -> [f64; 2] {
     let hexagonal = hexagonal_spacing(area, particles.len());
     let (positions, normals): (Vec<Vec3>, Vec<Vec3>) =
         particles.iter().map(|particle| (particle.position, particle.normal)).unzip();
-    // Far enough: in a hexagonal lattice the nearest neighbour is at 1 spacing, and in anything denser it is nearer.
+    // Far enough for nearly all: in the hexagonal lattice, the evenest spread, the nearest neighbour is at 1 spacing.
     let reach = 1.5 * hexagonal;
     let found = Neighbours::find(&positions, &normals, reach as f32);
     let nearest = |at: usize| match found.of(at).first() {

@@ -2,8 +2,8 @@
 //! on it.
 //!
 //! ```text
-//! bound ─▶ + Σ weight · target ─▶ Σ weight · joint ─▶ (points of a cache) ─▶ (noise) ─▶ vertices
-//!                                                                             └─▶ Gradients: F at each vertex ─▶ carry
+//! bound ─▶ + Σ weight · target ─▶ Σ weight · joint ─┬─▶ (noise) ─▶ vertices
+//!                    or, instead, points of a cache ┘               └─▶ Gradients: F at each vertex ─▶ carry
 //! ```
 
 mod bonds;

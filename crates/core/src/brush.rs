@@ -24,7 +24,7 @@ pub const SIZE: [usize; 2] = [256, 96];
 /// How many different marks a brush makes.
 pub const VARIANTS: u32 = 12;
 
-/// A mark fills this share of its rectangle each way; the rest is room for ragged ends.
+/// A mark fills this share of its rectangle each way; the rest is room for uneven edges and for a fan's curved end.
 pub const FILL: f32 = 0.84;
 
 /// Height of the paint, in brush thicknesses, where a texel's height byte is 255.

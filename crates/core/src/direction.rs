@@ -103,8 +103,8 @@ fn angle_between(symmetry: Symmetry, a: DVec3, b: DVec3) -> f64 {
 /// The direction round an axis, along the surface; unit, or zero where it is undefined.
 ///
 /// It is mostly `axis × normal`, which suits bent and off-centre parts too. Where the surface faces along the axis
-/// (the cap of a log) that vanishes, and the direction goes round the part's centre instead. `from_center` is the
-/// point minus that centre, `size` the size of the part.
+/// (the cap of a log) that vanishes, and the direction goes round the body's centre instead. `from_center` is the
+/// point minus that centre, `size` the size of the body.
 pub fn around(axis: DVec3, normal: DVec3, from_center: DVec3, size: f64) -> DVec3 {
     let axis = axis.normalize_or_zero();
     let round_part = axis.cross(normal);
@@ -132,7 +132,7 @@ mod tests {
         assert!((side - DVec3::NEG_Z).length() < 1e-12);
         let cap = around(DVec3::Y, DVec3::Y, DVec3::new(0.5, 1.0, 0.0), 2.0);
         assert!((cap - DVec3::NEG_Z).length() < 1e-12);
-        // A handle beside the axis: the direction goes round the handle's own bend, not round the jug.
+        // The upright handle of a jug, beside the axis: the direction goes round the handle, not round the jug.
         let handle = around(DVec3::Y, DVec3::Z, DVec3::new(0.8, 0.5, 0.05), 2.0);
         assert!((handle - DVec3::X).length() < 1e-2, "{handle}");
     }

@@ -33,9 +33,9 @@ const SMOOTHING_RADIUS: f32 = 2.7;
 
 /// The size of the form all over a surface, measured at samples of it.
 ///
-/// Around a point, the samples within a radius R whose normals agree with the point's cover the area that the form
-/// still has there. On a plane this is the whole disc; beyond the end of the form it grows more slowly. The size is the
-/// R at which it covers a fifth of the disc: 3.2 widths of a flat strip, the radius of a sphere, 2.8 radii of a long
+/// The samples that lie within a radius R of a point, on the same form as the point, cover a share of the disc of that
+/// radius. On a plane they cover all of it; once R passes the end of the form, the share falls. The size is the R at
+/// which they cover a fifth of the disc: 3.2 widths of a flat strip, the radius of a sphere, 2.8 radii of a long
 /// cylinder. The two sides of a plate are measured apart, so a thin plate is as large as it looks.
 #[derive(Clone, Debug, Default)]
 pub struct FormSize {

@@ -1,6 +1,6 @@
 //! The source paper's own solve, in full: every neighbour is projected through the 4×4 matrix, in this frame and in the
-//! reference (source paper, eq. 1–2). The `paper` preset uses it, and tests judge the lifts by it, so it shares no
-//! function with `screen_map`, `lift` or `solve`.
+//! reference (source paper, eq. 1–2). The solver `HornExact` and the `paper` preset use it, and tests judge the lifts
+//! by it, so it shares no function with `screen_map`, `lift` or `solve`.
 
 use glam::{DMat4, DVec2, DVec3};
 

@@ -4,7 +4,7 @@
 //! ```text
 //! mesh ─▶ shells ─▶ sampling ─▶ particles (progressive blue-noise order)
 //!                                  │
-//!                  neighbours ◀────┤ (only where `horn` asks)
+//!                  neighbours ◀────┤ (only for Horn's solvers)
 //!                                  ▼
 //!         direction ─▶ lift: N' per particle ─▶ solve: centre, depth, angle, projected area per view
 //!                                                   └▶ presence

@@ -48,7 +48,7 @@ impl Lift {
     /// Horn's estimate over neighbours (source paper eq. 2): `Σ d pᵀ / Σ|p|²`, d the neighbours' offsets in model
     /// space, p the same offsets in pixels of the reference picture. Its angle is exactly that of the paper's sum with
     /// each neighbour weighted by `z_neighbour / z_stroke`. It is doubled, so that it maps the reference to about
-    /// itself, as `tangent` does. `None` with fewer than three neighbours or all of them within half a pixel.
+    /// itself, as `tangent` does. `None` with fewer than three neighbours, or where Σ|p|² is at most 0.25 px².
     pub fn horn(offsets: impl Iterator<Item = (DVec3, DVec2)>) -> Option<Self> {
         let (mut along, mut across, mut sum, mut count) = (DVec3::ZERO, DVec3::ZERO, 0.0, 0);
         for (d, p) in offsets {
@@ -126,7 +126,7 @@ pub fn turntable_axes(normal: DVec3, up: DVec3) -> [DVec3; 2] {
     let above = if projected.length_squared() > 1e-12 {
         projected.normalize()
     } else {
-        // As when a person looks down on a table: what is farther away is up.
+        // As when a person looks down on a table: what is farther away is up. From below, what is nearer is up.
         let away = if normal.dot(up) > 0.0 { 1.0 } else { -1.0 };
         let forward = if up.z.abs() < 0.9 { DVec3::NEG_Z } else { DVec3::Y } * away;
         (forward - normal * normal.dot(forward)).normalize_or(DVec3::X)

@@ -4,8 +4,9 @@ use glam::{Vec2, Vec3};
 
 /// A triangle mesh in model space.
 ///
-/// A vertex is a (position, normal, uv) triple: corners that differ in any of them are different vertices,
-/// so hard edges are split and smooth ones are shared. Triangles wind counter-clockwise seen from outside.
+/// A vertex is a position with a normal, uv and colour: corners that differ in any of them are different vertices,
+/// so hard edges are split and smooth ones are shared. Triangles should wind counter-clockwise seen from outside;
+/// `shells::sides` finds closed shells that do not.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TriangleMesh {
     /// One position per vertex, finite.
@@ -18,7 +19,8 @@ pub struct TriangleMesh {
     pub colors: Vec<Vec3>,
     /// Vertex indices, three per triangle, each less than `positions.len()`.
     pub triangles: Vec<[u32; 3]>,
-    /// For each triangle, the index of the file's polygon that it was cut from; never decreases.
+    /// For each triangle, the number of the polygon that it was cut from; never decreases. Polygons of a file that give
+    /// no triangles have no number.
     pub polygon_of_triangle: Vec<u32>,
     /// For each triangle, an index into the mesh file's group names.
     pub group_of_triangle: Vec<u32>,
@@ -46,8 +48,8 @@ impl TriangleMesh {
         Some(used.fold((first, first), |(low, high), position| (low.min(position), high.max(position))))
     }
 
-    /// The number of the last polygon that has triangles, plus one. Polygons before it count even if they have no
-    /// triangles, because all were numbered before they were cut.
+    /// The number of the last triangle's polygon, plus one. In the whole mesh of a file, this is how many polygons have
+    /// triangles.
     pub fn polygon_count(&self) -> usize {
         self.polygon_of_triangle.last().map_or(0, |&last| last as usize + 1)
     }

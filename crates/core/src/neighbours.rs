@@ -1,5 +1,5 @@
-//! Finds, for points of a surface, the nearest others within a radius on the same side of the surface. The stroke turns
-//! `horn` and `horn-exact` need these lists, and so does the direction field.
+//! Finds, for points of a surface, the nearest others within a radius on the same side of the surface. The solvers
+//! `Horn` and `HornExact` need these lists, and so does the direction field.
 
 mod cells;
 mod crowd;
@@ -75,7 +75,8 @@ impl Neighbours {
         NeighbourArrays { slots, lengths, indices, most: *most }
     }
 
-    /// Lists from the arrays that [`Neighbours::arrays`] gave; `None` for arrays that it cannot have given.
+    /// The lists that [`Neighbours::find`] found, from their [`Neighbours::arrays`]; `None` where lengths do not match
+    /// or a number is out of range.
     pub fn from_arrays(slots: Vec<u32>, lengths: Vec<u8>, indices: Vec<u32>, most: usize) -> Option<Self> {
         let count = slots.len();
         let is_inside = |number: &u32| (*number as usize) < count;

@@ -4,8 +4,8 @@
 //! position ─▶ lookup: S·v·NV + (t, t) ─▶ tile: N, repeated ─▶ v + (saturate(N) − ½)·NS
 //! ```
 //!
-//! v is the vertex, S its pose if the noise stands still in the world (else the identity), NV the textures per unit, t
-//! how far the noise has travelled, N the noise, and NS the scale of the displacement.
+//! v is the vertex, S the body's pose if the noise stands still in the world (else the identity), NV the textures per
+//! unit, t how far the noise has travelled, N the noise, and NS the scale of the displacement.
 
 mod built_in;
 mod tile;
@@ -60,8 +60,9 @@ pub struct Lookup {
 }
 
 impl Lookup {
-    /// `S·v·NV` plus a shift. S is `world_from_model`, or the identity where the noise moves with the body. Whole
-    /// lengths of the texture are dropped from the shift, so that bodies far away are as exact as near ones.
+    /// `S·v·NV` plus `shift`, where NV is `value`. S is `world_from_model`, or the identity where the noise moves with
+    /// the body. Whole lengths of the texture are dropped from what is added to every vertex (`shift` and the
+    /// translation of S), so that bodies far away are as exact as near ones.
     pub fn new(value: [f64; 2], world_from_model: Option<DAffine3>, shift: DVec2) -> Self {
         let space = world_from_model.unwrap_or(DAffine3::IDENTITY);
         let row = |axis: usize| {

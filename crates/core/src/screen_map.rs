@@ -25,7 +25,7 @@ pub struct ScreenMap {
 pub struct UnevenPose {
     /// What the pose does to steps on the surface.
     pub world_from_model: DMat3,
-    /// What the pose does to normals, except to their length.
+    /// What the pose does to the direction of normals; the length that comes out means nothing.
     pub world_from_normal: DMat3,
 }
 

@@ -14,7 +14,7 @@ pub enum Side {
     Front,
     /// A closed shell that is inside out: its back is the outside.
     Back,
-    /// A sheet with a border, or one that cannot be oriented.
+    /// A sheet with a border, a shell whose triangles do not all wind alike, or a closed one without volume.
     Both,
 }
 
@@ -51,7 +51,7 @@ pub fn numbers(mesh: &TriangleMesh) -> Vec<u32> {
         .collect()
 }
 
-/// The shells, and for each triangle that is the root of its shell, whether the shell has a border.
+/// The shells, and for each triangle that is the root of its shell, whether the shell is open (not closed).
 fn find(mesh: &TriangleMesh) -> (Shells, Vec<bool>) {
     let point_of_vertex = weld(&mesh.positions);
     let mut shells = Shells::new(mesh.triangles.len());

@@ -10,7 +10,8 @@ const FINE: usize = 24;
 /// `steps` is 0.
 ///
 /// Centripetal Catmull-Rom (P. J. Barry and R. N. Goldman, A Recursive Evaluation Algorithm for a Class of Catmull-Rom
-/// Splines, 1988): the step between two knots is the root of their distance, so the line makes no loop between them.
+/// Splines, 1988): from one point to the next the parameter grows by the square root of their distance, so the line
+/// makes no loop between them.
 pub fn smooth_path(points: &[DVec3], steps: usize) -> Vec<DVec3> {
     let mut knots: Vec<DVec3> = Vec::with_capacity(points.len() + 2);
     for &point in points.iter().filter(|point| point.is_finite()) {
@@ -21,7 +22,7 @@ pub fn smooth_path(points: &[DVec3], steps: usize) -> Vec<DVec3> {
     if knots.len() < 2 || steps == 0 {
         return Vec::new();
     }
-    // Beyond either end the line goes on as it came.
+    // The end pieces need a point beyond each end: the end's neighbour, mirrored at the end.
     let (first, last) = (knots[0] * 2.0 - knots[1], knots[knots.len() - 1] * 2.0 - knots[knots.len() - 2]);
     knots.insert(0, first);
     knots.push(last);

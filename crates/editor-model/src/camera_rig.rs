@@ -20,7 +20,8 @@ const POLE_GAP_RAD: f64 = 0.0087;
 const AXIS_GAP_RAD: f64 = 1e-3;
 /// Framing leaves this share of the picture free.
 const FRAME_MARGIN: f64 = 0.1;
-/// Distances that zooming stays within, world units.
+/// Zooming and framing keep the distance to the target, or the height of an orthographic picture, within these limits,
+/// world units.
 const DISTANCES: std::ops::RangeInclusive<f64> = 1e-3..=1e6;
 
 /// A camera that the user moves freely.
@@ -105,6 +106,7 @@ impl FreeView {
                 for point in [&mut self.pose.eye, &mut self.pose.target] {
                     *point = toward + (*point - toward) * scale;
                 }
+                self.reach(distance * scale);
             }
             Lens::Orthographic { height, .. } => {
                 let scale = (*height * wanted).clamp(*DISTANCES.start(), *DISTANCES.end()) / *height;

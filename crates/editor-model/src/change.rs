@@ -126,7 +126,7 @@ impl SceneChange {
     }
 }
 
-/// A scene without its long lists.
+/// A scene without its objects, regions and touches.
 pub(crate) fn head(scene: &Scene) -> Scene {
     Scene {
         version: scene.version,

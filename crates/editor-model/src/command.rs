@@ -30,7 +30,7 @@ use crate::selection::Selection;
 /// One change of a document.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
-    /// Names, parents, order, deletion.
+    /// Names, parents, order, visibility, locks, copies, deletion.
     Edit(Edit),
     /// Objects, lights and cameras, and their poses.
     Arrange(Arrange),
@@ -44,7 +44,7 @@ pub enum Command {
     Regions(Regions),
     /// Keys and the timeline.
     Time(Time),
-    /// Size, style and backdrop.
+    /// Size, seed, background, exposure and style.
     Scene(SceneEdit),
     /// Several commands as one entry of the history, with one text; if one is refused, all are.
     Several(String, Vec<Command>),

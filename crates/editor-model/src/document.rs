@@ -39,7 +39,7 @@ pub struct Document {
     options: LoadOptions,
     /// The file as it was read or written last.
     stamp: Option<Stamp>,
-    /// The text that the scene was read from, while parts of the text could not be read.
+    /// The text that the scene was read from; `None` unless parts of it could not be read.
     source: Option<Arc<Source>>,
     revision: u64,
 }
@@ -74,7 +74,7 @@ impl Document {
         Self::of(loaded, None, LoadOptions::default())
     }
 
-    /// Opens a scene file (`.ron`), or a mesh (`.obj`) in a new scene of its own.
+    /// Opens a scene file (`.ron`), or a mesh or a shot (`.obj`, `.gltf`, `.glb`) in a new scene of its own.
     ///
     /// # Errors
     /// Everything that is wrong with the files, each with its place.
@@ -84,7 +84,7 @@ impl Document {
         let is_scene = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ron"));
         if !is_scene {
             loaded.scene.timeline.last = LAST_FRAME;
-            // One region for each group of the mesh, ready to be painted.
+            // The first object gets regions for its groups or materials, or one for all of it, ready to be painted.
             let mesh = loaded
                 .scene
                 .objects
@@ -210,8 +210,9 @@ impl Document {
         let change = SceneChange::between(&first, &loaded.scene);
         self.loaded = Arc::new(loaded);
         self.revision += 1;
-        self.history.replace_last(change, self.selection.clone());
-        self.history.mark_last(key.to_owned(), at_secs);
+        if self.history.replace_last(change, self.selection.clone()) {
+            self.history.mark_last(key.to_owned(), at_secs);
+        }
         Ok(Step { text: done.text, note: done.note })
     }
 
@@ -237,8 +238,8 @@ impl Document {
         self.loaded = Arc::new(loaded);
     }
 
-    /// Reads a mesh by its path relative to the scene's folder and adds an object for it, with a region for each of its
-    /// groups.
+    /// Reads a mesh by its path relative to the scene's folder and adds an object for it, with regions for its groups
+    /// or materials.
     ///
     /// # Errors
     /// What is wrong with the file, in the words to show.

@@ -1,9 +1,10 @@
 //! The whole editor without its window: a document and a session, driven by plain events.
 //!
 //! ```text
-//! keys ─▶ Editor::key ─▶ Action ─┐
-//! menus, palette ───────▶ Action ─┼▶ Editor::act ─▶ document, session, or a Request for the window
-//! pointer ─▶ Editor::pointer ─────┘   (tools, gizmo, navigation, selection)
+//! keys ──▶ Editor::key ─▶ Action ─┐
+//! menus, palette ───────▶ Action ─┴▶ Editor::act ─┐
+//! pointer ─▶ Editor::pointer ─────────────────────┴▶ document, session, or a Request for the window
+//!            (tools, gizmo, navigation, selection)
 //! ```
 
 mod actions;
@@ -64,7 +65,8 @@ enum Busy {
     Navigating(Navigation, DVec3),
     /// A drag with the shot camera tool moves the shot's camera, now at this pose.
     Shot(CameraPose),
-    /// A drag moves the view, and with it the shot's camera at this frame. The pose is the camera's.
+    /// A drag, or after a move, turn or scale key the pointer alone, moves the shot's camera, now at this pose. The
+    /// other fields are as in `Navigating`.
     ShotView(Navigation, DVec3, CameraPose),
     /// A tool of Paint has the pointer.
     Painting,
@@ -102,7 +104,7 @@ pub struct Editor {
     said: Vec<Said>,
     requests: Vec<Request>,
     version: u64,
-    /// How many losses the document had when messages were last taken: see [`Document::loss_count`].
+    /// [`Document::loss_count`] when messages were last taken, or when the document was saved after that.
     losses: usize,
 }
 
@@ -317,7 +319,7 @@ impl Editor {
         self.version += 1;
     }
 
-    /// Replaces the selection; the keyboard no longer goes to selected keys.
+    /// Replaces the selection; the timeline's lanes lose the keyboard focus.
     pub fn select(&mut self, selection: Selection) {
         self.time.keys.take(KeysEvent::Blur, &[]);
         self.document.select(selection);
@@ -399,7 +401,7 @@ impl Editor {
             return words;
         }
         if self.document.scene().objects.is_empty() {
-            return "Drop an OBJ or a scene anywhere in the window".to_owned();
+            return "Drop a model or a scene anywhere in the window".to_owned();
         }
         let light = self.active_light().map(|place| place.light.name);
         let object = || Some(self.document.shown().scene.objects[self.active_object()?].name.clone());

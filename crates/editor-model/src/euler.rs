@@ -8,7 +8,8 @@ pub(crate) fn matrix(rotation_deg: [f64; 3]) -> DMat3 {
     motion::rotation_from_euler_deg(DVec3::from(rotation_deg))
 }
 
-/// The Euler angles of a rotation in degrees. Many angles give the same rotation: these are the nearest to `near`.
+/// The Euler angles of a rotation in degrees. Many angles give the same rotation: these are the nearest to `near`
+/// (except at ±90 degrees about Y, where X and Z are not unique).
 pub(crate) fn degrees(rotation: DMat3, near: [f64; 3]) -> [f64; 3] {
     let first = motion::euler_deg_from_rotation(rotation);
     // Euler angles are not unique: these give the same rotation.

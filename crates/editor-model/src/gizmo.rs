@@ -20,7 +20,8 @@ const SQUARE: [f64; 2] = [0.3, 0.16];
 const REACH_PX: f64 = 12.0;
 /// Radius of the dot in the middle, pixels.
 const CENTRE_PX: f64 = 10.0;
-/// An arm that shows shorter than this share of its length points nearly at the eye, and is left out.
+/// An arm that shows shorter than this share of its length points nearly at the eye, and is left out; so is a square
+/// that shows smaller than this share of its area.
 const LEAST_SHOWN: f64 = 0.15;
 const RING_PIECES: usize = 64;
 
@@ -54,8 +55,8 @@ pub enum HandleShape {
         /// Its corners in order.
         corners_px: [DVec2; 4],
     },
-    /// A ring that turns the object when dragged. About an axis, only the half that faces the eye is shown, from end to
-    /// end; about the gaze, the whole ring.
+    /// A ring that turns the object when dragged. Of a ring about an axis, only the half that faces the eye is shown. A
+    /// ring about the gaze is whole.
     Ring {
         /// Points of the line.
         points_px: Vec<DVec2>,
@@ -74,7 +75,7 @@ pub struct Gizmo {
 }
 
 impl Gizmo {
-    /// The handles of an operation on an object; none where its origin does not show.
+    /// The handles of an operation on an object; none if its origin is nearer than the near plane.
     pub fn new(operation: Operation, space: Axes, world_from_model: DAffine3, view: &View) -> Self {
         let origin = world_from_model.translation;
         let Some(centre_px) = view.project(origin).filter(|at_px| at_px.is_finite()) else {
@@ -101,7 +102,7 @@ impl Gizmo {
     }
 
     /// The handle under the pointer, if any. The dot goes before squares, squares before arms, arms before rings; of
-    /// several of one kind, the nearest is taken.
+    /// several of one kind, the one closest to the pointer is taken.
     pub fn hit(&self, at_px: DVec2) -> Option<&Handle> {
         let rank = |handle: &Handle| match handle.shape {
             HandleShape::Centre { .. } => 0,

@@ -91,17 +91,17 @@ impl History {
         self.done.last().map(|entry| &entry.change)
     }
 
-    pub(crate) fn replace_last(&mut self, change: Option<SceneChange>, selection: Selection) {
-        match (change, self.done.last_mut()) {
-            (Some(change), Some(entry)) => {
-                entry.change = change;
-                entry.selections[1] = selection;
-            }
-            (None, Some(_)) => {
-                self.done.pop();
-            }
-            (_, None) => {}
+    /// Puts a change in place of that of the last entry; without a change, the entry goes. Whether it is still there.
+    pub(crate) fn replace_last(&mut self, change: Option<SceneChange>, selection: Selection) -> bool {
+        let Some(change) = change else {
+            self.done.pop();
+            return false;
+        };
+        if let Some(entry) = self.done.last_mut() {
+            entry.change = change;
+            entry.selections[1] = selection;
         }
+        !self.done.is_empty()
     }
 
     pub(crate) fn undo(&mut self) -> Option<&Entry> {

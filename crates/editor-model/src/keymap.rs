@@ -62,11 +62,11 @@ pub enum Action {
     NextMode,
     /// Takes this tool of Arrange and Animate.
     Select,
-    /// Moves what is selected.
+    /// Moves what is selected, or takes the tool for it.
     Move,
-    /// Turns what is selected.
+    /// Turns what is selected, or takes the tool for it.
     Turn,
-    /// Scales what is selected.
+    /// Scales what is selected, or takes the tool for it.
     Scale,
     /// Takes this tool of Paint.
     Comb,
@@ -98,7 +98,7 @@ pub enum Action {
     LargerRadius,
     /// Turns the direction under the cursor round.
     FlipUnderCursor,
-    /// Selects everything.
+    /// Selects all objects; on a lane, all keys.
     SelectAll,
     /// Selects nothing.
     SelectNone,
@@ -116,9 +116,9 @@ pub enum Action {
     ShowAll,
     /// Locks what is selected, or unlocks it.
     Lock,
-    /// Moves the view so that what is selected fills it.
+    /// Moves the view so that the selected objects fill it.
     FrameSelected,
-    /// Moves the view so that all objects fill it.
+    /// Moves the view so that all objects fill it, without those that are hidden or have a built-in mesh.
     FrameAll,
     /// Looks from +Z.
     ViewFront,
@@ -142,7 +142,7 @@ pub enum Action {
     ToggleColumn,
     /// Shows only the viewport, or everything again.
     MaximiseViewport,
-    /// Keys the pose.
+    /// Sets keys for what is selected and for all loose poses.
     SetKey,
     /// Shows the curves between keys in the place of lanes, or the lanes again.
     Curves,
@@ -328,7 +328,7 @@ impl Keymap {
         }
     }
 
-    /// The keys of an action, as menus and tooltips write them; `None` if it has none.
+    /// The first key of an action, as menus and tooltips write it; `None` if it has none.
     pub fn shortcut_text(&self, action: Action) -> Option<String> {
         let mut bindings = self.bindings();
         let (_, chords) =
@@ -350,7 +350,8 @@ impl Keymap {
         })
     }
 
-    /// What the pointer's buttons do to the view. `None`: the tool gets the drag.
+    /// What the pointer's buttons and wheel do to the view. `None`: nothing; the event is free for other uses, such as
+    /// a drag of the tool.
     pub fn navigation(&self, button: Button, held: Modifiers) -> Option<Navigation> {
         let Modifiers { ctrl, shift, alt } = held;
         match (self.preset, button) {

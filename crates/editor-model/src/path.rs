@@ -29,9 +29,9 @@ pub use view::ObjectView;
 const STEP_PX: f64 = 1.0;
 /// Stamps lie this share of the radius apart on the surface.
 pub(crate) const STAMP_SHARE: f64 = 0.25;
-/// Points of a path are dropped as long as the path moves by at most this.
+/// A guide leaves out points of its path as long as its line stays within this distance of the path.
 const TOLERANCE_PX: f64 = 0.5;
-/// The same on a bent body, where what is straight in the picture is a curve on the surface at rest.
+/// The same on a bent body: a straight gesture there is a curve on the surface at rest, and needs more points.
 const BENT_TOLERANCE_PX: f64 = 0.1;
 /// If two steps are farther apart on the surface than this many pixels, it is checked whether the surface is connected
 /// there.
@@ -277,8 +277,9 @@ impl SurfacePath {
         stamps
     }
 
-    /// The pieces as guides, each with as few points as keep it within half a pixel of the piece. `seen` is the view
-    /// that the path was drawn in, `reference` the view that the region's directions refer to.
+    /// The pieces as guides, each with few points that keep it within half a pixel of the piece (on a bent body, a
+    /// tenth). Pieces shorter than two steps give none. `seen` is the view that the path was drawn in, `reference` the
+    /// view that the region's directions refer to.
     pub fn guides(&self, style: &GuideStyle, seen: &ObjectView, reference: &ObjectView) -> Vec<Guide> {
         self.guides_turned(style, [seen, reference], &|_, _| 0.0)
     }
@@ -293,7 +294,7 @@ impl SurfacePath {
     ) -> Vec<Guide> {
         let mut guides = Vec::new();
         for piece in &self.pieces {
-            // A straight gesture on a bent body is a curve on the surface at rest.
+            // Only a body that bends has a frame.
             let tolerance_px = if seen.frame.is_some() { BENT_TOLERANCE_PX } else { TOLERANCE_PX };
             let kept = simplify::within(piece, tolerance_px / self.px_per_unit);
             let length_px: f64 = piece.windows(2).map(|pair| pair[0].at_px.distance(pair[1].at_px)).sum();

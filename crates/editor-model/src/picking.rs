@@ -144,8 +144,8 @@ impl Picker {
         self.trees.get(object).map(|tree| tree.surface())
     }
 
-    /// Least and greatest corner of the box round those triangles of an object whose middles are `within`, in its own
-    /// space.
+    /// Least and greatest corner of the box round those triangles of an object whose middles are `within`, as they are
+    /// now, in its own space. The `position_in_world` of what `within` is given is in the object's own space too.
     pub fn bounds_where(&self, object: usize, within: impl Fn(&Hit) -> bool) -> Option<[DVec3; 2]> {
         let tree = self.trees.get(object)?;
         let mut bounds: Option<[DVec3; 2]> = None;

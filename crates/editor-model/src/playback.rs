@@ -12,10 +12,10 @@ use std::collections::BTreeSet;
 #[cfg(test)]
 mod tests;
 
-/// If the clock jumps by more than this, seconds, the machine was suspended: playback goes on from the frame that is
-/// shown.
+/// If the clock jumps ahead by more than this, seconds, the machine was suspended: playback goes on from the frame that
+/// is shown.
 const SLEPT_SECS: f64 = 5.0;
-/// No picture is asked for earlier than this, seconds.
+/// The greatest lead: no picture is asked for earlier than this before it is due, seconds.
 const MOST_LEAD_SECS: f64 = 0.4;
 /// The share of a picture's lateness that is added to the lead.
 const LEAD_GAIN: f64 = 0.2;
@@ -105,7 +105,7 @@ impl Playing {
         (!self.course.looped).then_some(self.course.last - self.start_frame)
     }
 
-    /// The latest index that was asked for and that shows this frame.
+    /// The index that shows this frame; if playback loops, the latest that is not after `asked`.
     fn index_of(&self, frame: i64) -> i64 {
         let behind = self.frame_of(self.asked) - frame;
         let behind = if self.course.looped { behind.rem_euclid(self.course.count()) } else { behind };
@@ -181,7 +181,7 @@ impl Playback {
         };
         playing.asked = asked.max(playing.asked).min(playing.end().unwrap_or(i64::MAX));
         if is_still {
-            // A range of one frame shows it all the time.
+            // The only frame of a range counts as shown at every tick.
             (playing.shown, playing.due_secs) = (playing.asked, now_secs);
         }
         let frame = playing.frame_of(playing.asked);
@@ -235,7 +235,7 @@ impl Playback {
         self.missed.iter().copied()
     }
 
-    /// Pictures a second; `None` before the first picture.
+    /// Pictures a second; `None` while stopped and before the first picture.
     pub fn rate(&self) -> Option<f64> {
         let interval = self.playing.as_ref()?.interval_secs?;
         (interval > 0.0).then(|| 1.0 / interval)

@@ -92,7 +92,7 @@ impl Recovery {
     /// Makes an offered copy this session's own, so that work goes on with it.
     ///
     /// # Errors
-    /// What the system said; the copy then stays what it was.
+    /// What the system said. The copy then stays what it was, unless only writing the folder to the disk failed.
     pub fn take_over(&self, offer: Offer) -> io::Result<()> {
         fs::rename(&offer.file, self.file())?;
         // A lock without a copy means nothing; if it cannot be removed, the next call of `offers` does it.
@@ -160,7 +160,8 @@ impl Offer {
     }
 }
 
-/// The lock of a session that has ended; `None` if the session is still running.
+/// Takes the lock of a copy; `None` if a session holds it (the copy's own, or one that was offered it), or if the lock
+/// file cannot be opened.
 fn lock_of(lock_file: &Path) -> Option<File> {
     let lock = File::options().create(true).truncate(false).write(true).open(lock_file).ok()?;
     match lock.try_lock() {

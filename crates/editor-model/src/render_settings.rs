@@ -12,11 +12,11 @@ mod progress;
 mod tests;
 
 use std::collections::HashSet;
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use impasto_frame_files::{FrameList, Pattern, PlaceError, not_an_input, ready_folder};
+use impasto_frame_files::{FrameList, Pattern, PlaceError, ready_folder};
 use impasto_scene::aovs::AovSet;
 use impasto_scene::document::Scene;
 use impasto_scene::limits::{MAX_PIXELS, MAX_SIDE_PX};
@@ -159,7 +159,7 @@ impl RenderSettings {
         self.output = output;
     }
 
-    /// The ending of the names that [`Self::output`] stands for.
+    /// The usual ending of the kind; the name of a movie may have another.
     pub fn ending(&self) -> &'static str {
         self.kind.endings()[0]
     }
@@ -218,7 +218,11 @@ impl RenderPlan {
     pub fn path(&self, frame: i64) -> PathBuf {
         match self.kind {
             FileKind::Movie => self.output.clone(),
-            _ => self.pattern.path(frame),
+            _ => {
+                // The ending as it is written, which may be typed in capitals.
+                let path = self.pattern.path(frame);
+                self.kind.files(&path).into_iter().next().unwrap_or(path)
+            }
         }
     }
 
@@ -275,15 +279,19 @@ impl RenderPlan {
     /// When files cannot be written there, or one would replace a file that the scene is read from.
     pub fn ready(&self) -> Result<(), PlaceError> {
         ready_folder(&self.output)?;
-        let inputs = self.loaded.inputs();
         // Frames may be many and inputs are few, so each input is looked up among the files of the frames.
-        let files = |frame: i64| self.kind.files(&self.path(frame));
-        let ours: HashSet<PathBuf> = self.frames.iter().flat_map(files).collect();
-        let is_ours = |input: &&PathBuf| {
-            let input = std::path::absolute(input).unwrap_or_else(|_| (*input).clone());
-            ours.contains(&input)
+        let files = self.frames.iter().flat_map(|frame| self.kind.files(&self.path(frame)));
+        let names: HashSet<OsString> =
+            files.filter_map(|path| path.file_name().map(OsStr::to_os_string)).collect();
+        let folder = self.folder().canonicalize().ok();
+        let is_ours = |input: &PathBuf| {
+            let Ok(input) = input.canonicalize() else { return false };
+            input.parent() == folder.as_deref() && input.file_name().is_some_and(|name| names.contains(name))
         };
-        inputs.iter().find(is_ours).map_or(Ok(()), |input| not_an_input(input, &inputs))
+        match self.loaded.inputs().into_iter().find(is_ours) {
+            Some(input) => Err(PlaceError::Input(input)),
+            None => Ok(()),
+        }
     }
 
     /// The name of the scene's file, which the rendered files record.

@@ -10,7 +10,7 @@ pub enum Mode {
     /// A drag moves things together with all their keys.
     #[default]
     Arrange,
-    /// A drag paints directions.
+    /// A drag paints on surfaces: directions, regions, amounts or touches.
     Paint,
     /// A drag changes the pose at this frame.
     Animate,
@@ -161,7 +161,7 @@ pub enum Pressure {
 /// The settings of the tools.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ToolOptions {
-    /// Radius of the ring, points on the screen.
+    /// Radius of the ring, logical pixels (points) of the screen.
     pub radius_px: f64,
     /// How far strokes follow, 0..=1.
     pub strength: f64,
@@ -181,7 +181,7 @@ pub struct ToolOptions {
     pub smear: bool,
     /// What Fill states.
     pub fill: FillKind,
-    /// The angle of a constant fill, degrees.
+    /// The angle that [`FillKind::Angle`] states, degrees.
     pub fill_angle_deg: f64,
     /// Whether Turn direction flips directions; else it turns them by a drag.
     pub flip: bool,
@@ -193,7 +193,7 @@ pub struct ToolOptions {
     pub flood_deg: f64,
     /// The axes that the gizmo and typed moves follow.
     pub axes: Axes,
-    /// Whether moves snap to tenths of a unit, and turns to 5 degrees.
+    /// Whether moves snap to tenths of a unit, turns to 5 degrees, and scale factors to tenths.
     pub snap: bool,
     /// What kind of light Add light adds.
     pub light: LightKind,
@@ -201,7 +201,7 @@ pub struct ToolOptions {
     pub amount: Amount,
     /// Whether a drag lowers the amount instead of raising it.
     pub lowers: bool,
-    /// Half the width of a touch, points on the screen.
+    /// Half the width of a touch, logical pixels of the screen.
     pub touch_radius_px: f64,
     /// Whether a drag erases instead of laying a touch.
     pub touch_erases: bool,
@@ -242,7 +242,7 @@ pub struct Session {
     pub frame_before_paint: Option<f64>,
     /// Whether playing begins again at the end of the range.
     pub looped: bool,
-    /// Whether, after playing, the frames that were played are painted exactly while the window rests.
+    /// Whether, once the shot was played, the frames of its range are painted exactly while the window rests.
     pub finishes: bool,
     /// Whether playing follows the clock or shows every frame.
     pub pacing: Pacing,
@@ -318,7 +318,7 @@ impl Default for ToolOptions {
 }
 
 impl ToolOptions {
-    /// Radius of a tool's ring, points on the screen.
+    /// Radius of a tool's ring, logical pixels of the screen.
     pub fn radius_of(&self, tool: Tool) -> f64 {
         if tool == Tool::Touch { self.touch_radius_px } else { self.radius_px }
     }

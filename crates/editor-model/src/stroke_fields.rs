@@ -10,7 +10,7 @@ pub struct FieldValue {
     pub field: &'static StrokeNumber,
     /// Its value, as shown.
     pub shown: f64,
-    /// Whether it is stated here; else it comes from the scene and its preset.
+    /// Whether it is stated here; else it comes from a preset or from the scene.
     pub is_own: bool,
     /// What it would be if it were not stated here, as shown.
     pub usual: f64,
@@ -44,7 +44,7 @@ pub fn field_values(scene: &Scene, region: Option<usize>) -> Vec<FieldValue> {
     values
 }
 
-/// The settings with every number left to the scene and its preset.
+/// The settings with no number stated; their preset stays.
 fn without_numbers(settings: &StrokeSettings) -> StrokeSettings {
     let mut settings = settings.clone();
     for field in STROKE_NUMBERS {

@@ -72,7 +72,7 @@ pub trait Painted {
     /// The factor that is painted onto an amount at a hit; `None` if the painting does not have the object.
     fn factor_at(&self, hit: &Hit, of: Amount) -> Option<f64>;
 
-    /// Where a hit is at a frame; `None` where its object is at rest then.
+    /// Where a hit is at a frame; `None` if its object is at rest then, or the painting does not have the object.
     fn carried(&self, hit: &Hit, frame: f64) -> Option<CarriedPlace>;
 }
 
@@ -85,7 +85,7 @@ pub struct PaintedDirection {
     pub trust: f64,
 }
 
-/// An event for a tool. Positions in pixels of the viewport, times in seconds of any clock.
+/// An event for a tool. Positions in logical pixels of the viewport, times in seconds of any clock.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ToolEvent {
     /// The pointer moved, no button held.
@@ -168,7 +168,7 @@ pub(crate) struct Paintable {
     /// Index of the region; none where a new one is made.
     pub(crate) region: Option<usize>,
     pub(crate) target: RegionTarget,
-    /// Name of the region, or of the object for a new one.
+    /// Name of the region. For a new one, what the status line says: the object's name, or *new region*.
     pub(crate) name: String,
     /// The object's name, where the region may cover other objects too.
     pub(crate) object_name: Option<String>,

@@ -39,12 +39,12 @@ pub enum Axis {
 /// The constraint of a transform.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Constraint {
-    /// Moves across the gaze, turns about it, scales evenly.
+    /// Moves parallel to the picture plane, turns about the camera's axis, scales evenly.
     #[default]
     None,
     /// Along or about one axis.
     Axis(Axis),
-    /// In the plane across one axis.
+    /// Moves or scales in the plane perpendicular to one axis, or turns about that axis.
     Plane(Axis),
 }
 
@@ -126,11 +126,11 @@ pub struct Transforming {
     /// Where the pointer was last, pixels.
     at_px: DVec2,
     snap: Snap,
-    /// Angle by which the pointer has gone round the pivot, radians; it counts whole turns.
+    /// Angle by which the pointer has gone round the pivot, radians, counter-clockwise; not wrapped at whole turns.
     gone_round_rad: f64,
 }
 
-/// A pointer nearer to the pivot than this does not turn or scale.
+/// A pointer nearer to the pivot than this does not turn, and scales as if it were at this distance.
 const LEAST_ARM_PX: f64 = 4.0;
 /// Steps of snapping: world units and factors, and degrees.
 const STEP: f64 = 0.1;

@@ -17,7 +17,7 @@ pub struct Watch {
 
 #[derive(Debug)]
 struct Watched {
-    /// Size and time of the version that was read.
+    /// Size and time when the file was first polled, or when its last change was found complete.
     known: SizeAndTime,
     /// Size and time at the last poll, if different: the file may still be being written.
     seen: Option<SizeAndTime>,

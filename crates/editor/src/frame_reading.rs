@@ -1,5 +1,5 @@
 //! Reads frames from their PNG files on a thread of its own, for the viewer of finished frames. However many frames
-//! there are, the pictures that it keeps take at most [`MOST_BYTES`], unless the one that is shown alone takes more.
+//! there are, the pictures that it keeps take at most [`MOST_BYTES`], unless the shown one takes more by itself.
 //!
 //! ```text
 //! want([7, 8, 9…], size) ─▶ thread: the first that is not read yet ─▶ decode, reduce ─▶ picture(7)

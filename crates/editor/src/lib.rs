@@ -36,11 +36,17 @@ pub enum EditError {
 /// [`EditError`]: a file that is neither scene nor mesh, shaders that cannot be read, no display, no OpenGL.
 pub fn run(options: &EditOptions) -> Result<(), EditError> {
     use incoming::Kind;
-    if let Some(path) = &options.path
-        && incoming::taken(path).map_err(EditError::Refused)? == Kind::Picture
-    {
-        let words = format!("{} is a picture: open a scene or a mesh first", path.display());
-        return Err(EditError::Refused(words));
+    if let Some(path) = &options.path {
+        let what = match incoming::taken(path).map_err(EditError::Refused)? {
+            Kind::Scene | Kind::Mesh => None,
+            Kind::Preset => Some("a preset of strokes"),
+            Kind::Picture | Kind::Exr => Some("a picture"),
+            Kind::Movie => Some("a movie"),
+        };
+        if let Some(what) = what {
+            let words = format!("{} is {what}: open a scene or a mesh first", path.display());
+            return Err(EditError::Refused(words));
+        }
     }
     let shaders =
         options.shaders.as_deref().map(ShaderFolder::open).transpose().map_err(EditError::Refused)?;

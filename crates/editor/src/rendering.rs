@@ -54,8 +54,8 @@ struct Board {
 }
 
 impl Rendering {
-    /// Starts the thread. `shaders` replace the program's own. The thread calls `wake` whenever there is something
-    /// new.
+    /// Starts the thread. `shaders` replace the program's own. The thread calls `wake` when drawing begins, after each
+    /// frame that it writes, and at the end.
     ///
     /// # Errors
     /// When the system gives no thread.

@@ -49,15 +49,15 @@ pub struct Job {
 pub struct Later {
     /// During playback, the same views at the next frame: computed while those of the job are drawn.
     pub ahead: Vec<ViewJob>,
-    /// At rest, the view of each frame of the film, the next to be seen first. They are drawn exactly and kept, once
-    /// the views of the job are exact.
+    /// At rest, the views of all frames of the film, in the order in which they would be played from now on. They are
+    /// drawn exactly and kept, once the views of the job are exact.
     pub film: Vec<ViewJob>,
 }
 
 /// One picture of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ViewJob {
-    /// The camera; its lens is widened to take in the whole picture.
+    /// The camera. Its lens has already been widened from the shot to the whole picture.
     pub camera: CameraPose,
     /// The frame, which need not be whole.
     pub frame: f64,
@@ -174,7 +174,8 @@ impl Worker {
         self.mailbox.stop_preparing();
     }
 
-    /// All reports since the last call; of several pictures of one view, only the newest.
+    /// The reports since the last call: of each kind (pictures: of each view) only the newest, but several
+    /// failures.
     pub fn poll(&self) -> Vec<Report> {
         self.mailbox.collect()
     }

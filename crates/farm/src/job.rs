@@ -63,9 +63,9 @@ impl Frames {
         let mut runs: Vec<Run> = Vec::new();
         let mut at = 0;
         while at < all.len() {
-            let step = all.get(at + 1).map_or(1, |next| next - all[at]);
+            let step = all.get(at + 1).map_or(1, |next| next.wrapping_sub(all[at]));
             let mut end = at + 1;
-            while end < all.len() && all[end] - all[end - 1] == step {
+            while end < all.len() && all[end].wrapping_sub(all[end - 1]) == step {
                 end += 1;
             }
             // Two frames that are no neighbours make no run, so that the second may begin one.

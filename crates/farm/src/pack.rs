@@ -21,7 +21,7 @@ const WRITTEN_S: u64 = 315_532_800;
 /// Why a shot is not packed, or a pack is not whole.
 #[derive(Debug, thiserror::Error)]
 pub enum PackError {
-    /// A file from outside the scene's folder is used under a name that no place in the pack can have.
+    /// A file outside the scene's folder is named by a path that leads out of that folder: no place in a pack fits.
     #[error("{} is used from outside the scene's folder under a name that finds it nowhere else: copy it into the scene's folder", .0.display())]
     NoPlace(PathBuf),
     /// Two files that would lie at one place.
@@ -43,7 +43,7 @@ pub enum PackError {
     /// A name that promises another kind of archive.
     #[error("{} is neither a folder nor a .tar file: let the name end in .tar, and press it afterwards if you like", .0.display())]
     NoTar(PathBuf),
-    /// A folder without a list.
+    /// A folder without a list, or a file where the folder of a pack is wanted.
     #[error("{} is no pack: it has no {LIST_NAME}. Name the folder that came out of the .tar file", .0.display())]
     NoPack(PathBuf),
     /// Another version packed it.
@@ -164,7 +164,7 @@ pub fn pack(loaded: &LoadedScene, to: &Path) -> Result<PackList, PackError> {
 /// Compares a folder with the list in it.
 ///
 /// # Errors
-/// Another version of the program, and files that are not as they were packed.
+/// No list that can be read, another version of the program, or files that are not as they were packed.
 pub fn check(folder: &Path) -> Result<PackList, PackError> {
     if folder.is_file() {
         return Err(PackError::NoPack(folder.to_owned()));

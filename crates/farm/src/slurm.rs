@@ -3,14 +3,14 @@
 use crate::job::Job;
 use crate::quoting::of_shell;
 
-/// The most tasks that one array may have if Slurm's `MaxArraySize` was not raised.
+/// The most tasks that one array is given. Slurm's `MaxArraySize`, unless raised, allows indices up to 1000.
 const MOST_TASKS: usize = 1000;
 
 /// Frames of a task, if the user does not say how many.
 const USUAL_FRAMES: usize = 10;
 
-/// The script of a job. Submitted by `sbatch`, it paints the frames. Run by a shell, it also makes the movie when they
-/// are done, if one is wanted.
+/// The script of a job. Submitted by `sbatch`, it paints the frames. If a movie is wanted, it can be run by a shell
+/// instead: it then submits itself, and a second job that makes the movie when all frames are done.
 ///
 /// # Errors
 /// Words that say that tasks of `frames_a_task` frames are too many for one array.

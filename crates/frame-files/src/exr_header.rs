@@ -93,7 +93,8 @@ fn ends_with_its_last_block(path: &Path) -> Option<bool> {
         last = last.max(number(entry, 8)?);
         entry += 8;
     }
-    Some(last > 0 && last + 8 + number(last + 4, 4)? == length)
+    let bytes = number(last.checked_add(4)?, 4)?;
+    Some(last > 0 && last.checked_add(8)?.checked_add(bytes)? == length)
 }
 
 #[cfg(test)]

@@ -6,8 +6,8 @@ const OF_TELEVISION: u32 = 1001;
 /// A rate that is off by less than this share (0.01 %) from a television rate stands for it.
 const NEAR: f64 = 1e-4;
 
-/// A rate as a fraction in lowest terms: a whole number, a television rate, or any other rate to 1/1000. Both numbers
-/// are at least 1, and below 2^16 for rates up to 65 frames a second.
+/// A rate as a fraction: a whole number, a television rate over 1001, or any other rate rounded to 1/1000 and reduced
+/// to lowest terms. Both numbers are at least 1, and below 2^16 for rates up to 65 frames a second.
 pub(crate) fn fraction(fps: f64) -> [u32; 2] {
     let fps = fps.clamp(0.001, 2e6);
     let nearest = |under: u32| {

@@ -89,16 +89,17 @@ impl Pattern {
 fn hashes(text: &str) -> Option<(usize, usize, usize)> {
     let start = text.rfind('#').map(|last| text[..=last].trim_end_matches('#').len())?;
     let digits = text[start..].len() - text[start..].trim_start_matches('#').len();
-    Some((start, start + digits, digits))
+    Some((start, start + digits, digits.min(18)))
 }
 
 /// Where a number like `%04d` begins and ends, and how many digits it asks for.
 fn percent(text: &str) -> Option<(usize, usize, usize)> {
-    let start = text.find('%')?;
-    let length = text[start + 1..].find('d')?;
-    let number = &text[start + 1..start + 1 + length];
-    let digits = if number.is_empty() { 1 } else { number.parse().ok()? };
-    Some((start, start + length + 2, usize::clamp(digits, 1, 18)))
+    text.match_indices('%').find_map(|(start, _)| {
+        let number: String = text[start + 1..].chars().take_while(char::is_ascii_digit).collect();
+        let end = start + 1 + number.len();
+        let digits = if number.is_empty() { 1 } else { number.parse().ok()? };
+        text[end..].starts_with('d').then_some((start, end + 1, usize::clamp(digits, 1, 18)))
+    })
 }
 
 /// Where a number like `$F4` begins and ends, and how many digits it asks for.
@@ -120,6 +121,7 @@ mod tests {
             ("out/f_##.png", 123, "out/f_123.png"),
             ("f_%04d.png", 7, "f_0007.png"),
             ("f_%d.png", 7, "f_7.png"),
+            ("50%_%04d.png", 7, "50%_0007.png"),
             ("f.$F3.png", 7, "f.007.png"),
             ("out/f.png", 7, "out/f_0007.png"),
             ("out.d/f", 7, "out.d/f_0007"),

@@ -26,7 +26,8 @@ pub(crate) struct BodyProgram {
     variants: [Option<Program>; 2],
 }
 
-/// Rounding a pose to single precision makes squares of lengths differ by less than this share.
+/// A pose scales unevenly if the squared lengths of its axes differ by more than this share. Rounding to single
+/// precision makes a smaller difference.
 const UNEVEN: f64 = 1e-4;
 
 /// What takes normals from model space to the world: the pose itself, or, where that scales directions differently, its

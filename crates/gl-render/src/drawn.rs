@@ -18,9 +18,10 @@ pub struct ResolvedStroke {
     pub color_linear: [f32; 3],
     /// How far the stroke is there: its presence, reduced as far as bodies hide it, 0..=1.
     pub alpha: f32,
-    /// Centre in pixels, origin at the lower left, moved along the stroke so that it lies on its body.
+    /// Centre in pixels, origin at the lower left, as painted: the stroke was moved along itself onto its body, a
+    /// contour stroke also to its body's outline, a light towards the peak of the highlight.
     pub center_px: [f32; 2],
-    /// What was added to the stroke's angle, radians: a contour stroke is turned along the end of its body.
+    /// What was added to the stroke's angle, radians: a contour stroke is turned to run along its body's outline.
     pub turned_rad: f32,
 }
 

@@ -27,7 +27,7 @@ void main() {
 ",
 }];
 
-/// The corners of a quad, and a point: the inputs of one vertex.
+/// The corners of a quad at (u, v) = (0, 0), (1, 0), (0, 1) and (1, 1), and a point: the inputs of one vertex.
 type Question = [Vec2; 5];
 
 /// What the shader finds on this driver.
@@ -117,8 +117,8 @@ fn quads_without_an_answer_give_bounded_numbers() {
         [at(3.0, 4.0); 4],                                          // a point
         [at(0.0, 0.0), at(1.0, 0.0), at(2.0, 0.0), at(3.0, 0.0)],   // a line
         [at(0.0, 0.0), at(10.0, 0.0), at(0.0, 0.0), at(10.0, 0.0)], // twice the same edge
-        [at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)],   // crosses itself
-        [at(0.0, 0.0), at(0.0, 0.0), at(0.0, 9.0), at(9.0, 9.0)],   // a triangle
+        [at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)], // crosses itself: the last two are swapped
+        [at(0.0, 0.0), at(0.0, 0.0), at(0.0, 9.0), at(9.0, 9.0)], // a triangle
         [at(0.0, 0.0), at(10.0, 0.0), at(0.0, 10.0), at(2.0, 2.0)], // concave
     ];
     let places = [at(0.0, 0.0), at(3.0, 4.0), at(0.5, 0.5), at(-1e4, 7e3), at(1.0, 0.0), at(2.0, 2.0)];

@@ -35,7 +35,8 @@ impl Keeps {
     /// each axis.
     pub fn bytes_per_px(self, style: &Style, samples: u32) -> u64 {
         let fine = if samples > 1 { u64::from(samples * samples) * 12 } else { 0 };
-        // Bytes for the body in the middle of each pixel and its share, found from the samples.
+        // Bytes of the target that is found from the samples: depth and body in the middle of each pixel, and the share
+        // of the pixel that shows something else.
         let surface = if samples > 1 { 8 } else { 0 };
         // The ink style reads the unlit targets of the reference pass.
         let (paint, reads_unlit) = match style {

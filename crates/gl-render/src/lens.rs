@@ -23,7 +23,7 @@ pub(crate) const VIEW_LENS_UNIFORMS: [&str; 4] = ["size_px", "gaze_px", "px_per_
 pub(crate) struct LensSetup {
     world_from_view: Mat4,
     size_px: Vec2,
-    /// Where the gaze meets the picture, pixels from its lower left corner.
+    /// Where the gaze meets the picture, pixels from its lower left corner: its middle, unless the lens is shifted.
     gaze_px: Vec2,
     /// Pixels per world unit at a depth of 1.
     pub(crate) px_per_unit_at_1: f32,
@@ -32,7 +32,8 @@ pub(crate) struct LensSetup {
 
 impl LensSetup {
     pub(crate) fn new(view: &FrameView, size_px: [u32; 2]) -> Self {
-        // The shift of the picture by the lens, after the division by w. It is read from the column that w comes from.
+        // The lens shift in NDC. In perspective w is −z, so it is minus the z column; orthographically w is 1, and it is
+        // the last column.
         let shift = if view.orthographic { view.clip_from_view.w_axis } else { -view.clip_from_view.z_axis };
         let size = UVec2::from(size_px).as_vec2();
         Self {

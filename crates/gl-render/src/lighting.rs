@@ -72,7 +72,7 @@ impl LightSetup {
             lights: Texture::from_texels(gpu, Format::Rgba32F, size_px, bytemuck::cast_slice(&texels))?,
             light_count: count as i32,
             shadowed_light: match lamp {
-                // The texture lists suns before lamps. Here there are no suns, so a lamp's index is the same there.
+                // The texture lists suns before lamps. Without suns, a lamp's column is its index in `points`.
                 Some(lamp) => lamp as i32,
                 None => lights.suns.first().map_or(-1, |_| 0),
             },

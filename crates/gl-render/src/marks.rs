@@ -16,7 +16,7 @@ use bounds::Texel;
 pub(crate) struct Marks {
     brushes: Arc<Brushes>,
     pub(crate) texture: Texture,
-    /// A row for each mark. It has a texel for each amount of paint: the box around all texels of the mark with more
+    /// A row for each mark, with a texel for each threshold of paint: the box around all texels of the mark with more
     /// paint than that.
     pub(crate) bounds: Texture,
 }

@@ -67,7 +67,7 @@ impl Part {
 
 /// All surfaces on the GPU.
 pub(crate) struct MeshCache {
-    /// By the address of the surface, which nothing else gets while there is an entry.
+    /// By the address of the surface; the weak pointer keeps the address from being used again.
     entries: HashMap<*const BodySurface, (Weak<BodySurface>, Rc<MeshOnGpu>)>,
     bent: Vec<BentOnGpu>,
     white: Rc<Texture>,
@@ -76,7 +76,7 @@ pub(crate) struct MeshCache {
 /// The vertices of a body that is not at rest.
 struct BentOnGpu {
     mesh: RcWeak<MeshOnGpu>,
-    /// The body as bent whose vertices the buffer holds.
+    /// The bent surface whose vertices the buffer holds.
     bent: Weak<Bent>,
     vertices: Buffer,
     array: Rc<VertexArray>,

@@ -1,4 +1,5 @@
-//! Tiles of noise that colour bodies, on the GPU: each is uploaded once and stays until no frame uses it any more.
+//! Tiles of noise that colour bodies, on the GPU: each is uploaded once. Those that no frame uses any more are freed
+//! when a new one is uploaded.
 
 use std::rc::Rc;
 use std::sync::{Arc, Weak};

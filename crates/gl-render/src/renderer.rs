@@ -324,7 +324,7 @@ impl Renderer {
     }
 }
 
-/// The result of a drawing that had no `stop`, and so cannot have been given up.
+/// The result of a drawing that was not given up.
 fn finished(drawn: Result<Picture, Halt>) -> Result<Picture, RenderError> {
     drawn.map_err(|halt| match halt {
         Halt::Gl(error) => error.into(),

@@ -15,7 +15,7 @@ use crate::shader_files::{REFERENCE, SHARED};
 /// Side of the shadow map in texels.
 pub(crate) const SIDE: u32 = 2048;
 
-/// The shadow map, drawn again only when something that casts a shadow has changed.
+/// The shadow map, drawn again only when its light or something that casts a shadow has changed.
 pub(crate) struct ShadowMap {
     gpu: Gpu,
     program: BodyProgram,
@@ -87,7 +87,7 @@ impl ShadowMap {
         &self.depth
     }
 
-    /// Draws the map, unless it shows these bodies already.
+    /// Draws the map, unless it shows these bodies in this projection already.
     pub(crate) fn draw(&mut self, bodies: &[DrawnBody<'_>], shadow_from_world: Mat4) -> Result<(), GlError> {
         let casters = Casters::new(bodies, shadow_from_world);
         // `drawn` is empty meanwhile, so that a map whose drawing failed is not taken for a complete one.
@@ -142,8 +142,8 @@ impl Sight {
         }
     }
 
-    /// What a lamp sees of a sphere: from outside, all of it; from inside, what lies in its cone, up to 70 degrees off
-    /// the axis. What the map does not show counts as lit.
+    /// What a lamp sees of a sphere: from outside, all of it; from inside, what lies in the lamp's cone; but nothing
+    /// more than 70 degrees off the axis. What the map does not show counts as lit.
     pub(crate) fn of_lamp(center: Vec3, radius: f32, lamp: &PointLight) -> Self {
         /// Half the widest angle of a map.
         const WIDEST_RAD: f32 = 70.0 * std::f32::consts::PI / 180.0;
@@ -163,8 +163,8 @@ impl Sight {
         let far = away + radius;
         let lamp_from_world = glam::camera::rh::view::look_to_mat4(lamp.position, axis, up);
         let clip_from_lamp = glam::camera::rh::proj::opengl::perspective(2.0 * half_rad, 1.0, near, far);
-        // The bias of a sun's map in world units (0.0006 of its range of depths, two radii), times the slope of the
-        // map's depth over the distance, which the shader divides by the square of the distance.
+        // The bias of a sun's map in world units (0.0006 of its range of depths, two radii), as depth of this map. At
+        // distance z its depth grows by far · near / ((far − near) z²) per world unit; the shader divides by z².
         let bias = 0.0012 * radius * far * near / (far - near);
         Self {
             shadow_from_world: clip_from_lamp * lamp_from_world,

@@ -10,8 +10,8 @@ use impasto_painting::frame::{LayerRun, LineStrip, LineVertex, Stroke};
 use crate::gl::{Attribute, Bound, Buffer, BufferUse, GlError, Gpu, Records, VertexArray, Vertices};
 use crate::marks::Marks;
 
-/// Bytes that the resolve pass stores for a stroke: colour and presence as four floats, then four floats whose meaning
-/// depends on the style.
+/// Bytes that the resolve pass stores for a stroke, eight floats: colour and presence; centre in pixels, and two
+/// numbers whose meaning depends on the style.
 const RESOLVED_BYTES: usize = 32;
 
 /// The strokes of one frame.

@@ -40,8 +40,9 @@ pub(crate) trait StyleRenderer {
         Ok(())
     }
 
-    /// What the resolve pass found for each stroke of the last frame, eight floats each: colour and alpha, its centre
-    /// in pixels, and two numbers whose meaning depends on the style. Empty for styles without strokes.
+    /// What the resolve pass found for each stroke of the last frame, eight floats each: colour and presence, its
+    /// centre in pixels, a number whose meaning depends on the style, and the turn added to its angle in radians. Empty
+    /// for styles without strokes.
     fn read_resolved(&self) -> Vec<[f32; 8]> {
         Vec::new()
     }

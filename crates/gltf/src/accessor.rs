@@ -1,5 +1,5 @@
-//! Accessors: what kind of numbers lie where. Everything that a header states is checked here, so that reading the
-//! numbers (`decode`) cannot leave the bytes.
+//! Accessors: what kind of numbers lie where. Everything that the JSON states of them is checked here, so that reading
+//! the numbers (`decode`) cannot leave the bytes.
 
 use std::fmt;
 
@@ -82,7 +82,7 @@ impl Shape {
         }
     }
 
-    /// Bytes of the last element: nothing follows its last column.
+    /// Bytes of the last element: its last column has no padding.
     fn bytes_of_last(self, component: Component) -> usize {
         match self {
             Self::Matrix(side) => {

@@ -26,7 +26,7 @@ pub enum Lens {
         aspect: Option<f64>,
         /// Nearest distance that shows, more than 0.
         znear: f64,
-        /// Farthest distance that shows; `None`: infinite.
+        /// Farthest distance that shows, more than `znear` unless one of the two is animated; `None`: infinite.
         zfar: Option<f64>,
     },
     /// Things keep their size.
@@ -37,7 +37,7 @@ pub enum Lens {
         ymag: f64,
         /// Nearest distance that shows, not negative.
         znear: f64,
-        /// Farthest distance that shows, more than `znear`.
+        /// Farthest distance that shows, more than `znear` unless one of the two is animated.
         zfar: f64,
     },
 }
@@ -73,7 +73,8 @@ pub struct LightValues {
     pub intensity: f64,
     /// Where a point or spot light ends, in metres; `None`: nowhere.
     pub range_m: Option<f64>,
-    /// Angle from the axis of a spot light to where it begins to fade, radians; less than `outer_cone_rad`.
+    /// Angle from the axis of a spot light to where it begins to fade, radians; less than `outer_cone_rad` unless one
+    /// of the two is animated.
     pub inner_cone_rad: f64,
     /// Angle from the axis of a spot light to where it ends, radians, at most π/2.
     pub outer_cone_rad: f64,

@@ -20,7 +20,8 @@ pub(crate) struct Container {
 /// Splits a file. Every length in a `.glb` is checked against the bytes that are there.
 ///
 /// # Errors
-/// A `.glb` that is cut short, of another version than 2, or without a JSON chunk at its start.
+/// An empty file; a `.glb` that is cut short, of another version than 2, without a JSON chunk at its start, or with a
+/// JSON or BIN chunk where none may be.
 pub(crate) fn split(file: &Bytes, findings: &mut Findings) -> Checked<Container> {
     if file.starts_with(MAGIC) {
         return split_glb(file, findings);

@@ -1,5 +1,5 @@
-//! The numbers of accessors, as `f32` or indices. Each accessor is decoded once for each kind of use; all who use it in
-//! that way share the memory.
+//! The numbers of accessors, as `f32` or `u32`. As `f32`, each accessor is decoded once for each kind of use, and all
+//! who use it in that way share the memory; as `u32`, it is decoded at each call.
 
 use std::any::Any;
 use std::array;
@@ -17,7 +17,7 @@ use crate::source::Source;
 pub(crate) enum Integers {
     /// Themselves, unless the accessor says that they are normalised.
     AsStated,
-    /// Always 0..=1 or −1..=1: colours and weights.
+    /// 0..=1 or −1..=1, whatever the accessor says: for colours, weights, normals, rotations.
     Normalized,
 }
 

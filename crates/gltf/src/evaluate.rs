@@ -182,12 +182,12 @@ impl Animator {
         }
     }
 
-    /// The first and the last time of the keys that play, seconds; `None` where nothing moves.
+    /// The first and the last key time of the animations that play, seconds; `None` without tracks.
     pub fn span_s(&self) -> Option<[f32; 2]> {
         self.span_s
     }
 
-    /// Which nodes move: those that a track drives, and those below them.
+    /// Which nodes move: those whose translation, rotation or scale a track drives, and those below them.
     pub fn moving_nodes(&self) -> Vec<bool> {
         let mut moves = vec![false; self.parents.len()];
         for playable in &self.tracks {
@@ -349,7 +349,8 @@ fn rotation(track: &Track, place: keys::Place) -> DQuat {
     }
 }
 
-/// Sets a property of a camera; a value that no camera can have changes nothing.
+/// Sets a property of a camera. A field of view is clamped; another value that is out of range by itself changes
+/// nothing. Near and far are not compared.
 fn drive_lens(lens: &mut Lens, property: CameraProperty, value: f64) {
     match (lens, property) {
         (Lens::Perspective { yfov_rad, .. }, CameraProperty::Yfov) => {

@@ -1,4 +1,5 @@
-//! Which extensions are read, which only change looks that are not painted, and which are refused by name.
+//! Which extensions are read, and which are ignored because what they add is not painted. A file that requires any
+//! other is refused.
 
 use foldhash::{HashSet, HashSetExt};
 
@@ -46,8 +47,8 @@ const SILENT: [&str; 6] = [
 const UNSEEN: [&str; 5] =
     ["EXT_lights_image_based", "EXT_lights_ies", "KHR_audio_emitter", "KHR_physics_rigid_bodies", "MSFT_lod"];
 
-/// Reads `extensionsUsed` and `extensionsRequired`. This comes before anything else, so that a file that needs Draco is
-/// refused for that reason.
+/// Reads `extensionsUsed` and `extensionsRequired`. It is called before buffers and accessors are read, so that a file
+/// that needs Draco is refused for that reason.
 pub(crate) fn check(root: &Cursor<'_, '_>, findings: &mut Findings) -> Checked<()> {
     let required = root.list("extensionsRequired")?;
     let mut names = HashSet::new();
@@ -97,7 +98,7 @@ pub(crate) fn check(root: &Cursor<'_, '_>, findings: &mut Findings) -> Checked<(
     Ok(())
 }
 
-/// Extensions that are in the file although it does not declare them. They are read all the same.
+/// Warns of extensions that the file has but does not declare. Those in [`READ`] are read all the same.
 fn undeclared(root: &Cursor<'_, '_>, used: &HashSet<&str>, findings: &mut Findings) {
     let mut told: Vec<&str> = Vec::new();
     walk(root.json(), &mut |name| {

@@ -94,7 +94,8 @@ fn image(
     Ok(Image { name, bytes, media_type })
 }
 
-/// A picture that cannot be opened is left out, but a name that is refused, or too large a file, is an error.
+/// If `open` fails, the picture is left out with a warning. It is an error if the name is refused, or if `open` gives
+/// more bytes than it was asked for.
 fn fetch(
     source: &mut Source<'_>,
     uri: &Cursor<'_, '_>,

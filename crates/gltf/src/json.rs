@@ -8,8 +8,8 @@ use serde::de::{DeserializeSeed, Error as _, MapAccess, SeqAccess, Visitor};
 
 use crate::finding::{Checked, EXPORT_ANEW, Finding, Severity};
 
-/// The most values of one file's JSON. Each takes up to 64 bytes here, so a text of commas cannot take more than
-/// 256 MiB.
+/// The most values of one file's JSON. Each takes up to 64 bytes in memory and may have two in the file, as in
+/// `[0,0,0]`; all together they take at most 256 MiB.
 pub(crate) const MOST_VALUES: usize = 4_000_000;
 
 /// A JSON value. Numbers are kept as `f64`: whole ones are exact up to 2^53, far beyond any length that is accepted.
@@ -20,7 +20,7 @@ pub(crate) enum Json<'t> {
     Number(f64),
     Text(Cow<'t, str>),
     Array(Vec<Json<'t>>),
-    /// In the order of the file; of members with one name, the last counts.
+    /// In the order of the file; of members with the same name, the last counts.
     Object(Vec<(Cow<'t, str>, Json<'t>)>),
 }
 

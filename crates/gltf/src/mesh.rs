@@ -7,7 +7,7 @@ use std::sync::Arc;
 pub struct Mesh {
     /// The name in the file; empty for none.
     pub name: String,
-    /// Its parts, in the order of the file. Parts of points, lines, or without positions are left out.
+    /// Its parts, in the order of the file. Parts of points or lines, or without vertices, are left out.
     pub primitives: Vec<Primitive>,
     /// How many morph targets each primitive has.
     pub target_count: usize,
@@ -19,7 +19,8 @@ pub struct Mesh {
     pub group_names: Vec<String>,
 }
 
-/// A part of a mesh with one material. Lists that several primitives read from one accessor are one list in memory.
+/// A part of a mesh with one material. Lists that several primitives read from one accessor are one list in memory,
+/// except colours without alpha, `points` and `groups`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Primitive {
     /// Its index in the file's list of the mesh's primitives, from which some may be left out here.
@@ -42,7 +43,8 @@ pub struct Primitive {
     pub material: Option<usize>,
     /// The point of the modelling program at which each vertex lies (the attribute `_POINT`), counted from 0.
     pub points: Option<Arc<Vec<u32>>>,
-    /// The group of each vertex (the attribute `_GROUP`): 0 for none, else a number of [`Mesh::group_names`] from 1.
+    /// The group of each vertex (the attribute `_GROUP`): 0 for none, else its place in [`Mesh::group_names`] counted
+    /// from 1, which may be beyond the end.
     pub groups: Option<Arc<Vec<u32>>>,
     /// Vertex indices, each less than `positions.len()`, counter-clockwise seen from outside.
     pub triangles: Arc<Vec<[u32; 3]>>,
@@ -62,10 +64,10 @@ pub struct MorphTarget {
 pub struct Influences {
     /// How many joints move a vertex: 4 or 8.
     pub per_vertex: usize,
-    /// `per_vertex` indices into the joints of the skin, for each vertex.
+    /// `per_vertex` indices into the joints of the skin, for each vertex. Those with weight 0 may be out of range.
     pub joints: Vec<u16>,
     /// `per_vertex` weights for each vertex: not negative, with a sum of one.
     pub weights: Vec<f32>,
-    /// The largest joint with a weight.
+    /// The largest joint index with a weight above 0.
     pub largest_joint: u16,
 }

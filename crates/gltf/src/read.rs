@@ -124,7 +124,7 @@ fn read_parts(
     }))
 }
 
-/// All lists of a document.
+/// The lists of objects at the top level of a document.
 const LISTS: [&str; 13] = [
     "accessors",
     "animations",

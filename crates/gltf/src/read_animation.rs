@@ -128,7 +128,8 @@ fn sampler<'p, 't>(
             if times[0][0] < 0.0 {
                 findings.add(input.warning("the times begin before 0", ""));
             }
-            // Valid by the letter of the specification: numbers that are not in the file are zeros.
+            // By the specification, an accessor without a buffer view holds zeros. As times they do not increase, but
+            // that is no reason to refuse the file.
             let is_placeholder = accessors.get(index).run.is_none() && accessors.get(index).sparse.is_none();
             if is_placeholder && times.len() > 1 {
                 findings.add(

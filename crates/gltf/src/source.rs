@@ -25,7 +25,7 @@ pub const SPARE_BYTES: u64 = 512 << 20;
 /// A view into a buffer; it was checked that the view lies inside the buffer.
 #[derive(Clone, Debug)]
 pub(crate) struct View {
-    /// `None` where the buffer has no data: a place holder, or compressed by an extension.
+    /// `None` where the file has no data for the buffer, as for the fallback buffer of compressed views.
     pub bytes: Option<Bytes>,
     /// Its length in the file, bytes.
     pub len: u64,

@@ -12,8 +12,8 @@ pub(crate) enum Target {
 /// What a URI stands for, without opening anything.
 ///
 /// # Errors
-/// Absolute names, other schemes than `data:`, names that leave the folder, NUL and `\`, a data URI that is not
-/// well-formed. The error says why, as a sentence without its subject.
+/// Names that are empty, absolute, not UTF-8, lead out of the folder, or hold NUL or `\`; other schemes than `data:`; a
+/// data URI that is not well-formed. The error says why, as a sentence without its subject.
 pub(crate) fn target(uri: &str) -> Result<Target, &'static str> {
     if uri.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:")) {
         return data(&uri[5..]);

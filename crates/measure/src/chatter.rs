@@ -19,7 +19,7 @@ pub struct Place {
     pub frame: f64,
     /// Pixels from the picture's upper left.
     pub at_px: [f64; 2],
-    /// The stroke.
+    /// The stroke; `None` where a pixel was found.
     pub stroke: Option<StrokeKey>,
     /// How much was found there.
     pub amount: f64,
@@ -57,7 +57,7 @@ pub struct Chatter {
 }
 
 impl Chatter {
-    /// Adds three neighbouring frames; `frame` is the middle one's, and `height_px` the picture's height.
+    /// Adds three neighbouring frames; `frame` is the number of the middle one, `height_px` the picture's height.
     pub fn add(&mut self, frame: f64, [first, middle, last]: [&StrokesByKey; 3], height_px: f64) {
         for (key, now) in middle {
             let (Some(before), Some(after)) = (first.get(key), last.get(key)) else { continue };

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use impasto_gl_render::context::{OpenOptions, open};
 use impasto_gl_render::{MotionPixels, Picture, ReferencePixels, Renderer};
 use impasto_painting::{Frame, FrameOptions, Painting, Preparer, Rotation};
+use impasto_scene::document::Style;
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion::{self, CameraPose};
 
@@ -101,12 +102,12 @@ impl<'a> MeasureContext<'a> {
         Ok(painting)
     }
 
-    /// The reference frame.
+    /// The frame whose object poses the reference uses.
     pub fn reference_frame(&self) -> f64 {
         motion::referred_to(&self.loaded.scene, &self.loaded.scene.reference).1
     }
 
-    /// The camera at the reference frame.
+    /// The camera of the reference.
     pub fn reference_camera(&self) -> CameraPose {
         motion::referred_to(&self.loaded.scene, &self.loaded.scene.reference).0
     }
@@ -213,7 +214,16 @@ impl<'a> MeasureContext<'a> {
         Ok(self.renderer.render(frame)?)
     }
 
-    /// For each pixel of the frame `now`, where its surface point is in the frame `then`.
+    /// Luma of a plain render of a frame: what strokes take their colours from.
+    ///
+    /// # Errors
+    /// When drawing fails.
+    pub fn plain_luma(&mut self, frame: &Frame) -> Result<Plane, MeasureError> {
+        let plain = Frame { style: Style::Reference, ..frame.clone() };
+        Ok(Plane::luma(&self.picture(&plain)?))
+    }
+
+    /// For each pixel of the frame `now`, the offset to where its surface point is in the frame `then`.
     ///
     /// # Errors
     /// When drawing fails.

@@ -28,7 +28,7 @@ impl Holes {
         found
     }
 
-    /// The sum of these counts and those of another picture.
+    /// The sum of these counts and those of another mask.
     pub fn and(self, other: Self) -> Self {
         Self { holes: self.holes + other.holes, pixels: self.pixels + other.pixels }
     }

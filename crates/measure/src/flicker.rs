@@ -6,11 +6,11 @@ use crate::plane::Plane;
 /// A second difference of luma above this (levels of 255) is seen.
 pub const SEEN: f32 = 6.0;
 
-/// How many bins count the second differences, from 0 to 255.
+/// How many bins count the second differences, from 0 to 255; the last one also counts all larger ones.
 const BINS: usize = 5100;
 
 /// For each pixel of a frame, where its surface point is in the frame before and in the one after, in columns and rows;
-/// `None` where it is hidden.
+/// `None` where no body is, or where the point is off the picture, hidden, or perhaps covered by another body's paint.
 pub struct Along<'a> {
     /// In the frame before.
     pub before: &'a [Option<[f64; 2]>],

@@ -11,6 +11,7 @@ pub mod chatter;
 pub mod context;
 pub mod correlation;
 pub mod coverage;
+pub mod covered;
 pub mod density;
 pub mod figures;
 pub mod flatness;

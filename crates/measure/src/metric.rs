@@ -38,7 +38,7 @@ pub enum Metric {
     M14,
     /// Chatter: strokes whose lightness goes to and fro.
     M15,
-    /// Steps: strokes that come or go within a frame where they are seen.
+    /// Steps: strokes that are seen to come or go from one frame to the next.
     M16,
     /// Flicker of the picture along the motion.
     M17,

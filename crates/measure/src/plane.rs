@@ -40,7 +40,7 @@ impl Plane {
         self.values[y * self.size_px[0] + x]
     }
 
-    /// Bilinear value at a point (0, 0 is the centre of the first pixel, y down); `None` off the picture.
+    /// Bilinear value at a point (0, 0 is the centre of the first pixel, y down); `None` beyond the outermost centres.
     pub fn sample(&self, x: f64, y: f64) -> Option<f32> {
         let taps = Taps::new(self.size_px, x, y)?;
         Some(taps.mix(|index| self.values[index]))

@@ -8,7 +8,7 @@ const WIDTH: f64 = 720.0;
 const CHART_HEIGHT: f64 = 190.0;
 const HEAD: f64 = 34.0;
 
-/// The drawing area of a chart, within the band of [`CHART_HEIGHT`] that it fills.
+/// The edges of a chart's drawing area, from the left and the top of the chart, which is [`CHART_HEIGHT`] high.
 const LEFT: f64 = 78.0;
 const RIGHT: f64 = 696.0;
 const TOP: f64 = 34.0;

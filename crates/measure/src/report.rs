@@ -147,7 +147,8 @@ impl Reading {
     }
 }
 
-/// A number with three significant digits.
+/// A number with three significant digits, but without rounding whole digits; below 0.001 and from 100000 on, with two
+/// significant digits and an exponent.
 fn short(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 {

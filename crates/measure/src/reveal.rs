@@ -35,7 +35,7 @@ const ROUND_A_POINT: f64 = 1.5;
 /// The difference between the angles of a stroke and a neighbour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
-    /// |wrap_π(θᵢ − θⱼ)|, degrees.
+    /// The angle between the two as undirected lines, degrees in 0..=90.
     pub apart_deg: f64,
     /// Index of the object plus 1.
     pub body_id: u32,

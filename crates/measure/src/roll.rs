@@ -17,7 +17,7 @@ pub struct QuarterDifference {
 }
 
 /// M1 for quarter turns: compares the square picture of a rolled camera with the picture of the straight camera, turned
-/// back by as many quarters, within a mask of the rolled picture.
+/// clockwise by as many quarters, within a mask of the rolled picture.
 pub fn quarter_difference(
     straight: &Picture,
     rolled: &Picture,

@@ -21,9 +21,9 @@ const SHEET: &str = "#![enable(implicit_some)]
     objects: [(name: \"sheet\", mesh: \"sheet\")],
 )";
 
-/// A scene of a sheet, 2 by 2 units, that fills a square picture. It carries the body layer of a region of another
-/// scene, with all strokes of one size; if `region` is `None`, the body layer of what is in no region. Returns `None`
-/// if the sheet's own text cannot be read.
+/// A scene of a sheet, 2 by 2 units, that fills a square picture. Its strokes, all of one size, have the length, width
+/// and coverage that the body layer has in a region of another scene; if `region` is `None`, those outside all regions.
+/// Returns `None` if the sheet's own text cannot be read.
 pub fn sheet(loaded: &LoadedScene, region: Option<usize>, side_px: u32) -> Option<LoadedScene> {
     let mut version = loaded.clone();
     let body = presets::resolve(&loaded.scene, region).body().clone();

@@ -9,10 +9,10 @@ use crate::chatter::{Place, Share};
 use crate::popping::{displacement_px, touches_border};
 use crate::strokes::{MeasuredStroke, StrokeKey, StrokesByKey};
 
-/// Alpha that changes by more than this from frame to frame, where the stroke is seen, is a step.
+/// A step is a change of alpha from frame to frame that, times the share of the stroke that is seen, exceeds this.
 const STEP: f64 = 0.35;
 
-/// A surface hides a stroke if it is nearer than the stroke's plane by more than this share of the stroke's depth.
+/// A surface hides a stroke if it is nearer than the stroke's nearest end by more than this share of its depth.
 const NEARER: f64 = 0.01;
 
 /// A smaller cosine between the normal of a stroke's surface and the direction to the eye counts as this one.
@@ -28,7 +28,7 @@ pub struct Shown<'a> {
     pub strokes: &'a StrokesByKey,
     /// Body and depth of every pixel.
     pub reference: &'a ReferencePixels,
-    /// World units that a pixel spans at depth 1; 0 for parallel rays.
+    /// World units that a pixel spans at depth 1; 0 with parallel rays, where slant is not allowed for.
     pub units_per_px_at_1: f64,
 }
 
@@ -114,7 +114,7 @@ impl Steps {
 fn visible_share(key: &StrokeKey, stroke: &MeasuredStroke, shown: Shown<'_>, size_px: [u32; 2]) -> f64 {
     let reference = shown.reference;
     let facing = stroke.facing.clamp(LEAST_FACING, 1.0);
-    // How much nearer than its centre the stroke's ends may lie, as a share of its depth, for the surface slants away.
+    // How much nearer than its centre an end of the stroke lies on a slanting surface, as a share of the depth.
     let slant = shown.units_per_px_at_1 * 0.5 * stroke.length_px * (1.0 / (facing * facing) - 1.0).sqrt();
     let nearest = stroke.depth * (1.0 - NEARER - slant);
     let (sin, cos) = stroke.angle_rad.sin_cos();

@@ -24,7 +24,7 @@ pub struct MeasuredStroke {
     pub center_px: [f64; 2],
     /// Where its particle projects.
     pub particle_px: [f64; 2],
-    /// Counter-clockwise from +X.
+    /// Counter-clockwise from +X, as computed: without the turn onto the outline that contour strokes are drawn with.
     pub angle_rad: f64,
     /// Length.
     pub length_px: f64,
@@ -40,7 +40,7 @@ pub struct MeasuredStroke {
     pub presence: f64,
     /// Cosine between its surface's normal and the direction to the eye.
     pub facing: f64,
-    /// Index of its region.
+    /// Index of its region; `regions.len()` outside all regions.
     pub region: u32,
 }
 

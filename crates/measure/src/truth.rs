@@ -53,7 +53,7 @@ impl TrueView {
         DVec2::new(x / w, y / w) * self.half_px
     }
 
-    /// Whether a point is in front of the eye.
+    /// Whether a point is in front of the eye; always true with an orthographic lens.
     pub fn is_in_front(&self, at: DVec3) -> bool {
         self.rows[2].dot(at.extend(1.0)) > 0.0
     }
@@ -81,14 +81,14 @@ pub struct SurfacePoint {
     pub normal: DVec3,
 }
 
-/// How a point of a surface moves from the reference pose to the current one, model space.
+/// How a point of a surface moves in model space, from the body's shape in the reference to its current one.
 #[derive(Clone, Copy, Debug)]
 pub struct PointMotion {
-    /// The point in the reference pose.
+    /// The point in the reference's shape.
     pub before: SurfacePoint,
-    /// The point in the current pose.
+    /// The point in the current shape.
     pub after: SurfacePoint,
-    /// F, the deformation gradient: it carries directions from the reference pose to the current one. It is the
+    /// F, the deformation gradient: it carries directions from the reference's shape to the current one. It is the
     /// identity on a surface that keeps its shape.
     pub carry: DMat3,
 }
@@ -181,7 +181,7 @@ impl ScreenTurn {
         (polar_rad.is_finite() && determinant.abs() > 1e-12).then_some(Self { polar_rad, map })
     }
 
-    /// Whether A is the identity: nothing has moved in the picture.
+    /// Whether A is the identity: in the picture the surface has not turned or changed shape, but it may have moved.
     pub fn is_still(&self) -> bool {
         (self.map[0] - DVec2::X).length() + (self.map[1] - DVec2::Y).length() < 1e-9
     }

@@ -11,9 +11,9 @@ use impasto_scene::presets::{LayerKind, PAPER_PRESET};
 
 use crate::cameras;
 
-/// A version of a scene. In all but the first, boil is off, because changes on purpose are no fault. *On a board* means
-/// on a smooth canvas: the texture of other canvases stands still on the picture by design, which would disturb
-/// measurements.
+/// A version of a scene. In all but the first, boil is off, because changes on purpose are no fault, and the picture is
+/// on a *board*, a smooth canvas: the texture of other canvases stands still on the picture by design, which would
+/// disturb measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum SceneVersion {
     /// The scene as it is.
@@ -32,7 +32,7 @@ pub enum SceneVersion {
     NoContour(TurnSolver),
     /// The body layer alone, with everything that the scene states for it.
     Body,
-    /// As `Body`, but with strokes of one size: no random variation, and none over time.
+    /// As `Body`, but with strokes of one size: no random variation, and no keys that change settings over time.
     EqualSizes,
     /// As `NoContour`, but without random turns and without second directions; objects as in `Orbit`.
     NoChance(TurnSolver),
@@ -162,7 +162,7 @@ fn layer(kind: LayerKind) -> LayerSettings {
     LayerSettings { name: kind.name().to_owned(), ..LayerSettings::default() }
 }
 
-/// Leaves out all layers but the body's.
+/// Leaves only the body layer (and touches), on a board.
 pub(crate) fn body_alone(scene: &mut Scene) {
     on_board(scene);
     edit_style(scene, |style| style.underpainting = false);

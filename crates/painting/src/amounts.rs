@@ -91,7 +91,7 @@ impl BodyAmounts {
         self.of_rule.iter().any(|painted| any.iter().any(|&of| !painted.of(of).dabs.is_empty()))
     }
 
-    /// Whether flatness is painted alike in both: then directions combed by guides are alike.
+    /// Whether both have the same dabs of flatness. Directions combed by guides depend on these.
     pub(crate) fn same_flatness(&self, other: &Self) -> bool {
         let of = |all: &Self| -> Vec<(u16, Vec<PlacedDab>)> {
             let flat = |painted: &RuleAmounts| (painted.rule, painted.of(Amount::Flatness).dabs.clone());

@@ -48,13 +48,14 @@ pub(crate) struct BakeInputs {
 /// What combs the directions of a coat.
 pub(crate) struct Combed {
     pub(crate) inputs: Arc<FieldInputs>,
-    /// None where only guides comb.
+    /// `None` where no field was needed; then only guides comb, if any.
     pub(crate) field: Option<Arc<BodyField>>,
     /// Which samples of the field each particle uses.
     pub(crate) stencils: Arc<Stencils>,
 }
 
-/// Equal where the same lifts would be baked; the number of particles is not compared.
+/// Equal where the same lifts would be baked. The number of particles is not compared, except where flatness is
+/// painted: its factors are, one per particle.
 impl PartialEq for BakeInputs {
     fn eq(&self, other: &Self) -> bool {
         let (sources, before) = (&self.sources, &other.sources);

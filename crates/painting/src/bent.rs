@@ -180,7 +180,7 @@ impl Remembered {
 }
 
 impl BentMemo {
-    /// The bodies with these surfaces at a frame. `shapes_at` is called if the frame is not remembered.
+    /// The bodies with these surfaces at a frame. `shapes_at` is called unless all of them are still remembered.
     pub(crate) fn at<'a>(
         &self,
         frame: f64,

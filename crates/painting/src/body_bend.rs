@@ -54,8 +54,8 @@ impl BodyBend {
         Self { bend, cache, ..Self::default() }
     }
 
-    /// Says which vertices with the same place at rest stay together. Noise separates none of them, since it moves a
-    /// vertex by its position and normal alone.
+    /// Says which vertices with the same position and normal at rest stay together. Noise separates none of them, since
+    /// it moves a vertex by its position and normal alone.
     pub(crate) fn bonds(&self) -> Bonds<'_> {
         match (&self.cache, &self.bend) {
             (Some(cache), _) => Bonds::Points(&cache.points.of_vertex),

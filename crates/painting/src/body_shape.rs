@@ -23,7 +23,7 @@ pub struct BodyNoise {
 pub struct NoiseLayers {
     /// The texture.
     pub tile: Arc<Tile>,
-    /// How many layers, at least 1.
+    /// k, at least 1: the layers 1 to k − 1 are multiplied.
     pub count: u32,
     /// How fast layers move; also how far apart they begin.
     pub speed: f32,
@@ -54,7 +54,7 @@ pub struct FrameNoise {
     pub noise: Arc<BodyNoise>,
     /// Where its vertices look their noise up.
     pub lookup: Lookup,
-    /// How far the layers have moved, speed multiplied in, in lengths of the texture.
+    /// How far the layers have moved, speed multiplied in, in lengths of the texture; only the fraction.
     pub travelled: Vec2,
 }
 

@@ -9,7 +9,7 @@ use impasto_scene::loaded::LoadedScene;
 use impasto_scene::presets::{LayerKind, ResolvedLayer};
 use rayon::prelude::*;
 
-use crate::frame::Brushes;
+use crate::frame::{Brushes, Stroke};
 use crate::regions::RegionRule;
 
 /// The marks of the brushes that come with Impasto, made once in a process.
@@ -103,7 +103,7 @@ impl Brushes {
     }
 }
 
-/// The mark of a stroke, as an index among the marks of all brushes; bit 16 says whether it is flipped. `order` is the
+/// The mark of a stroke, as in [`Stroke::mark`]. `order` is the
 /// particle's place in its coat. Steps by irrational ratios (the golden one for the marks of a brush, the plastic one
 /// for the brushes) keep particles that follow each other from taking the same mark.
 pub(crate) fn mark(first_marks: &[u32], order: u32, bits: u32) -> u32 {
@@ -115,5 +115,5 @@ pub(crate) fn mark(first_marks: &[u32], order: u32, bits: u32) -> u32 {
     let count = first_marks.len() as u32;
     let brush = step(0.754_877_666_25, count).min(count.saturating_sub(1));
     let flip = hash::combine(bits, 12) & 1;
-    (first_marks.get(brush as usize).copied().unwrap_or(0) + variant) | (flip << 16)
+    (first_marks.get(brush as usize).copied().unwrap_or(0) + variant) | (flip * Stroke::FLIPPED)
 }

@@ -55,7 +55,7 @@ impl PaintingView<'_> {
     pub(crate) fn strokes(&self) -> Strokes {
         let numbers = self.painting.order.numbers();
         let may_show: Vec<Vec<u64>> = self.coats.iter().map(|coat| self.may_show(coat)).collect();
-        // The numbers of particles run through all coats, one coat after the other.
+        // The numbers of particles run through all coats; each coat begins with a new word.
         let may_show = may_show.concat();
         let chunk = |(number, part): (usize, &[u32])| self.found(number * CHUNK, part, &may_show);
         let found: Vec<Found> = numbers.par_chunks(CHUNK).enumerate().map(chunk).collect();

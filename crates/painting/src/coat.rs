@@ -31,7 +31,7 @@ pub(crate) struct Coat {
     pub(crate) kind: LayerKind,
     pub(crate) sampled: Arc<Sampled>,
     pub(crate) lift_sources: LiftSources,
-    /// Indices of the rules that apply to any of its particles.
+    /// Indices of the rules that may apply to its particles.
     pub(crate) used: Arc<Vec<u16>>,
     pub(crate) traits: Arc<Traits>,
     /// The painted amounts at its particles.
@@ -115,7 +115,8 @@ impl Coat {
         move |index| if is_lifted { offset(self.traits.region(index)) } else { 0.0 }
     }
 
-    /// sRGB albedo at a particle, 8 bits a channel, as 0xAABBGGRR; A is 0 for an unlit material, else 255.
+    /// sRGB albedo at a particle, 8 bits a channel, as 0xAABBGGRR; A is 0 for an unlit material, else 255. `HOLE` where
+    /// a texture cuts a hole.
     pub(crate) fn albedo_srgb8(&self, particle: usize) -> u32 {
         let triangle = self.sampled.particles.triangle(particle);
         self.sampled.albedo.of(&self.surface, particle, triangle)

@@ -49,8 +49,8 @@ struct UnguidedField {
 }
 
 impl BodyField {
-    /// Solves the field. `None` if every direction is stated exactly: then no field is needed. If only guides have
-    /// changed since the field `before` was solved, what does not depend on guides is taken from it.
+    /// Solves the field. `None` if none is needed: every direction is stated exactly, all seams are hard, and no guide
+    /// smooths. If only guides have changed since `before` was solved, what does not depend on guides is taken from it.
     pub(crate) fn solve(inputs: &Arc<FieldInputs>, before: Option<&Self>) -> Option<Self> {
         let only_guides_differ = |before: &&Self| {
             let guides = Arc::clone(&before.inputs.guides);
@@ -77,15 +77,14 @@ impl BodyField {
             return None;
         }
         let graph = unguided.graph.get_or_init(|| inputs.graph(points));
+        let symmetry = inputs.symmetry();
         let anchors = inputs.anchors(points, &free);
         let constraints: Vec<Constraint> = (0..points.len())
             .into_par_iter()
             .with_min_len(256)
-            .map(|sample| inputs.constraint(&points[sample], anchors[sample], &free))
+            .map(|sample| inputs.constraint(&points[sample], anchors[sample], &free, symmetry))
             .collect();
-        let constraints = inputs.with_curvature(graph, points, constraints);
-        // The whole body has one symmetry: arrows only if all its samples have arrows.
-        let symmetry = inputs.symmetry(points);
+        let constraints = inputs.with_curvature(graph, points, constraints, symmetry);
         let solved = graph.solve(symmetry, &constraints);
         let relaxed = inputs
             .smooths()
@@ -132,7 +131,7 @@ impl BodyField {
         self.tangent(mixed, axes, base)
     }
 
-    /// The direction of a particle after the guides that smooth have changed it; `None` if no guide smooths.
+    /// The smoothed field's direction at a particle; `None` if no guide smooths, or no sample is near.
     pub(crate) fn relaxed(
         &self,
         stencils: &Stencils,

@@ -11,8 +11,9 @@ use crate::view::PictureView;
 /// Direction to the light on the relief where the scene has no sun: to the upper left, as in most studios.
 const DEFAULT_RELIEF_LIGHT: DVec3 = DVec3::new(-0.55, 0.62, 0.56);
 
-/// The sine of the light's height over the canvas is at least this, so that its shading always looks like relief.
-const LEAST_HEIGHT: f64 = 0.45;
+/// The sine of the relief light's angle over the canvas: lower, it would shade the relief too harshly, and higher too
+/// flatly.
+const HEIGHTS: [f64; 2] = [0.45, 0.7];
 
 /// A scene's finish, before a view places the canvas.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,7 +44,8 @@ impl FinishRule {
         Self { finish, anchor, reference: reference.clone() }
     }
 
-    /// The finish of a picture in this view, where the whole shot is `shot_height_px` high.
+    /// The finish of a picture in this view. `shot_height_px` is the height of the shot in it: less than the picture's
+    /// where the editor shows more than the shot.
     pub(crate) fn at(&self, view: &PictureView, shot_height_px: f64) -> Finish {
         let canvas_from_px = self.anchor.and_then(|anchor| self.canvas_from_px(anchor, view, shot_height_px));
         Finish { canvas_from_px: canvas_from_px.unwrap_or(Affine2::IDENTITY), ..self.finish }
@@ -73,7 +75,8 @@ impl FinishRule {
     }
 }
 
-/// Direction to the first sun of the reference, in its camera's own axes, raised to [`LEAST_HEIGHT`] if it is lower.
+/// Direction to the first sun of the reference, in its camera's own axes, with its height held to [`HEIGHTS`].
+/// [`DEFAULT_RELIEF_LIGHT`] if there is no sun, or if it shines straight along the gaze.
 fn relief_light(scene: &Scene, reference: &PictureView) -> [f32; 3] {
     let (_, frame) = motion::referred_to(scene, &scene.reference);
     let lights = lights::resolve(scene, frame, (glam::Vec3::ZERO, 1.0), DVec3::ZERO);
@@ -81,7 +84,7 @@ fn relief_light(scene: &Scene, reference: &PictureView) -> [f32; 3] {
     let seen = lights.suns.first().map(|sun| view.transform_vector3(sun.to_light.as_dvec3()));
     let flat = seen.map(|light| light.truncate()).filter(|flat| flat.length() > 1e-3);
     let Some(flat) = flat else { return DEFAULT_RELIEF_LIGHT.normalize().as_vec3().to_array() };
-    let height = seen.map_or(0.0, |light| light.z).clamp(LEAST_HEIGHT, 0.7);
+    let height = seen.map_or(0.0, |light| light.z).clamp(HEIGHTS[0], HEIGHTS[1]);
     let flat = flat.normalize() * (1.0 - height * height).sqrt();
     flat.extend(height).as_vec3().to_array()
 }

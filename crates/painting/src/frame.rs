@@ -24,8 +24,8 @@ pub use stroke::{ANY_COLOR, LayerRun, Mixing, Paint, Stroke, StrokeSource, Strok
 pub struct Frame {
     /// Width and height of the picture in pixels.
     pub size_px: [u32; 2],
-    /// Height of this picture over the height that the scene states. All lengths in pixels are already multiplied by
-    /// it.
+    /// Height of the shot in this picture over the height that the scene states; 1 if strokes keep their size in
+    /// pixels. Lengths of strokes and lines are already multiplied by it, those in `style` are not.
     pub px_scale: f32,
     /// The camera.
     pub view: FrameView,
@@ -139,8 +139,8 @@ pub struct FrameLights {
     pub ambient_above: Vec3,
     /// Ambient light on a surface that faces down.
     pub ambient_below: Vec3,
-    /// A sphere (centre, radius) that holds all bodies at every frame of the timeline. The shadow map covers it, so the
-    /// map is the same in every frame.
+    /// The sphere (centre, radius) that the shadow map covers, the same in every frame. It holds all bodies over the
+    /// timeline, or only what the camera sees if that is much smaller.
     pub shadow_bounds: (Vec3, f32),
 }
 
@@ -189,7 +189,7 @@ pub struct FrameBody {
     pub world_from_model: Mat4,
     /// Where its vertices are; `None` at rest.
     pub bent: Option<Arc<Bent>>,
-    /// The noise that colours it; if it also displaces vertices, `bent` has them displaced.
+    /// Its noise, which may colour it; if it displaces vertices, `bent` has them displaced.
     pub noise: Option<FrameNoise>,
 }
 

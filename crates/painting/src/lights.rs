@@ -65,8 +65,7 @@ fn unexposed(scene: &Scene, frame: f64, origin_in_world: DVec3) -> FrameLights {
                 lights.ambient_above += radiance;
                 lights.ambient_below += match light.ground {
                     Some(floor) => Vec3::from(linear(floor)) * light.intensity as f32,
-                    // As if bounced off a warm floor.
-                    None => radiance * Vec3::new(0.5, 0.42, 0.34),
+                    None => radiance * Vec3::from(Light::OFF_THE_FLOOR),
                 };
             }
         }

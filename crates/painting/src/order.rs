@@ -62,7 +62,7 @@ impl PaintingOrder {
     }
 }
 
-/// The number of the first particle of each coat, and the number after the last coat.
+/// The number of the first particle of each coat, and the number at which a further coat would begin.
 pub(crate) fn begins(counts: impl Iterator<Item = usize>) -> (Vec<u32>, usize) {
     let mut next = 0;
     let mut begin = |count: usize| {

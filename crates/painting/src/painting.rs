@@ -35,7 +35,7 @@ pub struct Painting {
     pub(crate) loaded: Arc<LoadedScene>,
     /// One per object.
     pub(crate) bodies: Vec<PreparedBody>,
-    /// By object, then in the order of the layers.
+    /// By object, then by kind of layer in the order of [`LayerKind`].
     pub(crate) coats: Vec<Arc<Coat>>,
     pub(crate) rules: Arc<Vec<RegionRule>>,
     /// The palettes as they are without keys.
@@ -57,7 +57,8 @@ pub struct Painting {
     pub(crate) style: Style,
     /// The origin of the frames' world space.
     pub(crate) origin_in_world: DVec3,
-    /// A sphere (centre, radius) round everything over the whole timeline, in the frames' world space.
+    /// The sphere (centre, radius) that the shadow map covers over the whole timeline, in the frames' world space:
+    /// round all bodies, or round what is seen where that is much smaller.
     pub(crate) shadow_bounds: (Vec3, f32),
     pub(crate) steps: Vec<Step>,
     pub(crate) kept: Kept,
@@ -73,7 +74,7 @@ pub(crate) struct PreparedBody {
     pub(crate) least_form: f32,
     /// Whether it is left out of the picture.
     pub(crate) hidden: bool,
-    /// The direction field, where directions are not all stated outright.
+    /// The direction field, empty where all directions are stated outright; `None` before strokes are made.
     pub(crate) field: Option<Arc<LateField>>,
     /// How many particles each layer was to have.
     pub(crate) counts: [usize; LayerKind::ALL.len()],

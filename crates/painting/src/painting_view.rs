@@ -57,7 +57,7 @@ pub(crate) struct CoatView<'a> {
     pub(crate) map: ScreenMap,
     particle_view: ParticleView,
     pub(crate) world_from_model: DAffine3,
-    /// With the paper's rule, how many particles of each polygon show.
+    /// With the paper's rule, how many particles of each polygon side show.
     pub(crate) shown: Option<Vec<u32>>,
     /// With the solver `HornExact`, the view of the reference and this view.
     clip_views: Option<(ClipView, ClipView)>,
@@ -286,8 +286,8 @@ impl CoatView<'_> {
         self.coat.baked.baked.position_of(index)
     }
 
-    /// The lift N of the tangent plane, without a stroke's direction, carried to where the surface is now. κ is
-    /// measured with it where the solver has no lift of its own.
+    /// The lift N of the tangent plane, without a stroke's direction, carried to where the surface is now. With the
+    /// solvers `Horn` and `HornExact`, κ is measured with it.
     pub(crate) fn surface_lift(&self, index: usize) -> Lift {
         let Lift { along, across } =
             self.coat.lift_sources.surface_lift(index, self.coat.traits.region(index));

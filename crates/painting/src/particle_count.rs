@@ -80,7 +80,7 @@ pub(crate) fn find<const LAYERS: usize>(
     positions_at: impl Fn(&BodyShape) -> Option<Vec<Vec3>> + Sync,
     wanted_per_px: impl Fn(usize, DVec3, DVec3) -> [f32; LAYERS],
 ) -> [usize; LAYERS] {
-    // Odd, since the two sides of a sheet's triangles take turns.
+    // Odd, since front and back faces of a sheet alternate: an even stride would take one side only.
     let stride = surface.faces().count().div_ceil(FACES) | 1;
     let faces: Vec<CountedFace<LAYERS>> = surface
         .faces()

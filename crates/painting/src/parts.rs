@@ -18,8 +18,8 @@ const LENGTH_SHARE: f64 = 0.6;
 /// The least cap, pixels at the scene's size.
 const LEAST_CAP_PX: f64 = 3.0;
 
-/// A stroke that fits the form is at most `FORM_SHARE` of the form's size wide, even less if it would be much wider
-/// otherwise. This limit is never below `LEAST_FITTED_PX`.
+/// A stroke that fits the form is at most `FORM_SHARE` of the form's size wide. The limit is lower still for strokes
+/// that would be wider otherwise, but never below `LEAST_FITTED_PX`.
 const FORM_SHARE: f32 = 0.13;
 const LEAST_FITTED_PX: f32 = 10.0;
 
@@ -32,8 +32,8 @@ const LEAST_ASPECT: f32 = 1.2;
 /// A part is long when its longest extent is more than this many times its second.
 const LONG: f64 = 1.12;
 
-/// A part is a backdrop when it fills this share of the picture, is at most this thick relative to its second extent,
-/// and faces the eye with at least this cosine.
+/// A part is a backdrop when it spans this share of both sides of the picture, is at most this thick relative to its
+/// second extent, and faces the eye with at least this cosine.
 const BACKDROP_SHARE: f64 = 0.9;
 const BACKDROP_THICKNESS: f64 = 0.2;
 const BACKDROP_FACING: f64 = 0.6;

@@ -12,7 +12,8 @@ use crate::painting::Painting;
 use crate::parts::Cap;
 use crate::stroke_size::{most_size, reach_px};
 
-/// Strokes fade near a body's outline, and more strokes make up for that; a fade below this counts as this.
+/// Strokes fade near a body's outline. To make up for that, the number wanted is divided by the fade, but by no less
+/// than this.
 pub(crate) const LEAST_COUNTED_FADE: f32 = 0.3;
 
 /// The bound is rounded differently from the presence itself, so it lets a little more through.
@@ -23,8 +24,8 @@ pub(crate) struct PresenceBound {
     /// How far from its particle a stroke can reach, pixels: at the largest size that chance gives, but before it grows
     /// with its surface.
     pub(crate) reach_px: f32,
-    /// By part: a stroke can be present only while its particle's index is below this times its projected area (px² per unit of
-    /// surface). Infinite where presence does not depend on the index.
+    /// By part: a stroke can be present only while its particle's index is below this times the projected area of the
+    /// surface there (px² per unit of surface). Infinite where presence does not depend on the index.
     pub(crate) most_per_area: Vec<f32>,
 }
 

@@ -17,7 +17,7 @@ const SMALL: u64 = 0x0001_0001_0001_0001;
 /// Of the large strokes that were absent, each picture computes one half: if they appear late, they leave holes.
 const LARGE: u64 = 0x5555_5555_5555_5555;
 
-/// Which strokes were present in a picture.
+/// Which strokes the next picture computes: those that were present in the last one, and a share of the others.
 pub struct Recall {
     order: Arc<PaintingOrder>,
     /// A bit for each particle in painting order: whether its stroke is to be computed.

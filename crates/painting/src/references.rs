@@ -35,9 +35,9 @@ pub(crate) struct ReferencePose {
 /// All references of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct SceneReferences {
-    /// The scene's own, the further ones, then those of regions.
+    /// The scene's own, its `further_references`, then those that only regions state.
     pub(crate) poses: Vec<ReferencePose>,
-    /// How many further references there are.
+    /// How many of them are `further_references`.
     pub(crate) further: usize,
     /// For each rule, the index of the reference that its directions refer to.
     pub(crate) of_rule: Vec<u16>,
@@ -209,8 +209,8 @@ impl PlaceThen {
 
 /// How the references see one point of a surface.
 pub(crate) struct Views {
-    /// The reference of the point's rule, then the further one that faces the point best; `None` for one that does not
-    /// face it.
+    /// The reference of the point's rule, and, unless that one states the direction wholly, the further reference that
+    /// faces the point best; `None` for one that does not face it.
     pub(crate) facing: [Option<FacingReference>; 2],
     pub(crate) normal: DVec3,
     /// Axes of the tangent plane, right and up as on a turntable.
@@ -305,7 +305,7 @@ impl BodyReferences {
 }
 
 impl BodyReference {
-    /// Where a place of the surface is at the reference's frame, model space, and F there.
+    /// Where a place of the surface is at the reference's frame, model space, and F there; `None` at rest.
     pub(crate) fn carried(&self, place: PackedParticle) -> Option<CarriedPlace> {
         self.stands.bent.as_ref().map(|bent| bent.place(place))
     }
@@ -364,7 +364,7 @@ impl Views {
 
     /// N' for strokes along `tangent` (unit). Begins with the lift of a camera that looks straight at the surface. Over
     /// it, blends the lift of each reference that faces the point, turned so that in that reference's picture strokes
-    /// lie along `tangent`.
+    /// show at the same angle as with the first lift.
     pub(crate) fn lift(&self, tangent: DVec3) -> Lift {
         let flat = self.flat(tangent);
         let mut lift = flat;

@@ -125,7 +125,7 @@ fn surface_guide(guide: &Guide) -> Option<SurfaceGuide> {
 }
 
 /// The palettes of all rules in linear light, and for each rule the index of its palette ([`ANY_COLOR`] if it has
-/// none). Rules with equal palettes and equal keys of strokes share one: the keys say how far colours keep to it.
+/// none). Rules share a palette if their pigments and their keys of strokes are equal, since keys change its `mix`.
 pub(crate) fn palettes(rules: &[RegionRule]) -> (Vec<Palette>, Vec<u8>) {
     let mut palettes: Vec<Palette> = Vec::new();
     let mut keys: Vec<&[StrokesKey]> = Vec::new();
@@ -324,7 +324,7 @@ impl Dabbed {
         touching.max().map_or(whole > 0, |last| !self.dabs[last as usize].take_away)
     }
 
-    /// Whether any dab may reach a ball.
+    /// Whether any dab that adds to the region may reach a ball.
     fn may_touch(&self, center: Vec3, reach: f32) -> bool {
         let reaches = |dab: &PlacedDab| !dab.take_away && dab.at.distance(center) <= dab.radius + reach;
         if reach <= self.cell {

@@ -29,7 +29,7 @@ const COVERED: f64 = 0.92;
 const MUCH_SMALLER: f64 = 0.5;
 
 /// A scene that lies farther from the world's origin than this many times its own radius is drawn about an origin in
-/// its middle. At that distance single precision tells places apart that are 1/16,000 of the radius from each other.
+/// its middle. At that distance the steps of single precision are up to 1/8,000 of the radius.
 const FAR: f64 = 1024.0;
 
 /// The origin of the frames' world space: 0, or the middle of a scene that lies far from there.
@@ -105,7 +105,8 @@ fn round_seen(boxes: &[Option<Corners>], views: &[View]) -> Option<(DVec3, f64)>
     Some((center, last.max(1e-6)))
 }
 
-/// A ray from the eye through a place of the picture. Depths on it are measured along the gaze.
+/// A ray through a place of the picture, from the eye or, with an orthographic lens, from the eye's plane. Depths on it
+/// are measured along the gaze.
 struct Ray {
     from: DVec3,
     /// The step along the ray that goes one unit deeper.

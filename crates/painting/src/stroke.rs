@@ -53,7 +53,7 @@ pub(crate) struct Candidate {
 }
 
 impl PaintingView<'_> {
-    /// The stroke of a particle; `None` if it cannot show, however much of its layer is wanted.
+    /// The stroke of a particle; `None` if it cannot show, whatever the resolve shader would find there.
     pub(crate) fn stroke(&self, candidate: &Candidate) -> Option<(Stroke, StrokeSource)> {
         let &Candidate { entry, place, ref solved, region, part, bits, drift, .. } = candidate;
         let (coat_view, index) = (&self.coats[entry.coat as usize], entry.particle as usize);
@@ -214,8 +214,9 @@ struct Outline {
     skew: f32,
 }
 
-/// The outline of a stroke that is mapped like a texture: `flat` is its outline in the reference picture, and `map`
-/// takes that picture, at the scene's own size, to this one.
+/// The outline of a stroke that is mapped like a texture. `map` takes pixels along and across the stroke in the
+/// reference picture, at the scene's own size, to pixels of this picture. `flat` is the outline that the stroke has
+/// unmapped, in pixels of this picture; its angle is not used.
 fn mapped(map: PixelMap2, flat: Outline, px_scale: f64) -> Outline {
     let along = DVec2::new(map.x.x, map.y.x) * f64::from(flat.length_px) / px_scale;
     let across = DVec2::new(map.x.y, map.y.y) * f64::from(flat.width_px) / px_scale;
@@ -260,8 +261,8 @@ pub(crate) fn mixing(strokes: &ResolvedStrokes, boldness: f32, palette: u8) -> M
     }
 }
 
-/// Turns a stroke near its body's outline towards that outline, by the share `contour`, and towards the nearer one of
-/// the outline's two directions.
+/// Turns a stroke near its body's outline towards the nearer one of the outline's two directions, by a share that grows
+/// to 0.9 × `contour` at the outline.
 pub(crate) fn along_contour(
     angle_rad: f32,
     contour: f32,

@@ -25,7 +25,7 @@ pub struct StrokeDirection {
     pub rank: f32,
     /// Pixels, origin at the upper left corner of the picture, Y down.
     pub position_px: [f32; 2],
-    /// The stroke's angle as it is drawn: counter-clockwise from +X with Y **up**, radians in (−π, π].
+    /// The stroke's angle, boil left out: counter-clockwise from +X with Y **up**, radians in (−π, π].
     pub angle_rad: f32,
     /// κ in 0..=1: how far the angle can be trusted.
     pub kappa: f32,
@@ -104,8 +104,8 @@ impl Painting {
     }
 
     /// The angle of strokes at a place as a camera sees them. It is taken from the nearest particle of the object's
-    /// body layer that is within the place's radius and faces about the same way. `None` if there is none, or if its
-    /// depth is not between the nearest and the farthest that show.
+    /// body layer that is within the place's radius and faces about the same way. `None` if there is none, or if it is
+    /// not between the camera's near and far planes.
     pub fn angle_at(&self, place: &SurfacePlace, camera: &CameraPose, frame: f64) -> Option<ShownDirection> {
         let options = FrameOptions::new([self.scene().size.0, self.scene().size.1]);
         let view = self.view(camera, frame, &options, |coat| place.is_on(coat));

@@ -1,5 +1,4 @@
-//! Makes the surface of a body from an object of the document, and gives the surface's vertices in any shape and its
-//! albedo.
+//! Makes the surface of a body from an object of the document, and gives the surface's albedo.
 
 use std::collections::HashMap;
 use std::sync::Arc;

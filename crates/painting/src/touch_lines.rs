@@ -12,7 +12,7 @@ use crate::painting_view::{PaintingView, PosedBody};
 use crate::stroke::mixing;
 use crate::touches::{LaidTouch, TouchPlace};
 
-/// The share of a mark that paint covers, and how long a mark is, in widths.
+/// The share of a mark's length, and of its width, that paint fills; and how long a mark is, in widths.
 const FILL: f64 = impasto_core::brush::FILL as f64;
 const MARK_LENGTH: f64 = impasto_core::brush::SIZE[0] as f64 / impasto_core::brush::SIZE[1] as f64;
 
@@ -47,7 +47,7 @@ struct LinePoint {
     facing: f64,
     /// How much deeper the surface gets, in pixels of depth per pixel along x and y.
     slope: DVec2,
-    /// Cosine between the normal and the gaze.
+    /// Absolute cosine between the normal and the gaze, at least `LEAST_SLANT`.
     slant: f64,
     /// Unit.
     normal_in_world: DVec3,
@@ -163,7 +163,7 @@ impl PaintingView<'_> {
         in_view.truncate().length() / of_lens
     }
 
-    /// The angle of the strokes round a touch: the mean of lines, which have no beginning.
+    /// The mean angle of the strokes round a touch, in which opposite directions count as the same line.
     fn angle_round(&self, laid: &LaidTouch) -> f64 {
         let is_body = |coat: &&crate::painting_view::CoatView<'_>| {
             (coat.coat.object, coat.coat.kind) == (laid.object, LayerKind::Body)
@@ -289,7 +289,7 @@ fn anchor(line: &[LinePoint], runs: &[Range<usize>]) -> Option<Anchor> {
     })
 }
 
-/// How long a line is in the picture; parts behind the camera do not count.
+/// How long a line is in the picture; steps from or to a point on the eye's plane do not count.
 fn length_px(line: &[LinePoint]) -> f64 {
     let length = |pair: &[LinePoint]| pair[0].at_px.distance(pair[1].at_px);
     line.windows(2).map(length).filter(|length| length.is_finite()).sum::<f64>().clamp(1e-3, 1e6)

@@ -82,7 +82,7 @@ pub(crate) struct Traits {
     pub(crate) name_hash: u32,
     /// The region of each particle where there are dabs; empty where it follows from the triangles.
     dabbed: Vec<u16>,
-    /// Slow noise of each particle: of hue and value, and of how firm edges are.
+    /// Slow noise of each particle: of hue and value; of how firm edges are and where scumble and contours lie.
     pub(crate) drift: Vec<[f32; 2]>,
     /// The size of the form at each particle; empty where no stroke fits the form.
     form: FormMemo,
@@ -159,13 +159,13 @@ impl Traits {
         })
     }
 
-    /// Random bits of a particle, the same whatever is edited.
+    /// Random bits of a particle. Only another object name or another seed of the scene changes them.
     #[inline]
     pub(crate) fn bits(&self, particle: usize) -> u32 {
         hash::combine(self.name_hash, particle as u32)
     }
 
-    /// Whether all particles are known to belong to the same regions.
+    /// Whether each particle is known to belong to the same region in both.
     pub(crate) fn same_regions(&self, other: &Self) -> bool {
         self.particles == other.particles
             && (Arc::ptr_eq(&self.regions, &other.regions) || self.regions == other.regions)

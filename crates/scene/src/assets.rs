@@ -7,13 +7,13 @@ use std::path::{Path, PathBuf};
 use crate::found_files::{FoundFiles, without_dots};
 use crate::problem::{Problem, Severity, TextPosition};
 
-/// The longest file name that is accepted, in bytes; no system opens longer ones.
+/// The longest file name that is accepted, in bytes, folders included; Linux opens no longer path.
 pub const MAX_NAME_BYTES: usize = 4096;
 
 /// The folders that a scene's files may come from.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct AssetFolders {
-    /// Searched in this order, after the folder of the file that names the asset (`--asset-dir`).
+    /// The folders of `--asset-dir`, searched in this order after the folder of the file that names the asset.
     pub extra: Vec<PathBuf>,
     /// The list to which every file that is found is added.
     found: FoundFiles,
@@ -139,8 +139,8 @@ impl AssetFolders {
     /// Finds a file that another file names, without opening it: first beside that file, then in the extra folders.
     ///
     /// # Errors
-    /// [`AssetError`] when the name is empty, absolute, a URL or over [`MAX_NAME_BYTES`], when it leads (also through a
-    /// link) out of the scene's folder and the extra folders, or when none of the folders has the file.
+    /// [`AssetError`] when the name is empty, absolute, a URL, over [`MAX_NAME_BYTES`] or has a NUL byte; when it leads
+    /// (also through a link) out of the scene's folder and the extra folders; or when none of the folders has the file.
     pub fn find(&self, request: &AssetRequest<'_>) -> Result<PathBuf, AssetError> {
         let name = request.name.trim().replace('\\', "/");
         if let Some(why) = refusal(&name) {

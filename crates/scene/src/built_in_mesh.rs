@@ -1,4 +1,4 @@
-//! Built-in meshes, which need no file. Their names begin with `impasto:`, as no file's name does.
+//! Built-in meshes, which need no file. Their names begin with `impasto:`; no file is looked for under such a name.
 
 use std::f32::consts::FRAC_PI_2;
 

@@ -40,7 +40,8 @@ pub struct Finding {
 
 /// All findings about a document by itself: at most [`limits::MAX_PROBLEMS`], and one that counts the rest.
 ///
-/// The time is proportional to the document's size, whatever it holds.
+/// The time is proportional to the document's size, except that the object of each guide, painted amount and touch is
+/// looked for among all objects, one by one.
 pub fn check(scene: &Scene) -> Vec<Finding> {
     let mut findings = Findings::default();
     shot::check(scene, &mut findings);
@@ -52,9 +53,9 @@ pub fn check(scene: &Scene) -> Vec<Finding> {
     findings.done()
 }
 
-/// Checks the document against its files: groups and materials exist, guides lie on the surface, morphs have equal
-/// topology, point caches fit. `meshes` and `caches` are keyed by the path written in the document. A file that is not
-/// in them is skipped, since the failure to read it was reported before.
+/// Checks the document against its files: groups and materials exist and have triangles, guides and dabs lie on the
+/// surface, morphs have equal topology, point caches fit. `meshes` and `caches` are keyed by the path written in the
+/// document. A file that is not in them is skipped, since the failure to read it was reported before.
 pub fn check_with_meshes(
     scene: &Scene,
     meshes: &BTreeMap<String, Arc<MeshFile>>,
@@ -182,7 +183,7 @@ impl Findings {
         }
     }
 
-    /// Checks the handles of an ease: time never goes back, and values stay near.
+    /// Checks the handles of an ease: `x` in 0..=1, so that time never goes back, and `y` in [`limits::EASE_Y`].
     fn curve(&mut self, field_path: &str, handles: [[f64; 2]; 2]) {
         let ranges = [("x", 0.0..=1.0), ("y", limits::EASE_Y)];
         for ((axis, range), at) in ranges.into_iter().zip(0..2) {
@@ -223,7 +224,7 @@ impl Findings {
         }
     }
 
-    /// Checks a name: it is not empty, not too long, and on one line.
+    /// Checks a name: it is not empty, not too long, and without control characters.
     fn name(&mut self, field_path: &str, name: &str) {
         if name.trim().is_empty() {
             self.error(field_path, "the name is empty", "give it a name");
@@ -283,7 +284,7 @@ fn short(value: f64) -> String {
     }
 }
 
-/// A name for a message: on one line, at most 60 characters.
+/// A name for a message: on one line, cut off after 60 characters.
 fn shown(name: &str) -> String {
     let mut shown: String = name.chars().take(60).map(|c| if c.is_control() { ' ' } else { c }).collect();
     if name.chars().nth(60).is_some() {

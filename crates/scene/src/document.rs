@@ -1,5 +1,5 @@
 //! The scene document: every field of a scene file, with its default. Angles are in degrees, times in
-//! frames and colours in sRGB, as a person writes them; nothing here is solved or resolved.
+//! frames and colours in sRGB, as a person writes them. [`crate::presets`] makes [`ResolvedStrokes`] from the settings.
 
 mod color;
 mod ease;
@@ -389,7 +389,7 @@ impl Object {
         }
     }
 
-    /// From the mesh file's coordinates to the object's own space: Z up turned into Y up, and the static scale.
+    /// From the mesh file's coordinates to the object's own space: the axis `up` turned to Y, then the static scale.
     pub fn model_from_file(&self) -> glam::DMat3 {
         glam::DMat3::from_diagonal(glam::DVec3::from(self.scale.0)) * self.up.y_up_from_file()
     }

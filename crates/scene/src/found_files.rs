@@ -25,7 +25,7 @@ impl FoundFiles {
     /// Notes a file that the file `beside` names, in a scene of the folder `root`. `name` has `/` between folders.
     pub(crate) fn note(&self, [beside, root]: [&Path; 2], path: &Path, name: &str) {
         let mut places = self.places.lock().unwrap_or_else(PoisonError::into_inner);
-        // If the naming file was itself found in an extra folder, its own path in this list counts.
+        // If the naming file is itself in this list, `name` is relative to its place there, not to where it was found.
         let naming = places.get(&without_dots(beside)).cloned().unwrap_or_else(|| {
             let root = std::fs::canonicalize(root).ok()?;
             let folder = beside.parent().filter(|folder| !folder.as_os_str().is_empty());

@@ -67,7 +67,7 @@ pub struct ToWrite<'a> {
     pub bytes: u64,
     /// Writes these bytes.
     pub write: &'a dyn Fn(&mut dyn Write) -> io::Result<()>,
-    /// Whether a file that is there already is replaced.
+    /// Whether a file of the same size that is there already is replaced. One of another size always is.
     pub replace: bool,
 }
 
@@ -80,7 +80,7 @@ impl KeptFolder {
     /// The file that is kept under a key; `None` where there is none. It counts as used now.
     ///
     /// # Errors
-    /// Those of the system; the file is no regular file, or is larger than `most_bytes`.
+    /// Those of the system; the file is no regular file, or is larger than the argument `most_bytes`.
     pub fn find(&self, key: &str, most_bytes: u64) -> io::Result<Option<KeptFile>> {
         let file = match File::open(self.file(key)) {
             Ok(file) => file,

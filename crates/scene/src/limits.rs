@@ -13,7 +13,7 @@ pub const MAX_NESTING: usize = 64;
 /// Characters of one number.
 pub const MAX_NUMBER_CHARS: usize = 400;
 
-/// Bytes of a name of an object, light or region.
+/// Bytes of a name in a scene: of an object, light, region, touch, layer or file.
 pub const MAX_NAME_BYTES: usize = 1024;
 
 /// Pixels along one side of the picture: every current driver takes a render target of this size.
@@ -34,7 +34,7 @@ pub const MAX_LENGTH: f64 = 1e9;
 /// The least length, depth or scale that is not zero, world units.
 pub const MIN_LENGTH: f64 = 1e-9;
 
-/// Angles of keys and regions, degrees.
+/// Angles of rotation: of keys, references, regions and guides, degrees.
 pub const MAX_ANGLE_DEG: f64 = 1e9;
 
 /// Light intensity.
@@ -82,7 +82,7 @@ pub const MAX_SUNS: usize = 8;
 /// Lights of the kinds `Point` and `Spot`, together.
 pub const MAX_POINT_LIGHTS: usize = 16;
 
-/// Problems that one report lists.
+/// Problems that one step of reading or checking lists; one more may count the rest.
 pub const MAX_PROBLEMS: usize = 100;
 
 /// Further references, in addition to the scene's own.
@@ -115,7 +115,7 @@ pub const MAX_ALL_TOUCH_POINTS: usize = 32_768;
 /// Width of a touch, pixels.
 pub const TOUCH_WIDTH_PX: std::ops::RangeInclusive<f64> = 1.0..=400.0;
 
-/// Length of a touch at a single place, pixels.
+/// Length of a touch that has a single point, pixels.
 pub const TOUCH_LENGTH_PX: std::ops::RangeInclusive<f64> = 1.0..=4000.0;
 
 /// Floods of a scene.
@@ -145,5 +145,5 @@ pub const KEY_STROKE_SIZE: std::ops::RangeInclusive<f64> = 0.05..=20.0;
 /// Factor of the coverage in keys of strokes.
 pub const KEY_COVERAGE: std::ops::RangeInclusive<f64> = 0.0..=4.0;
 
-/// How far the values of handles of an ease may lie from those of the keys: 0 is the key, 1 the next one.
+/// `y` of the handles of an ease curve: 0 is the value of the key, 1 that of the next one.
 pub const EASE_Y: std::ops::RangeInclusive<f64> = -2.0..=3.0;

@@ -34,7 +34,7 @@ use source::error_in;
 /// What the command line adds to a scene file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct LoadOptions {
-    /// Where meshes and textures may lie.
+    /// Where the files that the scene names may lie, besides the scene's folder.
     pub folders: AssetFolders,
     /// Values in place of those of the file, in order (`--set PATH=VALUE`): a field path and RON. Text needs no
     /// quotes; an item of a list is named by its index or its name, as in `objects[0].particles` and
@@ -51,7 +51,7 @@ pub struct LoadOptions {
 ///
 /// # Errors
 ///
-/// Every unknown field, or the first error of another kind, each with its position.
+/// The unknown fields up to the first error of another kind, and that error, each with its position.
 pub fn parse(path: &Path, text: &str) -> Result<Scene, Report> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     parse::parse(path, text).map(|parsed| parsed.scene)

@@ -13,7 +13,7 @@ pub struct MeshFile {
     pub mesh: TriangleMesh,
     /// Group names, indexed by `mesh.group_of_triangle`. At least one.
     pub groups: Vec<String>,
-    /// Materials, indexed by `mesh.material_of_triangle`. At least one; faces without `usemtl` use a grey one.
+    /// Materials, indexed by `mesh.material_of_triangle`. At least one; faces without a material use a grey one.
     pub materials: Vec<Material>,
     /// What bends it: morph targets and joints, in the file's own space.
     pub bend: Option<Arc<Bend>>,

@@ -15,7 +15,8 @@ use crate::texture;
 /// What stands between a mesh file's name and the name of a node in it: `props.glb#Lamp`.
 const NODE: char = '#';
 
-/// A mesh that was read, with the warnings. Nodes that show the same mesh at the same stretch share it in memory.
+/// A mesh that was read, with the warnings. Nodes that show the same mesh with the same uneven scale and shear share it
+/// in memory.
 pub type MeshRead = Result<(Arc<MeshFile>, Vec<Problem>), Report>;
 
 /// Endings of mesh files, in small letters.
@@ -27,7 +28,8 @@ pub fn is_mesh(path: &Path) -> bool {
     ending.is_some_and(|ending| ENDINGS.contains(&ending.as_str()))
 }
 
-/// The largest file of this kind that is read, in bytes: a mesh file, one that a mesh file names, or a point cache.
+/// The size in bytes above which a file with this ending is refused: a mesh file, one that a mesh file names, or a
+/// point cache.
 pub fn max_bytes(path: &Path) -> u64 {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
     match ending.as_deref() {
@@ -40,8 +42,8 @@ pub fn max_bytes(path: &Path) -> u64 {
     }
 }
 
-/// The files that must be copied with a mesh file in `root` to another folder: those that it names and that are found
-/// in `root`.
+/// The files that must be copied with a mesh file in `root` to another folder: those found in `root` that it names, and
+/// with glTF also its sidecar and the point caches that the sidecar names.
 ///
 /// # Errors
 /// A [`Report`] where the file cannot be read or has errors.
@@ -49,7 +51,7 @@ pub fn companions(path: &Path, root: &Path) -> Result<BTreeSet<PathBuf>, Report>
     if gltf::is_gltf(path) { gltf::companions(path, root) } else { obj::companions(path, root) }
 }
 
-/// Where the sidecar of a mesh file lies, if this kind has one.
+/// Where the sidecar of a mesh file would lie; `None` for a format that has none.
 pub fn sidecar_of(path: &Path) -> Option<PathBuf> {
     gltf::is_gltf(path).then(|| gltf::sidecar_beside(path))
 }
@@ -67,7 +69,7 @@ pub fn name_of_node(file: &str, node: &str) -> String {
     format!("{file}{NODE}{node}")
 }
 
-/// One path for a file, whichever path it is named by.
+/// The canonical path of a file, so that different paths to it are one key; the path itself if it cannot be resolved.
 fn one_name(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| path.to_owned())
 }

@@ -130,7 +130,7 @@ fn fov_y_deg_at_key(keys: &[CameraKey]) -> Option<f64> {
 }
 
 /// `world_from_model` of every object, in the order of the file: rotation, translation and scale. Keys are in the space
-/// of the parent, which may come later in the file.
+/// of the parent, which may come later in the file; a pose of the shot is in world space already.
 ///
 /// Takes time and memory proportional to the number of objects and follows chains of any depth. An unknown parent, or
 /// one that closes a cycle, counts as none (`check` refuses both).
@@ -323,7 +323,7 @@ fn pose_in_parent(keys: &[ObjectKey], frame: f64) -> DAffine3 {
     DAffine3::from_mat3_translation(matrix, span.mix_vec3(left.translation, right.translation))
 }
 
-/// The scale between two keys; an overshoot ends at the limits of keys.
+/// The scale between two keys; where the ease overshoots, it is clamped to [`limits::KEY_SCALE`].
 fn scale_between(span: &Span, left: &ObjectKey, right: &ObjectKey) -> Scale {
     let (left, right) = (left.scale.0, right.scale.0);
     Scale(std::array::from_fn(|axis| span.mix_within(left[axis], right[axis], limits::KEY_SCALE)))
@@ -347,7 +347,8 @@ pub fn key_at(scene: &Scene, object: &Object, frame: f64) -> ObjectKey {
     }
 }
 
-/// A pose as a key at a frame. Shear is lost, and so is mirroring; the scale is brought within [`limits::KEY_SCALE`].
+/// A pose as a key at a frame. Shear and mirroring are lost, and of a mirrored or flattened pose the rotation too; the
+/// scale is brought within [`limits::KEY_SCALE`].
 pub fn key_of_pose(pose: DAffine3, frame: f64) -> ObjectKey {
     let [x, y, z] = [pose.matrix3.x_axis, pose.matrix3.y_axis, pose.matrix3.z_axis];
     let scale = DVec3::new(x.length(), y.length(), z.length());

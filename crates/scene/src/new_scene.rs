@@ -1,5 +1,5 @@
-//! Makes new scenes: one for a mesh, upright, lit from one side and framed with its shadow; one for a shot; and an
-//! empty one.
+//! Makes new scenes: one for a mesh, upright, lit from one side and framed with the beginning of its shadow; one for a
+//! shot; and an empty one.
 
 mod add;
 mod axes;
@@ -61,8 +61,9 @@ pub struct NewScene {
 ///
 /// The model is the first object and is named after the file. If it has groups and no colours, each group is an object,
 /// moved by the first one. Objects name the mesh by its bare file name, so the scene must lie in the same folder. A
-/// model without colours gets one, chosen by its name. An open mesh that shows its back is seen from the other side; if
-/// that is from below, there is no ground, since the floor would hide the mesh.
+/// model without colours gets one, chosen by its name. With [`ViewFrom::Auto`], an open mesh that would show its back
+/// is seen from the side that shows most of its front; if that is from below, there is no ground, since the floor would
+/// hide the mesh.
 pub fn for_mesh(path: &Path, mesh: &MeshFile, placing: Placing) -> NewScene {
     let name = object_name(path);
     let name_hash = scheme::name_hash(&name);

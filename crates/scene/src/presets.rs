@@ -13,14 +13,15 @@ pub const DEFAULT_PRESET: &str = "oil study";
 /// The preset of a scene in ink that names none.
 pub const INK_PRESET: &str = "ink";
 
-/// The source paper's own rule, complete: equal counts per polygon at random places, count by facing, one brush, the
-/// full neighbour sum in every frame, no jitter and no other layer. It holds for a scene, not for a region.
+/// The source paper's own rule, complete: equal counts per polygon at random places, of which as many show as the
+/// polygon's projected area asks for, one brush, the full neighbour sum in every frame, no jitter and no other layer.
+/// It holds for a scene, not for a region.
 pub const PAPER_PRESET: &str = "paper";
 
 /// The name that a scene's list of layers uses for the tone under all of them.
 pub const GROUND: &str = "ground";
 
-/// A layer of paint, in the order in which they are laid on.
+/// A layer of paint. The variants stand in the usual order of laying; a scene may state another ([`laying_order`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum LayerKind {
     /// Large, thin, earthy strokes under everything.
@@ -42,7 +43,7 @@ pub enum LayerKind {
 }
 
 impl LayerKind {
-    /// The layers whose strokes Impasto places itself, from the first laid on to the last.
+    /// The layers whose strokes Impasto places itself, in the usual order of laying.
     pub const ALL: [Self; 7] = [
         Self::Underpainting,
         Self::Body,
@@ -102,9 +103,9 @@ pub fn is_paper(scene: &Scene) -> bool {
 /// The settings of region `region` of the scene; `None` means everything that no region covers.
 ///
 /// A value comes from the first that states it: the region, the region's preset, the scene, the scene's preset, the
-/// style's own preset. An unknown preset counts as none (`check` refuses it). A hidden layer has a coverage of 0,
-/// except the body: its particles carry the directions that tools and touches read. The index must be one of the scene's
-/// regions.
+/// style's own preset. But a region's `scale` multiplies the size that it takes from the scene. An unknown preset
+/// counts as none (`check` refuses it). A hidden layer has a coverage of 0, except the body: its particles carry the
+/// directions that tools and touches read. The index must be one of the scene's regions.
 pub fn resolve(scene: &Scene, region: Option<usize>) -> ResolvedStrokes {
     let of_region = region.map(|region| &scene.regions[region].strokes);
     let mut strokes = resolve_with(scene, &scene.strokes, of_region);

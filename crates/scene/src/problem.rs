@@ -16,7 +16,7 @@ pub struct Problem {
     pub field_path: Box<str>,
     /// What is wrong, as one sentence without a full stop.
     pub message: String,
-    /// What to do about it, as one sentence without a full stop.
+    /// What to do about it, as one sentence without a full stop; may be empty.
     pub mend: String,
 }
 
@@ -82,7 +82,8 @@ impl fmt::Display for Problem {
 /// The most characters of a word that are shown: no name of a file needs more, and a hostile one may have millions.
 const MOST_OF_A_WORD: usize = 200;
 
-/// A text that is safe to show in a terminal: control characters are escaped, and very long words are cut.
+/// A text that is safe to show in a terminal: control characters except line feeds and tabs are escaped, and very long
+/// words are cut.
 pub fn harmless(text: &str) -> String {
     let mut shown = String::with_capacity(text.len().min(1 << 12));
     let mut length = 0;

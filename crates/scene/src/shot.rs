@@ -33,7 +33,7 @@ pub struct Shot {
     object_of_name: HashMap<String, usize>,
     /// The node of the camera that is looked through.
     camera: Option<usize>,
-    /// Whether the scene chose this camera, so that no cut leads to another one.
+    /// Whether the scene names a camera, even one that the file lacks: then no cut leads to another camera.
     is_chosen: bool,
     /// The lights as they are at rest, each with its node; the soft light all around has none.
     lights: Vec<(Light, Option<usize>)>,
@@ -184,7 +184,7 @@ impl Shot {
             return (first, last);
         }
         let [first, last] = self.span_s().unwrap_or_default().map(|time_s| f64::from(time_s) * fps);
-        // Times are rounded to 32 bits: what this leaves over is no frame.
+        // Times are rounded to 32 bits, so 1e-3 of a frame more or less than a whole one does not count.
         let last = (last - 1e-3).ceil().max(0.0) as i64;
         (((first + 1e-3).floor() as i64).min(last), last)
     }
@@ -301,7 +301,7 @@ mod tests {
         for rate in [24.0, 25.0, 30.0, 60.0, 24_000.0 / 1001.0] {
             assert_eq!(rate_of(keys(rate, 2000)), Some(rate));
         }
-        // Keys at whole seconds fit every rate; three keys are too few to tell; no film has 17 frames a second.
+        // Keys at whole seconds fit every whole rate; three keys are too few to tell; no film has 17 frames a second.
         assert_eq!(rate_of(keys(1.0, 9)), Some(24.0));
         assert_eq!(rate_of(keys(30.0, 3)), None);
         assert_eq!(rate_of(keys(17.0, 99)), None);

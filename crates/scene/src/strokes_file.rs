@@ -93,7 +93,7 @@ impl StrokesFile {
     }
 }
 
-/// Makes all pixels this many times larger.
+/// Multiplies all sizes in pixels by a factor.
 fn scale(strokes: &mut StrokeSettings, factor: f64) {
     if factor == 1.0 {
         return;
@@ -130,7 +130,7 @@ fn with_what_it_takes(scene: &Scene, own: &StrokeSettings) -> StrokeSettings {
         let stated = (row.number.get)(own).or((row.number.get)(&all));
         *(row.number.of)(&mut all) = stated;
     }
-    // Scene and region may state length, width and scale each, which act on each other: their outcome is stated.
+    // Scene and region may each state length, width and scale, which act on each other: the resulting sizes are stated.
     let states_sizes = all.length_px.or(all.width_px).or(all.scale).is_some();
     if states_sizes {
         all.length_px = Some(size_px(f64::from(resolved.body().length_px)));

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 /// few polygons (some 16 to 30 degrees from face to face) is smooth, a chamfer of 45 degrees is not.
 pub(crate) const CREASE_ANGLE_DEG: f64 = 44.0;
 
-/// A triangle counts as having no area below this share of its longest edge squared.
+/// A triangle counts as having no area if twice its area is at most this share of its longest edge squared.
 const DEGENERATE: f64 = 1e-12;
 
 /// Round a corner with more triangles than this, the crease is judged against the mean normal, not pair by pair.
@@ -69,15 +69,16 @@ pub(crate) struct Oddities {
     pub rough_faces: (usize, u32),
     /// How many faces have over 1,000 corners, and the index of the first.
     pub large_faces: (usize, u32),
-    /// How many faces have normals in the file that run along them, and the index of the first. New normals are made
-    /// for them.
+    /// How many triangles have normals in the file that run along them, and the index of the first one's face. New
+    /// normals are made for them.
     pub along_faces: (usize, u32),
-    /// How many faces lie on others with the same corners, and the index of the first. They are left out.
+    /// How many triangles lie on others with the same corners, and the index of the first one's face. They are left
+    /// out.
     pub doubled_faces: (usize, u32),
 }
 
 impl Oddities {
-    /// Adds the oddities of later faces.
+    /// Adds what was met in cutting later faces. The other oddities are found when all faces are cut.
     fn join(&mut self, later: &Self) {
         for (tally, later) in [
             (&mut self.flat_faces, later.flat_faces),

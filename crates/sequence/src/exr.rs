@@ -37,7 +37,7 @@ pub(crate) fn encode(
         size_px: drawn.frame.size_px,
         channels: found.channels,
         fps: scene.timeline.fps,
-        // The rows of a matrix for row vectors are the columns of ours.
+        // EXR files hold matrices for row vectors, row by row: their rows are the columns of ours.
         from_world: [view_from_world, view.clip_from_view * view_from_world]
             .map(|matrix| matrix.to_cols_array()),
         notes,

@@ -13,7 +13,7 @@ pub(crate) type Worker<'a, J, T> = Box<dyn FnMut(J) -> T + 'a>;
 pub(crate) struct Workers<'a, J, T> {
     /// The worker of the calling thread.
     pub(crate) own: Worker<'a, J, T>,
-    /// How many further threads.
+    /// How many threads work besides the calling one: the further threads.
     pub(crate) further: usize,
     /// Makes the worker of a further thread, on that thread. Where it gives `None`, the other threads do the work.
     pub(crate) open: &'a (dyn Fn() -> Option<Worker<'a, J, T>> + Sync),
@@ -96,7 +96,7 @@ where
 }
 
 impl<I: Iterator<Item = J>, J: Copy, T> Shared<I, J, T> {
-    /// A poisoned lock is ignored: only the iterator of jobs may panic while it is held, and then the work ends anyway.
+    /// A poisoned lock is ignored: only the iterator of jobs may panic while it is held, and that panic is passed on.
     fn state(&self) -> MutexGuard<'_, State<I, J, T>> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -55,7 +55,7 @@ pub enum FileOutcome {
 pub struct FrameFiles<'a> {
     /// Which frames, in their order.
     pub frames: &'a FrameList,
-    /// The file of each frame. If a frame has files of several kinds, they have this name with other endings.
+    /// The file of each frame. Its ending is replaced by that of each kind of file that is wanted (`png`, `exr`).
     pub path: &'a (dyn Fn(i64) -> PathBuf + Sync),
     /// Whether frames whose files exist already, and are whole, are left as they are.
     pub keep_existing: bool,
@@ -64,7 +64,8 @@ pub struct FrameFiles<'a> {
 /// How a sequence ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Ending {
-    /// After its last frame. The text says what the frames do not show as the scene states it; `None` if nothing.
+    /// After its last frame. The text tells of point caches that could not be read, whose bodies stayed at rest in some
+    /// frames; `None` if there were none.
     Done(Option<String>),
     /// It was stopped; frames that were under way are given up.
     Stopped,

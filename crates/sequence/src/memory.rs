@@ -68,5 +68,5 @@ const OF_SCENE: &[Aov] = &[
 /// Bytes per pixel while AOVs of the scene are read and encoded.
 const OF_SCENE_READ: u64 = 230;
 
-/// The same for a file with all AOVs.
+/// The same if any AOV of the paint is wanted: as much as a file with all AOVs takes.
 const OF_PAINT: u64 = 844;

@@ -71,7 +71,7 @@ pub struct Encoding {
     pub deep: bool,
 }
 
-/// What every player takes, at a quality that keeps strokes crisp.
+/// What every player takes. The arguments state the container and the quality; CRF 18 keeps strokes crisp.
 const fn h264(arguments: &'static [&'static str]) -> Encoding {
     Encoding {
         encoder: "libx264",

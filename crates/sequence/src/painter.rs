@@ -23,7 +23,8 @@ pub(crate) struct Painter<'a> {
     renderer: &'a mut Renderer,
 }
 
-/// The worker of a further thread; call this on that thread. `None` where the same driver cannot be opened once more.
+/// Makes the worker of one more thread; call this on that thread. `None` where it cannot have a renderer like the first
+/// (same driver, same shaders).
 pub(crate) fn further<'a>(
     sequence: &'a Sequence,
     driver: &str,

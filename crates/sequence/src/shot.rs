@@ -50,13 +50,13 @@ pub enum PngDepth {
 pub struct Sequence {
     /// The scene as prepared.
     pub painting: Painting,
-    /// Size and variant of the frames.
+    /// Size of the frames, and how they are painted.
     pub options: FrameOptions,
     /// The scene's file name, which is noted in each file.
     pub scene_name: String,
-    /// What [`crate::state`] gives, noted in each file; empty to note nothing.
+    /// A hash of all that the frames are made from ([`crate::state`]), noted in each file; empty to note nothing.
     pub state: String,
-    /// The driver that further painters open.
+    /// The driver that is opened on other threads; the first painter draws with the renderer that it is given.
     pub driver: Driver,
     /// Shaders that stand in for the program's own; empty to use those.
     pub shaders: ShaderTexts,
@@ -112,7 +112,8 @@ pub(crate) struct Job {
 pub(crate) type Painted = Result<Option<Drawn>, FrameError>;
 
 impl Sequence {
-    /// The note for the file of a frame, or of another picture of this sequence.
+    /// The note for a file. `frame` is the number of its frame, or a word for a file that is not one frame, such as
+    /// `sheet`.
     pub fn provenance(&self, frame: &str, renderer: &Renderer) -> Provenance {
         let driver = renderer.report().renderer.clone();
         let (scene, state) = (self.scene_name.clone(), self.state.clone());

@@ -40,7 +40,7 @@ def keyed(thing: bpy.types.bpy_struct, path: str, values: list[tuple[int, object
 
 
 def camera(name: str, at: tuple[float, float, float], toward: bpy.types.Object | None) -> bpy.types.Object:
-    """A camera that looks at something, the scene's first."""
+    """A camera that tracks an object, if one is given. It becomes the scene's camera if there is none yet."""
     made = linked(name, bpy.data.cameras.new(name), at)
     if toward is not None:
         made.constraints.new("TRACK_TO").target = toward

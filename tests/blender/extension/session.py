@@ -22,7 +22,7 @@ def module(name: str):
 
 
 def fresh(last: int = 6, size: tuple[int, int] = (320, 180)) -> bpy.types.Scene:
-    """An empty scene, saved in a folder of its own, painted by Impasto."""
+    """An empty scene, not saved yet, painted by Impasto."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     start()
     scene = bpy.context.scene
@@ -41,7 +41,7 @@ def save(name: str = "film") -> Path:
 
 
 def layers_as_exr(scene: bpy.types.Scene) -> None:
-    """Output as EXR of 32 bits with all passes."""
+    """Output as uncompressed EXR of 32 bits with all passes."""
     settings = scene.render.image_settings
     if hasattr(settings, "media_type"):
         settings.media_type = "MULTI_LAYER_IMAGE"

@@ -1,4 +1,4 @@
-# F12 and animations give the pictures of `impasto render` on the same folder, with passes.
+# F12 and animations give the pictures, with passes, that `impasto serve` paints from the same folder.
 import json
 
 import bpy

@@ -1,4 +1,4 @@
-# What the export writes: materials, groups, the sum of a scene's inputs, and what it refuses.
+# What the export writes (materials, groups, light, warnings), the checksum of a scene's inputs, and what is refused.
 import json
 import struct
 import subprocess
@@ -41,13 +41,13 @@ def document(name: str) -> dict:
 
 
 def sum_now() -> str:
-    """The sum of the scene's inputs."""
+    """The checksum of all that an export of the scene depends on."""
     scene = bpy.context.scene
     return export.sum_of_inputs(scene, bpy.context.view_layer, (scene.frame_start, scene.frame_end))
 
 
 def twins() -> None:
-    """Keys on values that have two names."""
+    """Keys on values that Blender has under two names, such as `angle` and `factor` of a bend."""
     scenes.walk()
     thing = next(thing for thing in bpy.data.objects if thing.type == "MESH")
     bend = thing.modifiers.new("Bend", "SIMPLE_DEFORM")
@@ -141,7 +141,7 @@ def sums_change() -> None:
 
 
 def errors() -> None:
-    """A mesh that gains points is refused by name; who stops gets nothing."""
+    """A mesh that gains points is refused by name; an export that is stopped leaves no file."""
     scenes.fresh(1, 4)
     thing = scenes.added("Growing", "primitive_cube_add")
     modifier = thing.modifiers.new("Array", "ARRAY")
@@ -236,7 +236,7 @@ class ExportEngine(bpy.types.RenderEngine):
 
 
 def in_an_engine() -> None:
-    """In a render the export sees what renders, and leaves the sum as it was."""
+    """An export during a render writes what one outside writes, and leaves the checksum of the inputs as it was."""
     bpy.utils.register_class(ExportEngine)
     for make in (scenes.cuts, scenes.walk, scenes.cloth, lambda: rich(str(OUT))):
         make()
@@ -257,7 +257,7 @@ def in_an_engine() -> None:
             for cache in sides[0]["caches"].values():
                 first, second = ((OUT / name / cache).read_bytes() for name in ("plain", "engine"))
                 assert first == second, f"{cache} differs in a render"
-    # Blender 4.5 hangs at its end with an engine still there.
+    # Blender 4.5 hangs on exit while an engine is still registered.
     bpy.utils.unregister_class(ExportEngine)
 
 
@@ -286,7 +286,7 @@ def world() -> None:
     back.inputs["Strength"].default_value = 2.0
     shot("sky")
     assert all(abs(a - b) < 1e-6 for a, b in zip(told("sky"), (0.2, 0.4, 0.8), strict=True)), told("sky")
-    # A picture that is white in its upper half: half of all directions.
+    # A picture that is orange in its upper half, which is half of all directions, and black below.
     picture = bpy.data.images.new("Half", 32, 16, float_buffer=True)
     picture.pixels.foreach_set([0.0, 0.0, 0.0, 1.0] * 256 + [1.0, 0.5, 0.25, 1.0] * 256)
     around = tree.nodes.new("ShaderNodeTexEnvironment")
@@ -300,7 +300,7 @@ def world() -> None:
 
 
 def blur() -> None:
-    """What a camera blurs is told of, and only then."""
+    """Depth of field and motion blur are warned of, and only where they are on."""
     scenes.walk()
     assert not shot("sharp").warnings
     scene = bpy.context.scene

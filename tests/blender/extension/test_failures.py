@@ -103,7 +103,7 @@ scene.render.resolution_x, scene.render.resolution_y = 320, 180
 said = session.render(write_still=True)
 assert not said, said
 
-# Refused by name.
+# What cannot be painted is refused, and the error says what it is.
 scene.render.use_multiview = True
 has_words(session.render(), "stereo")
 scene.render.use_multiview = False
@@ -123,7 +123,8 @@ monkey.modifiers.remove(modifier)
 assert not session.render(write_still=True)
 session.report("stereo, no camera, two view layers, a mesh that grows")
 
-# A full disk: the former export stays whole.
+# A full disk, where one can be mounted: an export into it fails and leaves no part of a shot. The files of the usual
+# folder, but for the shot, stay as they were.
 before = {path.name: path.read_bytes() for path in (folder / "film_impasto").iterdir() if path.is_file()}
 small = Path("/tmp/impasto_small_disk")
 small.mkdir(exist_ok=True)

@@ -81,7 +81,8 @@ session.impasto("check", str(scene_file))
 assert not session.render()
 session.report(f"{count} curves of all kinds are guides on the surface; read again, they replace themselves and nothing else")
 
-# On a thing that bends, drawn at a later frame, a guide lies on the shape of the first one; a far curve is left out.
+# On an object that bends, a curve that is read at a later frame is carried to the shape of the first frame; a curve
+# that is far from all objects is left out.
 scene = session.fresh(last=14)
 session.turning_monkey(scene)
 monkey = bpy.data.objects["Suzanne"]

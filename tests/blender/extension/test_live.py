@@ -17,7 +17,7 @@ esac
 
 
 def lines(folder: Path, count: int) -> list[dict]:
-    """What the window was told, as soon as it is as much."""
+    """The lines that the window was told, once there are at least `count`."""
     for _ in range(200):
         path = folder / "lines"
         told = path.read_text().splitlines() if path.is_file() else []
@@ -50,7 +50,7 @@ told = lines(folder, 2)
 assert [line["frame"] for line in told] == [2, 3], told
 assert (folder / "arguments").read_text().split() == ["edit", str(folder / "film_impasto" / "film.ron"), "--follow"]
 
-# A second time exports into the window that is open.
+# Combing a second time exports again, and opens no second window.
 shot = folder / "film_impasto" / "shot.glb"
 stamp = shot.stat().st_mtime_ns
 bpy.data.objects["Suzanne"].location.z = 1
@@ -59,7 +59,7 @@ window = live._window
 assert bpy.ops.impasto.comb() == {"FINISHED"} and live._window is window
 assert shot.stat().st_mtime_ns != stamp
 
-# With each save, where asked.
+# Each save exports too, if the scene asks for it.
 scene.impasto.export_on_save = True
 bpy.data.objects["Suzanne"].location.z = 2
 bpy.data.objects["Suzanne"].keyframe_insert("location", frame=1)

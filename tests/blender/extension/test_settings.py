@@ -1,4 +1,4 @@
-# Panels write one field of the scene file, and the scene file is made once.
+# Each change in a panel writes one field of the scene file. An export writes that file only if it is missing.
 import bpy
 import session
 
@@ -44,7 +44,7 @@ assert "EachMaterial" not in scene_file.read_text()
 assert session.module("settings").stands_over(monkey) == "Toys"
 session.module("settings").state(group, "boil", "")
 assert "Toys" not in scene_file.read_text() and session.module("settings").stands_over(monkey) == ""
-# Out of range: refused with the program's words, and the file is as it was.
+# An empty value takes a field out. A value out of range is refused with the program's words.
 before = scene_file.read_text()
 session.module("settings").state(scene, "preset", "")
 assert "preset" not in scene_file.read_text()
@@ -79,7 +79,8 @@ assert bpy.ops.impasto.export() == {"FINISHED"}
 assert shot.stat().st_mtime_ns != stamp and scene_file.read_text() == text
 session.report("the scene file is made once; an unchanged shot is not exported again")
 
-# A thing that is renamed leaves its region without a place: told at each export and each render, changed or not.
+# The region of an object that was renamed fits nothing: `problems` warns of it after each export, even if the shot is
+# unchanged.
 monkey.impasto.coverage = 4.0
 monkey.name = "Renamed"
 said = []

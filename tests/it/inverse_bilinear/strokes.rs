@@ -81,7 +81,7 @@ fn place(stroke: &Stroke, at: DVec2) -> DVec2 {
     let straight = if bend == 0.0 {
         DVec2::new(along, across)
     } else {
-        // Turn about the centre of the arc, on the stroke's left.
+        // Turn about the centre of the arc, which is on the stroke's left if the bend is positive, else on its right.
         let radius = f64::from(stroke.length_px) / bend;
         let turned = along / radius;
         DVec2::new((radius - across) * turned.sin(), radius - (radius - across) * turned.cos())

@@ -9,7 +9,7 @@ use impasto_tests::screen::{EditorWindow, SIZE_PX, Screen};
 use crate::editor_window::{folder, read};
 
 /// Middle and width of the viewport. To its left is the rail (48 px wide), to its right the column (280 px), above it
-/// are the bars (80 px high), below it the strip (68 px).
+/// are the bars (80 px high), below it the strip and the status line (68 px).
 fn viewport() -> (DVec2, f64) {
     let [width, height] = SIZE_PX.map(|side| side as f64);
     (DVec2::new((48.0 + width - 280.0) * 0.5, (80.0 + height - 68.0) * 0.5), width - 280.0 - 48.0)

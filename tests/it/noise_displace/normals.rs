@@ -26,7 +26,7 @@ const VALUE: [f64; 2] = [0.20, 0.22];
 const SCALE: f64 = 4.0;
 /// How many levels of 255 each channel of the noise rises from one texel to the next, along U and along V.
 const RISE: [[f64; 3]; 2] = [[2.0, 0.0, 2.0], [0.0, 1.0, -2.0]];
-/// The levels, 0..=255, of the channels at the first texel.
+/// The levels, 0..=255, of the channels at the lower left texel, where U and V are least.
 const BEGIN: [f64; 3] = [60.0, 60.0, 128.0];
 
 /// The sheet's pose: in the middle of the texture, away from the edge where the ramp repeats.

@@ -74,8 +74,8 @@ fn carried(dark: f64, after_middle_px: f64) -> f64 {
     dark * (1.06 + (0.78 - 1.06) * share) * (1.0 + 0.2 / 255.0)
 }
 
-/// How dark ink is where these strokes cross. Each stroke covers a share of 0.55 of its ink, and `covers` is the share
-/// that all cover together. The darkest ink is raised by 0.45 of the excess of `covers` over half of that ink.
+/// How dark ink is where strokes with these inks cross. Each covers 0.55 times its ink, and `covers` is what all cover
+/// together. The darkest ink is multiplied by 1 plus 0.45 times the excess of `covers` over half of that ink.
 fn crossed(inks: &[f64]) -> f64 {
     let most = inks.iter().copied().fold(0.0, f64::max);
     let covers = 1.0 - inks.iter().map(|ink| 1.0 - 0.55 * ink).product::<f64>();

@@ -93,7 +93,7 @@ pub(super) const PICTURES: &[Picture] = &[
     whole("still_life", "still_life", 0),
     whole("still_life_rolled", "still_life", 90),
     sweep("still_life_crop", [560, 250, 420, 290], 1, &[&[]]),
-    // An apple as it is stated, then with each amount painted onto it.
+    // An apple as it is stated, then with width, length and density painted onto it.
     Picture {
         name: "amounts",
         view: View::Scene { scene: "apple", frame: 0, crop: Some([440, 140, 410, 420]) },

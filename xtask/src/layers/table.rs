@@ -53,7 +53,7 @@ fn words(cell: &str) -> impl Iterator<Item = &str> {
     cell.split([',', ' ', '`']).filter(|word| !word.is_empty())
 }
 
-/// The rows of a two-column table between `<!-- NAME:begin -->` and `<!-- NAME:end -->`, without its two headings.
+/// The rows of a two-column table between `<!-- NAME:begin -->` and `<!-- NAME:end -->`, without its heading lines.
 fn rows(text: &str, name: &str) -> anyhow::Result<Vec<(String, String)>> {
     let missing = || format!("ARCHITECTURE.md has no `<!-- {name}:begin -->` … `<!-- {name}:end -->`");
     let (_, rest) = text.split_once(&format!("<!-- {name}:begin -->")).with_context(missing)?;

@@ -48,7 +48,8 @@ pub fn of_dependencies(root: &Path) -> anyhow::Result<String> {
     Ok(said)
 }
 
-/// Cargo's metadata of each outside library that is linked into `impasto` on this system.
+/// Cargo's metadata of each outside library that `impasto` uses on this system: what is linked into it, and procedural
+/// macros, but no build dependencies.
 fn in_the_program(root: &Path) -> anyhow::Result<Vec<Value>> {
     let host = output(root, "rustc", &["--print", "host-tuple"])?;
     let listed = ["tree", "--package", "impasto-cli", "--edges", "normal", "--prefix", "none", "--locked"];

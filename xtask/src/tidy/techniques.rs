@@ -50,8 +50,8 @@ fn word_in<'a>(file: &'a str, folders: &[&str], end: &str) -> Option<&'a str> {
     folders.iter().find_map(|folder| word(file, folder, end))
 }
 
-/// The technique that a file in `folder` belongs to: WORD of `shaders/WORD/…`, `docs/techniques/WORD.md`. A module may
-/// be a folder. `None` for a file elsewhere or with another ending.
+/// The technique that a file in `folder` belongs to: WORD of `shaders/WORD/…`, `docs/techniques/WORD.md`, and of both
+/// `styles/WORD.rs` and `styles/WORD/…`. `None` for a file elsewhere or with another ending.
 fn word<'a>(file: &'a str, folder: &str, end: &str) -> Option<&'a str> {
     let rest = file.strip_prefix(folder)?;
     match rest.split_once('/') {

@@ -20,7 +20,7 @@ pub fn check(file: &str, content: &str) -> Vec<Finding> {
     }
     let mut findings: Vec<Finding> = length(file, content).into_iter().collect();
     findings.extend(spaces(file, content));
-    // Legal texts and tables may hold such marks.
+    // Legal texts and tables may hold marks of unfinished work.
     if matches!(extension(file), "rs" | "glsl" | "vert" | "frag" | "ron" | "md" | "toml") {
         findings.extend(unfinished(file, content));
     }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use anyhow::Context as _;
 
-/// Folders that hold output, wherever they lie.
+/// Folders of output, and git's own: left out wherever they lie.
 const OUTPUT_FOLDERS: &[&str] = &["target", "out", ".git"];
 
 /// Every file under `root`, as a path from it with `/`, sorted.

@@ -44,7 +44,7 @@ fn group(point: DVec3) -> &'static str {
     }
 }
 
-/// How light the coat is, 0 to 1.
+/// How light the coat is, about 0 to 1.
 fn lightness(point: DVec3, outward: DVec3) -> f64 {
     let DVec3 { x, y, z } = point;
     let mottle = 0.035 * noise(0.5 + 0.31 * x + 0.3 * z, 14.0 * y + 9.0 * z, 60, 71);

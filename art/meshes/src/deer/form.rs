@@ -6,8 +6,8 @@ use glam::DVec3;
 use crate::curve::smoothstep;
 use crate::limb::{Limb, blend};
 
-/// Cross-sections of the torso from the buttocks to the breast: x, y, z, half the depth, half the width. The tables
-/// below have the same columns.
+/// Cross-sections of the torso from the buttocks to the breast: x, y, z, half the size in the plane of X and Y, half
+/// the size along Z. The tables below have the same columns.
 const TORSO: [[f64; 5]; 9] = [
     [-0.575, 0.800, 0.0, 0.070, 0.050],
     [-0.535, 0.812, 0.0, 0.125, 0.096],

@@ -7,7 +7,8 @@ use serde_json::{Value, json};
 use super::{Coat, Glb};
 use crate::poly_mesh::PolyMesh;
 
-/// The joints that a point follows, as indices into its skin, and their shares. The shares sum to one.
+/// The joints that a point follows, as indices into its skin, and their shares. The shares sum to one; the first is the
+/// greatest.
 pub type Influence = [(usize, f64); 4];
 
 /// A shape that a mesh can turn into.
@@ -153,8 +154,8 @@ impl Glb {
         json!({ "POSITION": self.sparse(&moved, 5e-5), "NORMAL": self.sparse(&turned, 4e-3) })
     }
 
-    /// Adds vectors as a sparse accessor: those not longer than `least` count as zero and are not stored, except the
-    /// first. Returns the accessor's index.
+    /// Adds vectors as a sparse accessor: those not longer than `least` count as zero and are not stored. The first is
+    /// always stored, since the list may not be empty. Returns the accessor's index.
     fn sparse(&mut self, vectors: &[DVec3], least: f64) -> usize {
         let kept =
             |(index, vector): (usize, &DVec3)| (index == 0 || vector.length() > least).then_some(index);

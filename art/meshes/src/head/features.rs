@@ -99,7 +99,7 @@ fn lid(mesh: &mut PolyMesh, side: f64, [from, to]: [f64; 2], radius: f64) {
     );
 }
 
-/// Both brows: thin tapering bodies on the ridge.
+/// Both brows: thin tapering bodies on the brow ridge.
 pub fn brows(mesh: &mut PolyMesh, skin: &Skin) {
     const COLUMNS: usize = 18;
     const ROWS: usize = 4;

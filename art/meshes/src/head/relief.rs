@@ -21,7 +21,7 @@ const RIDGE: [[f64; 2]; 13] = [
     [0.620, 0.0],
 ];
 
-/// Half the nose's width at its foot: pairs of the height on the face and the half width there.
+/// Half the nose's width where it meets the face: pairs of the height on the face and the half width there.
 const NOSE_WIDTH: [[f64; 2]; 7] = [
     [0.270, 0.052],
     [0.320, 0.060],
@@ -77,7 +77,7 @@ impl Relief {
     }
 }
 
-/// Forehead, brow, sockets, cheeks and chin, for one half of the face.
+/// Forehead, brow, sockets and cheeks, for one half of the face.
 fn planes(seen: DVec2) -> f64 {
     let brow = 0.012 * hump(seen, [0.105, 0.592], [0.075, 0.026]);
     let forehead = 0.006 * hump(seen, [0.0, 0.730], [0.14, 0.07]);
@@ -91,7 +91,7 @@ fn planes(seen: DVec2) -> f64 {
     brow + forehead - socket - inner + pouch + bone + apple - hollow
 }
 
-/// The mouth's surroundings; the lips themselves are bodies of their own.
+/// The mouth's surroundings and the chin; the lips themselves are bodies of their own.
 fn mouth(seen: DVec2) -> f64 {
     let muzzle = 0.012 * hump(seen, [0.0, 0.215], [0.100, 0.060]);
     let philtrum = 0.006 * hump(seen, [0.0, 0.258], [0.012, 0.024]);
@@ -104,7 +104,7 @@ fn mouth(seen: DVec2) -> f64 {
     muzzle - philtrum + column - corner - fold + chin - laugh
 }
 
-/// How far the face's sides are moved: cheekbones out, temples in.
+/// How far the face's sides are moved: cheekbones out, temples and hollows of the cheeks in.
 fn sides(seen: DVec2, z: f64) -> f64 {
     let bone = 0.012 * hump(DVec2::new(z, seen.y), [0.14, 0.425], [0.10, 0.050]);
     let temple = 0.014 * hump(DVec2::new(z, seen.y), [0.17, 0.600], [0.09, 0.060]);
@@ -112,7 +112,7 @@ fn sides(seen: DVec2, z: f64) -> f64 {
     bone - temple - hollow
 }
 
-/// The muscles from behind the ears to the pit of the neck, and the throat.
+/// How far the muscles from behind the ears to the pit of the neck push the skin outwards.
 fn neck(point: DVec3) -> DVec3 {
     let from = DVec3::new(0.150, 0.150, -0.170);
     let to = DVec3::new(0.028, -0.330, 0.060);

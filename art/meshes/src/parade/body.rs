@@ -17,8 +17,8 @@ pub enum Part {
     Shoe,
 }
 
-/// Sections of the tunic from the hem up to the collar: x, y, z, half the width, half the depth. The tables below have
-/// the same columns; they are of the left side, which is +X.
+/// Sections of the tunic from below its hem, where it is cut off, up to the collar: x, y, z, half the width, half the
+/// depth. The tables below have the same columns; they are of the left side, which is +X.
 const TRUNK: [[f64; 5]; 9] = [
     [0.0, 0.54, 0.010, 0.272, 0.228],
     [0.0, 0.68, 0.010, 0.250, 0.207],
@@ -34,7 +34,7 @@ const TRUNK: [[f64; 5]; 9] = [
 const NECK: [[f64; 5]; 3] =
     [[0.0, 1.33, -0.01, 0.075, 0.07], [0.0, 1.42, -0.01, 0.070, 0.068], [0.0, 1.50, 0.0, 0.070, 0.068]];
 
-/// The sleeve: narrow at the shoulder, wide at the wrist.
+/// The sleeve: full at the shoulder, narrow at the elbow, wide again at the wrist.
 const ARM: [[f64; 5]; 6] = [
     [0.120, 1.318, -0.008, 0.070, 0.080],
     [0.190, 1.312, -0.010, 0.082, 0.084],

@@ -41,7 +41,7 @@ pub fn crown() -> PolyMesh {
         PolyMesh::new("crown", "The giant's crown.", &[("crown", "#f0c02f"), ("crown_band", "#c8402f")]);
     let point = |column: usize, row: usize| {
         let round = PI + TAU * (column % COLUMNS) as f64 / COLUMNS as f64;
-        // The first rows are the band; the others reach to the points.
+        // Rows 0 and 1 bound the band; the others rise to the crown's points.
         let cut = (column * POINTS) as f64 / COLUMNS as f64;
         let zigzag = 1.0 - 2.0 * (cut - cut.round()).abs();
         let high = match row {

@@ -78,7 +78,7 @@ pub fn mouth(mesh: &mut PolyMesh, mood: Mood) {
     }
 }
 
-/// Both brows: bushy bodies on the ridge.
+/// Both brows: bushy, arched sheets on the brow ridge.
 pub fn brows(mesh: &mut PolyMesh, mood: Mood) {
     const COLUMNS: usize = 14;
     const ROWS: usize = 4;
@@ -196,7 +196,7 @@ fn lid(mesh: &mut PolyMesh, side: f64, [from, to]: [f64; 2]) {
         [COLUMNS, ROWS],
         |column, row| {
             let u = column as f64 / COLUMNS as f64 * 2.0 - 1.0;
-            // The first row is the lash.
+            // Rows counted from the free edge; on the upper lid, the first band of faces is the lash.
             let row = if upper { row } else { ROWS - row };
             let v = [0.0, 0.08, 0.12, 0.40, 0.70, 1.0][row];
             let corner = -0.08;

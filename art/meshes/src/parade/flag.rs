@@ -14,7 +14,7 @@ const SIDES: [usize; 2] = [30, 20];
 const SIZE: DVec2 = DVec2::new(1.75, 1.05);
 /// Its lower corner at the mast.
 const CORNER: DVec3 = DVec3::new(-3.12, 2.46, -2.30);
-/// The mast, from the ground up, as the cloth is tied to it.
+/// Foot and top of the mast, which stands just beside the cloth's edge.
 pub const MAST: [DVec3; 2] =
     [DVec3::new(CORNER.x - 0.045, 0.0, CORNER.z), DVec3::new(CORNER.x - 0.045, 3.72, CORNER.z)];
 
@@ -46,7 +46,7 @@ pub fn cache() -> Vec<u8> {
     let mut bytes = b"POINTCACHE2\0".to_vec();
     bytes.extend(1i32.to_le_bytes());
     bytes.extend((count as i32).to_le_bytes());
-    // The first frame, and how many frames lie between two samples.
+    // The frame of the first sample, and the frames from one sample to the next.
     bytes.extend(0f32.to_le_bytes());
     bytes.extend(1f32.to_le_bytes());
     bytes.extend((FRAMES as i32).to_le_bytes());
@@ -61,7 +61,7 @@ pub fn cache() -> Vec<u8> {
 /// The points of the cloth, row by row from the hem up. `time` is a share of the shot, `wind` a strength, at most 1. A
 /// row keeps its length: what waves is its direction.
 fn points(time: f64, wind: f64) -> Vec<DVec3> {
-    /// Steps in which a row is summed up, for each face.
+    /// Integration steps along a row, for each face.
     const FINE: usize = 4;
     let mut points = Vec::new();
     for row in 0..=SIDES[1] {

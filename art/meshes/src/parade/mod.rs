@@ -25,7 +25,7 @@ use skin::Mood;
 const FPS: f64 = 24.0;
 /// Frames of the shot: two strides.
 const FRAMES: usize = 48;
-/// How far the giant's way turns from +Z towards +X, degrees.
+/// The direction in which the giant walks: its angle from +Z towards +X, degrees.
 const HEADING: f64 = 56.0;
 
 /// The bytes of `parade.glb`.
@@ -150,7 +150,7 @@ fn held([from, full, ebbs, over]: [f64; 4], frame: f64) -> f64 {
     smoothstep(from, full, frame) * (1.0 - smoothstep(ebbs, over, frame))
 }
 
-/// Where the giant looks: ahead, then to us.
+/// Where the giant looks: ahead, then to us, then ahead again.
 fn glance(frame: usize) -> walk::Look {
     let frame = frame as f64;
     let to_us = held([4.0, 17.0, 36.0, 48.0], frame);

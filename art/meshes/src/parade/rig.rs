@@ -88,7 +88,7 @@ pub fn influences(mesh: &PolyMesh, part: impl Fn(DVec3) -> Part) -> Vec<Influenc
     for _ in 0..ROUNDS {
         let before = shares.clone();
         for ((shares, around), at) in shares.iter_mut().zip(&neighbours).zip(&mesh.positions) {
-            // Shoulders and the skirt bend softly, feet and fingers sharply.
+            // The faster shares even out, the softer the skin bends: soft above the skirt's hem, sharp at the feet.
             let speed = if at.y < 0.14 { 0.18 } else { 0.25 + 0.30 * smoothstep(0.5, 0.7, at.y) };
             for (joint, share) in shares.iter_mut().enumerate() {
                 let mean = around.iter().map(|&to| before[to][joint]).sum::<f64>() / around.len() as f64;
@@ -103,8 +103,8 @@ pub fn influences(mesh: &PolyMesh, part: impl Fn(DVec3) -> Part) -> Vec<Influenc
 fn greatest(shares: &Shares) -> Influence {
     let mut order: Vec<usize> = (0..COUNT).collect();
     order.sort_by(|&a, &b| shares[b].total_cmp(&shares[a]));
-    // Smaller shares make no difference that can be seen.
     let four: [usize; 4] = std::array::from_fn(|index| order[index]);
+    // Shares up to 0.005 make no difference that can be seen.
     let four = four.map(|joint| (joint, if shares[joint] > 0.005 { shares[joint] } else { 0.0 }));
     let sum: f64 = four.iter().map(|(_, share)| share).sum();
     four.map(|(joint, share)| if share > 0.0 { (joint, share / sum) } else { (0, 0.0) })

@@ -27,7 +27,7 @@ pub fn hill(at: DVec2, middle: [f64; 2], size: [f64; 2]) -> f64 {
     (-((at - DVec2::from_array(middle)) / DVec2::from_array(size)).length_squared()).exp()
 }
 
-/// The way out of the skull at an angle to the side and an angle up.
+/// The unit vector at an angle to the side (0 in front) and an angle up.
 pub fn outwards(at: DVec2) -> DVec3 {
     let (side, up) = (at.x, at.y);
     DVec3::new(side.sin() * up.cos(), up.sin(), side.cos() * up.cos())

@@ -1,4 +1,4 @@
-//! Where the parade passes: paving, two house fronts, a garland of pennants, the flag's mast.
+//! Where the parade passes: paving, two house fronts, a low wall, a garland of pennants, the flag's mast.
 
 use std::f64::consts::TAU;
 
@@ -105,7 +105,7 @@ pub fn far_wall() -> PolyMesh {
     mesh
 }
 
-/// A line from house to house with pennants, in the coordinates of the shot.
+/// A line with pennants from the mast to the right house, in the coordinates of the shot.
 pub fn garland() -> PolyMesh {
     const PENNANTS: usize = 15;
     const ALONG: usize = 45;

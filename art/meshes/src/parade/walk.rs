@@ -22,7 +22,7 @@ const STANCE: f64 = 0.62;
 const REACH: f64 = 0.285;
 /// When the whole sole is on the ground, and when the heel leaves it, as shares of the stride.
 const SOLE: [f64; 2] = [0.11, 0.36];
-/// How far the toes point up when the heel meets the ground, and down when they leave it, degrees.
+/// How far the toes point up (negative: down) when the heel meets the ground, and when they leave it, degrees.
 const PITCH: [f64; 2] = [20.0, -44.0];
 /// How far the feet point outwards, degrees.
 const OUT: f64 = 7.0;
@@ -79,8 +79,8 @@ fn arm(turns: &mut [DQuat; COUNT], first: usize, phase: f64) {
     let about_z = |degrees: f64| DQuat::from_rotation_z((side * degrees).to_radians());
     let forwards = |degrees: f64| DQuat::from_rotation_x(-degrees.to_radians());
     turns[SHOULDER + first] = turns[CHEST] * DQuat::from_rotation_y((-side * 4.0 * swing(0.0)).to_radians());
-    // At rest the arm stands out by forty degrees. Hanging it stands out less, but a little more at both ends of its
-    // swing.
+    // In the rest pose the arm stands out by forty degrees. In the walk it hangs by about twenty degrees less, a little
+    // farther out at both ends of its swing.
     let hang = about_z(-20.0 + 3.0 * swing(0.0).abs());
     turns[UPPER_ARM + first] = turns[SHOULDER + first] * forwards(3.0 + 27.0 * swing(0.0)) * hang;
     // The elbow bends in the plane of the arm and the way ahead, and a little inwards.

@@ -105,7 +105,7 @@ pub(super) struct Orders {
 }
 
 impl Orders {
-    /// Begins to read. At the end of the input everything is stopped, since whoever asked is gone.
+    /// Begins to read. At the end of the input, as at `quit`, rendering is stopped: nobody waits for it.
     pub fn from_stdin() -> Self {
         let (send, coming) = channel();
         std::thread::spawn(move || {
@@ -120,7 +120,16 @@ impl Orders {
                 if line.trim_ascii().is_empty() {
                     continue;
                 }
+                if line.len() as u64 == LONGEST_LINE && !line.ends_with(b"\n") {
+                    if input.skip_until(b'\n').is_err() {
+                        break;
+                    }
+                    line.clear();
+                }
                 let order = match serde_json::from_slice(&line) {
+                    _ if line.is_empty() => Order::Unread(format!(
+                        "a line is longer than {LONGEST_LINE} bytes: it is passed over"
+                    )),
                     Ok(Line::Prepare { id }) => Order::Prepare { id },
                     Ok(Line::Render(order)) => Order::Render(order),
                     Ok(Line::Taken) => {

@@ -16,8 +16,8 @@ const CHUNK: usize = 1024;
 ///
 /// At a vertex, the two tangential columns of F are fitted to the edges round it (least squares, edges of any length
 /// counting alike); the third takes the normal of the fitted plane at rest to its unit normal now. So F is exact for
-/// any rigid motion and, on the surface, for any affine one, and it does not step at edges. Vertices with equal
-/// positions and normals that stay together, as along a seam of texture coordinates, are one place.
+/// any rigid motion and, on the surface, for any affine one, and it does not step at edges, except at creases. Vertices
+/// with equal positions and normals that stay together, as along a seam of texture coordinates, are one place.
 #[derive(Debug)]
 pub struct Gradients {
     /// The place of each vertex.
@@ -107,7 +107,7 @@ impl Gradients {
         Mat3::from_cols(column(0), column(1), column(2))
     }
 
-    /// The normals of a mesh when its vertices are at these positions: each turns as the surface round it does.
+    /// The normals of the bent mesh, from those at rest and F at each vertex: each turns as the surface round it does.
     pub fn normals(&self, rest: &[Vec3], gradients: &[Mat3]) -> Vec<Vec3> {
         let turned = |(normal, gradient): (&Vec3, &Mat3)| {
             (cofactors_f32(*gradient) * *normal).try_normalize().unwrap_or(*normal)

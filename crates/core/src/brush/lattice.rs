@@ -25,7 +25,8 @@ impl Between {
     }
 }
 
-/// How far u and across may lie outside 0..1: marks are evaluated a little beyond their edges.
+/// How far outside 0..1 the noise goes on, since marks are evaluated a little beyond their edges. Farther out it is
+/// constant.
 const MARGIN: f32 = 0.25;
 
 impl Lattice {

@@ -4,13 +4,13 @@ use super::marks::Streaks;
 use super::{Mark, SIZE, Texel, VARIANTS};
 use crate::hash;
 
-/// How many streaks of brush hairs lie side by side over the picture, so that no two marks are quite alike.
+/// How many hairs draw the streaks over the picture. Each mark has streaks of its own, so that no two are alike.
 const HAIRS: f32 = 16.0;
 
 /// A picture whose emptiest and fullest texels differ by less than this (of 255) holds no mark.
 const LEAST_CONTRAST: f32 = 8.0;
 
-/// Whether a picture holds a mark, that is, has any contrast in lightness times opacity. `rgba8` holds
+/// Whether a picture holds a mark, that is, has enough contrast in lightness times opacity. `rgba8` holds
 /// `size_px[0] * size_px[1]` texels with straight alpha, top row first.
 pub fn has_mark(size_px: [u32; 2], rgba8: &[[u8; 4]]) -> bool {
     let texels = size_px[0] as usize * size_px[1] as usize;

@@ -221,8 +221,8 @@ impl System<'_> {
             .collect()
     }
 
-    /// Moves every sample half-way to the normalised mean of its neighbours and its target. This never raises the sum
-    /// that the field minimises; whole steps could oscillate.
+    /// Moves every sample half-way to the weighted mean of its neighbours and its target, then normalises it. This
+    /// never raises the sum that the field minimises; whole steps could oscillate.
     fn unit_round(&self, u: &[DVec2]) -> Vec<DVec2> {
         self.map(|sample| {
             let (sum, weights) = self.gathered(u, sample);

@@ -11,7 +11,7 @@ use super::field::{Constraint, FieldGraph};
 /// If it were only normalised, the field would jump there from one direction to the other instead of turning.
 const TORN: f64 = 0.5;
 
-/// Weight of the constraint that makes a tear turn one way round, in units of one neighbour's weight.
+/// Greatest weight of the constraint that makes a tear turn one way round, in units of one neighbour's weight.
 const LEAD: f64 = 0.5;
 
 /// Conjugate gradients stop after this many steps, or when the residual has fallen by this factor.

@@ -73,7 +73,7 @@ impl PackNear for OneByOne {
 pub(super) struct Query {
     pub(super) position: Vec3,
     pub(super) normal: Vec3,
-    /// The number of the query point, which does not count.
+    /// The number of the query point, which does not count; `u32::MAX` if it is not among the points searched.
     pub(super) own: u32,
     pub(super) radius: f32,
     /// How many neighbours are wanted at most.

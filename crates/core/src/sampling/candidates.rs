@@ -39,8 +39,8 @@ pub fn scattered(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Particle
 /// The sequence: its `i`th place depends on the surface, the seed and `i` alone.
 pub(super) struct Candidates<'a> {
     surface: &'a Surface<'a>,
-    /// The total area is cut into equal steps, as many as there are faces. This is the face in which each step
-    /// begins, and at the end the last face.
+    /// The total area is cut into equal steps, as many as there are faces, but at most [`MOST_STEPS`]. This is the
+    /// face in which each step begins, and at the end the last face.
     guide: Vec<u32>,
     seed: u32,
 }
@@ -72,7 +72,7 @@ impl<'a> Candidates<'a> {
     }
 
     /// The face in which a candidate lies. `area` is the candidate's place when the areas of all faces are laid end to
-    /// end. `step` is the step of `guide` in which `area` lies; it narrows the search.
+    /// end. `step` narrows the search: it is the step of `guide` in which `area` lies, or the one before.
     #[inline(always)]
     fn face(&self, area: f64, step: i32) -> usize {
         let Self { surface, guide, .. } = self;

@@ -163,8 +163,8 @@ impl DartGrid {
         }
     }
 
-    /// Whether `found` holds for any of the darts nearer than `radius` to a position. `found` may be called twice for a
-    /// dart.
+    /// Whether `found` holds for any of the darts nearer than `radius` to a position. `found` may be called more than
+    /// once for a dart.
     #[inline]
     pub(super) fn any_near(&self, position: Vec3, radius: f32, mut found: impl FnMut(&Dart) -> bool) -> bool {
         let scaled = position * self.cells_per_unit;
@@ -186,7 +186,7 @@ impl DartGrid {
             || dz != 0 && (in_row(y, beside_z) || dy != 0 && in_row(beside_y, beside_z))
     }
 
-    /// Searches two neighbouring buckets; `is_first` tells that the position's own column is that of the first one.
+    /// Searches two neighbouring buckets; `is_first` tells whether the first one is that of the position's own x.
     #[inline]
     fn any_in_row(
         &self,
@@ -198,8 +198,8 @@ impl DartGrid {
         let last = self.mask as usize;
         let run = self.starts[bucket] as usize..self.starts[(bucket + 2).min(last + 1)] as usize;
         if run.len() > CROWDED && !is_first {
-            // The position's own column comes first: where faces lie on each other, the other column may hold half of
-            // all darts, all of them far away.
+            // The bucket of the position's own x comes first: where faces lie on each other, the other bucket may hold
+            // half of all darts, none of them near.
             let middle = self.starts[bucket + 1] as usize;
             if self.any_in_run(middle..run.end, position, radius_sq, found) {
                 return true;

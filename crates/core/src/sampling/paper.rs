@@ -5,14 +5,14 @@ use rayon::prelude::*;
 use super::{Particle, Surface, barycentric};
 use crate::hash;
 
-/// A particle with its number among those of its polygon.
+/// A particle with its number among those on the same side of the same polygon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PolygonParticle {
     /// The particle.
     pub particle: Particle,
-    /// 0 for the first of its polygon.
+    /// 0 for the first on this side of its polygon.
     pub number_in_polygon: u32,
-    /// How many its polygon has.
+    /// How many there are on this side of its polygon.
     pub count_in_polygon: u32,
 }
 

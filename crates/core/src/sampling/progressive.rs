@@ -186,7 +186,7 @@ impl DartField<'_> {
             sorted.par_iter().with_min_len(LEAST_CHUNK).flat_map_iter(rivals).collect()
         };
         pairs.sort_unstable();
-        // For each number, the index of its dart, or `NONE` once it is dropped.
+        // For each number of the level, the index of its dart; `NONE` if it has none, or once it is dropped.
         let mut stays = vec![NONE; level.len()];
         for (index, dart) in darts.iter().enumerate() {
             stays[(dart.number - level.start) as usize] = index as u32;

@@ -47,7 +47,7 @@ fn sheet() -> TriangleMesh {
     patches(3, &[&|x, y| (Vec3::new(x, y, 0.0), Vec3::Z)])
 }
 
-/// A sheet whose corner normals differ so much that the normals of faces do not tell whether two particles are on the
+/// A sheet whose corner normals differ so much that the cones of its faces do not tell whether two particles are on the
 /// same side: the normals at the particles must be compared.
 fn creased_sheet() -> TriangleMesh {
     patches(5, &[&|x, y| (Vec3::new(x, y, 0.1 * x * y), Vec3::new(2.0 * x, 1.9 * y, 0.3).normalize())])

@@ -31,7 +31,7 @@ impl Throw {
         (self.high + self.low) * total
     }
 
-    /// In which of `steps` equal steps of area the candidate is; it may be off by one, since `low` is ignored.
+    /// In which of `steps` equal steps of area the candidate is, or the one before that, since `low` is ignored.
     #[inline(always)]
     pub(super) fn step(&self, steps: usize) -> i32 {
         ((self.high * steps as f64) as i32).min(steps as i32 - 1)

@@ -46,7 +46,7 @@ pub enum PoseField {
 /// Objects, lights and cameras, and their poses.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Arrange {
-    /// Adds an object for a mesh file, with a region for each of its groups, and selects it.
+    /// Adds an object for a mesh file, with regions for its groups or materials, and selects it.
     Import {
         /// The mesh's path, relative to the scene's folder.
         mesh: String,
@@ -99,7 +99,7 @@ pub enum Arrange {
     AddLight {
         /// Its kind.
         kind: LightKind,
-        /// Where a point light stands, and where the sun comes from.
+        /// Where a point light or a spot stands, and where the sun comes from.
         at: DVec3,
         /// What it shines on.
         toward: DVec3,
@@ -113,7 +113,7 @@ pub enum Arrange {
         /// What changed, in words: *brighter*.
         what: String,
     },
-    /// The lens of the shot.
+    /// Sets the lens of the shot and removes the fields of view from the camera's keys.
     SetLens(Lens),
     /// Gives the shot's camera this pose at a frame, by shifting all its keys.
     SetCamera {
@@ -199,9 +199,14 @@ impl Arrange {
                 Ok(Done::new(format!("{capital}{words}")))
             }
             Self::SetLens(lens) => {
+                let fov_of = |lens: &Lens| match lens {
+                    Lens::Perspective { fov_y_deg, .. } => Some(*fov_y_deg),
+                    Lens::Orthographic { .. } => None,
+                };
+                let is_new = fov_of(&scene.camera.lens) != fov_of(lens);
                 scene.camera.lens = lens.clone();
                 // A field of view in a key would hide the one that was just set.
-                for key in &mut scene.camera.keys {
+                for key in scene.camera.keys.iter_mut().filter(|_| is_new) {
                     key.fov_y_deg = None;
                 }
                 Ok(Done::new("Set field of view"))

@@ -54,7 +54,7 @@ pub enum Directions {
         region: RegionTarget,
         /// What was done.
         gesture: Gesture,
-        /// Its pieces.
+        /// The guides. After a curve, the last one is selected.
         guides: Vec<Guide>,
     },
     /// Replaces the guides of a region, as an eraser does.
@@ -294,6 +294,7 @@ fn simplify(region: &mut Region, tolerance: f64) -> Result<Done, Refusal> {
     let covers = |later: &Guide, earlier: &Guide| {
         later.strength >= 1.0
             && later.object == earlier.object
+            && (later.mode, later.falloff) == (earlier.mode, earlier.falloff)
             && earlier.points.iter().all(|point| {
                 later.points.iter().any(|over| {
                     let apart = glam::DVec3::from(point.at).distance(glam::DVec3::from(over.at));
@@ -334,7 +335,9 @@ fn recapture(scene: &mut Scene, frame: i64) -> Result<Done, Refusal> {
     let mut regions = std::mem::take(&mut scene.regions);
     for region in &mut regions {
         let on = region.on.object().map(str::to_owned);
-        for guide in region.guides.iter_mut().filter(|guide| guide.view.is_none()) {
+        // Guides of a region with a reference of its own refer to that one.
+        let follows_the_scene = region.reference.is_none();
+        for guide in region.guides.iter_mut().filter(|guide| follows_the_scene && guide.view.is_none()) {
             guide.view = view_of(guide.object.as_deref().or(on.as_deref()));
         }
         let is_of_the_picture =

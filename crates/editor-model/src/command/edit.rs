@@ -11,10 +11,11 @@ use crate::names;
 use crate::refusal::Refusal;
 use crate::selection::{Item, Selection};
 
-/// Names, parents, order, deletion.
+/// Names, parents, order, visibility, locks, copies, deletion.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Edit {
-    /// Deletes things. An object is deleted with its regions and touches; its children move to its parent.
+    /// Deletes things. An object is deleted with all that lies on it: its regions and touches, and its guides and
+    /// painted amounts in other regions. Its children move to its parent.
     Delete(Vec<Item>),
     /// Makes copies of objects (with their regions and touches), regions, lights, guides and touches, and selects the
     /// copies.
@@ -32,7 +33,8 @@ pub enum Edit {
     Reorder(Item, usize),
     /// Hides objects, regions and touches, or shows them again.
     SetHidden(Vec<Item>, bool),
-    /// Locks objects and regions, so that they cannot be changed, or unlocks them.
+    /// Locks objects and regions against changes, or unlocks them. Locked ones can still be renamed, hidden, reordered
+    /// and duplicated.
     SetLocked(Vec<Item>, bool),
 }
 

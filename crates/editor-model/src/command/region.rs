@@ -65,7 +65,8 @@ pub enum Regions {
     SetStroke(StrokesOf, StrokeChange),
     /// Replaces all stroke settings by those that were copied.
     PasteStrokes(StrokesOf, Box<StrokeSettings>),
-    /// Replaces the stroke settings by those of a preset of the user's own. What a preset does not state stays.
+    /// Replaces the stroke settings by those of a preset of the user's own. Keys and `layer` stay; so do a scene's
+    /// ground and order of layers if the preset states none.
     ApplyPreset {
         /// Whose settings.
         of: StrokesOf,
@@ -234,7 +235,7 @@ fn paint_layer(settings: &mut StrokeSettings, layer: &LayerSettings) -> String {
         hidden if hidden == was_hidden => format!("Paint: {name}"),
         Some(true) => format!("Hide layer {name}"),
         Some(false) => format!("Show layer {name}"),
-        // `hidden` is stated no more, so the scene's value counts again, taken to be the opposite of the old one.
+        // `hidden` is no longer stated: the inherited value counts, which is assumed to be the opposite of the old one.
         None if was_hidden == Some(false) => format!("Hide layer {name}"),
         None => format!("Show layer {name}"),
     }

@@ -25,8 +25,8 @@ pub enum Time {
     /// Gives own keys to the camera or an object that the scene's shot moves: one per frame, without those that lie on
     /// a straight line between their neighbours.
     OwnKeys(KeyOf),
-    /// Sets a new pose at a frame. The first key at another frame than the reference also keys the old pose at the
-    /// reference, so that there is a motion between the two.
+    /// Sets a new pose at a frame. If there are no keys at other frames, the old pose is also keyed at the reference's
+    /// frame, so that there is a motion between the two.
     PoseAtFrame(Pose, f64),
     /// Sets the value of a light, the background or strokes at a frame.
     PutValue(KeyedValue, f64),
@@ -34,7 +34,7 @@ pub enum Time {
     MoveKeys(Vec<(KeyOf, f64)>, f64),
     /// Copies keys by this many frames; a copy that lands on another key replaces it.
     CopyKeys(Vec<(KeyOf, f64)>, f64),
-    /// Deletes keys. The camera keeps its last one.
+    /// Deletes keys; refused if the camera would have none left.
     DeleteKeys(Vec<(KeyOf, f64)>),
     /// Sets the ease from each of these keys to the next key.
     SetEase(Vec<(KeyOf, f64)>, Ease),

@@ -240,8 +240,8 @@ impl Document {
     }
 
     /// The paths of all files of the scene: the scene file, the files that it names, and the files that those name
-    /// (materials, textures, buffers). The scene file is first. A missing MTL file is assumed to be named like its OBJ
-    /// file.
+    /// (materials, textures, buffers). The scene file is first. For each OBJ file, the MTL file of the same name is
+    /// listed even if it does not exist.
     pub fn files_on_disk(&self) -> Vec<PathBuf> {
         let mut files: Vec<PathBuf> = self.file.iter().cloned().collect();
         let is_scene =

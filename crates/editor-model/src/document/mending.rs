@@ -293,7 +293,7 @@ fn merged_value<T: Clone + PartialEq>(from: &T, left: &T, right: &T, what: &str)
 }
 
 /// Three-way merge of lists of named things: `right`, with what was changed, added and removed between `from` and
-/// `left`.
+/// `left`. If one of the two removed what the other changed, or both added the same name, `right` wins.
 fn merged_list<T: Clone + PartialEq>(
     from: &[T],
     left: &[T],

@@ -47,7 +47,7 @@ impl Document {
         Ok(Self { stamp, source, history: History::new(false), ..document })
     }
 
-    /// The text that the scene was read from, while parts of the text could not be read.
+    /// The text that the scene was read from, if parts of it could not be read or used.
     pub fn source(&self) -> Option<&Arc<Source>> {
         self.source.as_ref()
     }

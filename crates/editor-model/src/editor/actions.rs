@@ -204,9 +204,11 @@ impl Editor {
                 }
                 return true;
             }
-            Action::Delete if self.session.mode == Mode::Paint && self.hand.is_busy() => {
+            // The tool may take a point of a guide; else the selection is deleted.
+            Action::Delete if self.session.mode == Mode::Paint => {
+                let (was_busy, revision) = (self.hand.is_busy(), self.document.revision());
                 self.tool(ToolEvent::Key(action), view);
-                return true;
+                return was_busy || self.document.revision() != revision;
             }
             _ => return false,
         };
@@ -362,8 +364,8 @@ impl Editor {
         let turn = now.get(object)?.matrix3 * before.get(object)?.matrix3.inverse();
         let quat = glam::DQuat::from_mat3(&(turn * (1.0 / turn.determinant().cbrt())));
         let (axis, angle_rad) = quat.to_axis_angle();
-        // Positive is counter-clockwise as the picture shows it.
         let angle_rad = impasto_core::angle::wrap_pi(angle_rad);
+        // Positive is counter-clockwise as the picture shows it.
         Some((angle_rad * -axis.dot(gaze)).to_degrees())
     }
 }

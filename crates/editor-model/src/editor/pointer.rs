@@ -40,7 +40,7 @@ pub enum PointerKind {
 pub struct PointerEvent {
     /// What the pointer does.
     pub kind: PointerKind,
-    /// Where, pixels of the viewport from its upper left corner.
+    /// Where, from the viewport's upper left corner, Y down; `px` here and in [`View`] are points of the window.
     pub at_px: DVec2,
     /// The modifiers that are held.
     pub held: Modifiers,
@@ -80,8 +80,8 @@ impl Editor {
         }
     }
 
-    /// To be called as time passes without pointer events: shows what waits for a resting pointer, and hides what
-    /// belongs to a moving one. `at_secs` is on the clock of the pointer's events.
+    /// To be called as time passes without pointer events. Once the pointer rests, the tool of Paint shows its label
+    /// and hides its stroke preview. `at_secs` is on the clock of the pointer's events.
     pub fn rested(&mut self, at_secs: f64, view: &View) {
         let waits = matches!(self.busy, Busy::Idle)
             && self.session.mode == Mode::Paint

@@ -16,7 +16,7 @@ pub enum Request {
     SaveAs,
     /// Asks for a file to write a copy to.
     SaveCopy,
-    /// Reads the document's file again; asks about unsaved work first.
+    /// Reads the document's file again without a question, since undo brings unsaved edits back.
     Revert,
     /// Closes the window; asks about unsaved work first.
     Quit,

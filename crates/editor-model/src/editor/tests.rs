@@ -238,7 +238,7 @@ fn stroke_previews_show_from_the_first_movement_until_the_pointer_rests() {
 
     let view = view(&editor);
     let moved_secs = editor.at_secs;
-    // As in the window, a tick comes before every event.
+    // As in the window, `tick` is called before `rested`.
     for (rest_secs, rests) in [(0.2, false), (0.5, true)] {
         editor.tick(moved_secs + rest_secs);
         editor.rested(moved_secs + rest_secs, &view);

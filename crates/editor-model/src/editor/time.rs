@@ -15,7 +15,8 @@ impl Editor {
         &self.time
     }
 
-    /// Sets the time to `now_secs`, on the clock of the pointer's events. Must be called first in each pass.
+    /// Advances playback to `now_secs`, on the clock of the pointer's events, and drops loose poses of another frame or
+    /// mode. Must be called first in each pass of the window.
     pub fn tick(&mut self, now_secs: f64) {
         self.at_secs = now_secs;
         let (frame, mode) = (self.session.frame, self.session.mode);
@@ -26,7 +27,7 @@ impl Editor {
             return;
         }
         if self.time.played != Some(frame) || self.document.scene().objects.is_empty() {
-            // Something other than playback moved the playhead.
+            // Something other than playback moved the playhead, or nothing is left to play.
             return self.time.playback.stop();
         }
         let course = self.course();
@@ -99,7 +100,8 @@ impl Editor {
         }
     }
 
-    /// Applies an action to the selected keys. Returns false if the action does not concern keys.
+    /// Applies an action to the selected keys. Returns false if they do not have the keyboard focus, or if the action
+    /// does not concern keys.
     pub(super) fn act_on_keys(&mut self, action: Action) -> bool {
         if !self.time.keys.has_focus() {
             return false;

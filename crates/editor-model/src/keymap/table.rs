@@ -12,7 +12,7 @@ const MODAL: &[Where] = &[Where::In(Scope::Transform), Where::In(Scope::Drawing)
 const UNDERWAY: &[Where] =
     &[Where::In(Scope::Transform), Where::In(Scope::Drawing), Where::In(Scope::Typing), Where::Everywhere];
 
-/// With [`super::Digits::NumPad`], these digits of the main row do what the number pad's do.
+/// With [`super::Digits::NumPad`], these digits of the main row do what Blender's number pad does.
 pub(super) const DIGITS_AS_NUMPAD: &[(Action, u8)] = &[
     (Action::ViewFront, 1),
     (Action::ViewRight, 3),

@@ -4,8 +4,8 @@ use glam::{DAffine3, DVec3};
 use impasto_scene::document::{GuideView, Lens};
 use impasto_scene::motion::CameraPose;
 
-/// A camera in an object's own space. Roll, lens and picture size are left out, because they turn and scale a gesture
-/// and the surface under it alike.
+/// A camera in an object's own space. Roll, focal length, lens shift and picture size are left out, because they turn,
+/// scale and shift a gesture and the surface under it alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ObjectView {
     /// The eye.
@@ -27,8 +27,8 @@ pub enum Rays {
     Parallel,
 }
 
-/// Two views count as equal if their gazes differ by at most this sine, and their eyes by at most this share of the
-/// distance to the target.
+/// Two views count as equal if the sine of the angle between their gazes is at most this, and (with central rays) their
+/// eyes differ by at most this share of the distance to the target.
 const SAME: f64 = 1e-7;
 /// From an eye that is this many times as far away, rays are practically parallel.
 const FAR: f64 = 1e5;

@@ -256,7 +256,8 @@ impl SurfaceTree {
         best.1
     }
 
-    /// A point with the normals of its painted side, and whether that side is the one that is looked at now.
+    /// A point with the normals of its painted side, and whether that side is looked at. `looked_at` judges a side by
+    /// its face normal on the surface as it is now.
     fn point(
         &self,
         triangle: u32,
@@ -268,7 +269,7 @@ impl SurfaceTree {
         (self.on_side(triangle, barycentric, sign), looked_at(winding * sign))
     }
 
-    /// As [`Self::point`], of the surface at rest.
+    /// As [`Self::point`], but `looked_at` is given face normals of the surface at rest.
     fn point_at_rest(
         &self,
         triangle: u32,

@@ -18,7 +18,7 @@ const LAST: &str = "// end of what it is a copy of";
 /// Unsaved work to be copied.
 #[derive(Clone, Debug)]
 pub struct Work {
-    /// The copy's origin; its text is still empty.
+    /// The copy without its text, which is made of the scene when it is written.
     pub copy: Copy,
     /// The scene.
     pub scene: Arc<LoadedScene>,
@@ -31,7 +31,7 @@ pub struct Copy {
     pub file: Option<PathBuf>,
     /// An absolute path in the folder that the scene's own paths are relative to.
     pub path: PathBuf,
-    /// The stamp of the scene file as it was read; none if there is no file, or it was deleted.
+    /// The stamp of the scene file as it was last read or saved; none if there is no file, or it was deleted.
     pub stamp: Option<Stamp>,
     /// When the copy was made, seconds since 1970.
     pub at_unix_secs: u64,
@@ -124,13 +124,13 @@ impl Copy {
         if count == 1 { format!("1 {what} ago") } else { format!("{count} {what}s ago") }
     }
 
-    /// Whether the scene file has other bytes now than when the scene was read from it.
+    /// Whether the scene file has other bytes now than when the scene was last read from it or saved, or is gone.
     pub fn is_of_another_file(&self) -> bool {
         self.file.as_ref().is_some_and(|file| Stamp::is_other(self.stamp.as_ref(), file))
     }
 }
 
-/// A path on one line of text, every byte kept: what is not plain ASCII is written as `%xx`.
+/// A path on one line of text, every byte kept: `%` and what is not printable ASCII are written as `%xx`.
 fn escaped(path: &Path) -> String {
     let is_plain = |byte: u8| (b' '..0x7f).contains(&byte) && byte != b'%';
     let bytes = path.as_os_str().as_encoded_bytes().iter();

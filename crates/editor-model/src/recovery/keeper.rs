@@ -15,12 +15,12 @@ pub struct Keeper {
     thread: Option<JoinHandle<()>>,
 }
 
-/// The result of writing a copy.
+/// The result of an order: of each copy that was written, and of each order that failed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Kept {
     /// The copy was written. The number is the time when it was made, seconds since 1970.
     At(u64),
-    /// The copy could not be written, for this reason.
+    /// The copy could not be written, removed or taken over, for this reason.
     Not(String),
 }
 

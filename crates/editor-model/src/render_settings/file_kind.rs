@@ -46,7 +46,8 @@ impl FileKind {
         matches!(self, Self::Png8 | Self::Png16 | Self::PngAndExr)
     }
 
-    /// The endings of the files; the first is that of the pattern.
+    /// The endings of a frame's files; the first is that of the pattern. For a movie: those that it may have, the usual
+    /// one first.
     pub const fn endings(self) -> &'static [&'static str] {
         match self {
             Self::Png8 | Self::Png16 => &["png"],

@@ -109,7 +109,7 @@ fn progress_is_put_into_words() {
     assert_eq!(progress.count(), "47 of 120");
     assert_eq!(progress.time_words(), "1 min 55 s gone, about 2 min 55 s left");
     assert_eq!(progress.frame_words(), "2.4 s a frame, 5,774 strokes");
-    // Frames that are not rendered again take no time, so they say nothing about the time left.
+    // Kept frames count as done: nothing is left, so there is no time left to estimate.
     progress.kept = 73;
     assert_eq!((progress.share(), progress.left_s()), (1.0, None));
     progress.outcome = Some(Outcome::Done);

@@ -10,7 +10,7 @@ use crate::command::{Command, KeyOf, Time};
 #[cfg(test)]
 mod tests;
 
-/// A drag begins after this many points.
+/// A drag begins after this many logical pixels (points).
 pub const DRAG_PX: f64 = 3.0;
 
 /// A position on the lanes.
@@ -35,7 +35,7 @@ pub enum KeysEvent {
         at: LanePosition,
         /// The key there.
         key: Option<KeyAt>,
-        /// Keys are added to those selected (Shift, Ctrl).
+        /// Whether Shift or Ctrl is held: a key is added to the selection, or taken out of it; a box adds its keys.
         adds: bool,
     },
     /// The pointer moved.

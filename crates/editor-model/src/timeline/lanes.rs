@@ -90,7 +90,8 @@ pub fn next_ease(ease: Ease) -> Option<Ease> {
     })
 }
 
-/// The eases to choose from, in the order of menus, for a key that has this one now: its own curve stays.
+/// The eases to choose from, in the order of menus, for a key whose ease is `now`. The last one is a curve: the key's
+/// own if it has one, else the usual one.
 pub fn eases(now: Option<Ease>) -> [Ease; 7] {
     let curve = now.filter(|now| matches!(now, Ease::Curve(..))).unwrap_or(Ease::USUAL_CURVE);
     [Ease::Smooth, Ease::Linear, Ease::Step, Ease::In, Ease::Out, Ease::Bounce, curve]

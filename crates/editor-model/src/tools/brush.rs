@@ -86,7 +86,7 @@ impl Brush {
             ToolEvent::Release { pressure } => {
                 let stroke = self.stroke.take().map(|on| Stroke { path: on.path.lifted(pressure), ..on });
                 let commit = stroke.as_ref().and_then(|on| on.command(around));
-                // The region that was painted on is selected, even if the stroke was too short to leave anything.
+                // A command selects its region; a stroke that gives none still selects the region that it was on.
                 let on = stroke.filter(|on| on.on.region.is_some() && commit.is_none());
                 let select = on.map(|on| Item::Region(on.on.name));
                 ToolOutput { commit, select, ..ToolOutput::saying(words(tool, around)) }
@@ -337,7 +337,7 @@ impl Stroke {
         }
     }
 
-    /// The command that a release of the button would give now; `None` if the stroke is too short.
+    /// The command that a release of the button would give now; `None` if it would change nothing.
     fn command(&self, around: &Surroundings) -> Option<Command> {
         let path = self.path.finished(&mut self.does.picks(&self.on, around));
         let felt = Felt::of_path(&path, around.options);

@@ -23,7 +23,7 @@ mod spline;
 const HANDLE_PX: f64 = 12.0;
 const LINE_PX: f64 = 6.0;
 const ARROW_PX: f64 = 8.0;
-/// Distance of the arrow's tip from the last point.
+/// The middle of the place where the arrow is gripped lies this far beyond the last point.
 const ARROW_OUT_PX: f64 = 16.0;
 /// A second press within this time and distance ends a curve.
 const DOUBLE_SECS: f64 = 0.4;
@@ -355,7 +355,7 @@ fn place(at_px: DVec2, hit: &Hit) -> PathPoint {
     PathPoint::new(at_px, hit, 1.0)
 }
 
-/// The part of a guide under the pointer, among guides of the selected region that face the eye.
+/// The part of a guide of the selected region under the pointer. Only parts that face the eye count.
 fn grip(at_px: DVec2, around: &Surroundings) -> Option<Grip> {
     let region = around.scene().regions.get(around.selected_region()?)?;
     let mut best: Option<(u8, f64, Grip)> = None;

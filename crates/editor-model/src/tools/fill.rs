@@ -112,7 +112,7 @@ impl Filling {
         }
     }
 
-    /// The longest side of the box round the region, in the object's own axes.
+    /// The object's own axis, unit, along which the box round the region is longest.
     fn longest_axis(&self, around: &Surroundings) -> [f64; 3] {
         let object = self.hit.object;
         let own = self.on.region;
@@ -130,7 +130,7 @@ impl Filling {
 
 /// The angle from how a direction shows in this view to how it shows in the reference of a region, radians. It is the
 /// rotation in the polar decomposition of A = (J_ref B)(J B)⁻¹, where B spans the tangent plane and the J are the
-/// views' Jacobians. `None` where either view sees the surface edge-on.
+/// views' Jacobians. `None` if either view sees the surface edge-on, or if they see opposite sides of it.
 pub(super) fn to_reference_rad(hit: &Hit, region: Option<usize>, around: &Surroundings) -> Option<f64> {
     let (camera, pose) = around.reference(hit.object, region);
     let reference = crate::picking::View { camera, size_px: around.view.size_px };

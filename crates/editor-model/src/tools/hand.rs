@@ -13,7 +13,7 @@ use crate::command::{Command, Directions};
 use crate::keymap::Action;
 use crate::session::{RegionBy, Tool, ToolOptions};
 
-/// The largest radius of a touch, points on the screen.
+/// The largest radius of a touch, pixels of the viewport.
 const MOST_TOUCH_PX: f64 = 100.0;
 
 /// The active tool of Paint and its state.

@@ -13,7 +13,7 @@ const PIECES: usize = 48;
 pub struct Ring {
     /// The ring itself: a closed circle in the tangent plane.
     pub points_px: Vec<DVec2>,
-    /// A closed circle where the brush has half its strength; empty while the pointer is on no surface.
+    /// A closed circle where the smooth falloff is one half; empty while the pointer is on no surface.
     pub half_px: Vec<DVec2>,
     /// Its centre.
     pub at_px: DVec2,

@@ -7,7 +7,7 @@ use super::{Surroundings, ToolEvent, ToolOutput};
 use crate::keymap::Action;
 use crate::session::ToolOptions;
 
-/// Radii that a brush may have, points on the screen.
+/// Radii that a brush may have, pixels of the viewport.
 const RADII_PX: std::ops::RangeInclusive<f64> = 2.0..=500.0;
 /// `[` and `]` change the radius by this factor.
 const RADIUS_STEP: f64 = 1.1;

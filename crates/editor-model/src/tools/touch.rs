@@ -15,11 +15,11 @@ use crate::refusal::Refusal;
 use crate::selection::Item;
 use crate::session::ToolOptions;
 
-/// A drag that stays nearer to its press than this, in points on the screen, places a single stroke.
+/// A drag that stays nearer to its press than this, in pixels of the viewport, places a single stroke.
 const CLICK_PX: f64 = 5.0;
 
 /// The line of a touch may deviate from what was drawn by [`TOLERANCE`], a share of the ring's radius, or by
-/// [`LEAST_TOLERANCE_PX`], in points on the screen, whichever is more.
+/// [`LEAST_TOLERANCE_PX`], in pixels of the viewport, whichever is more.
 const TOLERANCE: f64 = 0.04;
 const LEAST_TOLERANCE_PX: f64 = 0.75;
 
@@ -158,7 +158,8 @@ fn radius_of(hit: &Hit, around: &Surroundings) -> f64 {
     around.options.radius_px / hit.px_per_model_unit(around.view, around.poses)
 }
 
-/// The touches of a hit's object that come within this distance of any of these points, in the order of the list.
+/// Names of the touches on a hit's object that come within 1.5 times this radius of any of these points, in the order
+/// of the list. Hidden touches are left out.
 fn touches_near(around: &Surroundings, hit: &Hit, touched: &[PathPoint], radius: f64) -> Vec<String> {
     let Some(object) = around.object(hit.object) else { return Vec::new() };
     near(around, &object.name, touched, radius)
@@ -211,7 +212,7 @@ impl Drag {
             at: point.position.to_array().map(|value| short(value, path.radius())),
             normal: point.normal.to_array().map(|value| short(value, 1.0)),
         });
-        // The stroke is as wide as the ring: converts from points of the window to pixels of the scene's own size.
+        // The stroke is as wide as the ring: converts from pixels of the viewport to pixels of the scene's own size.
         let scale = f64::from(around.scene().size.1) / around.view.size_px.y.max(1.0);
         let felt = Felt::of_path(path, options);
         let width_px = (2.0 * options.radius_px * felt.radius * scale)

@@ -10,7 +10,7 @@ use crate::keymap::{Action, Modifiers};
 use crate::selection::Item;
 use crate::session::{FillKind, Tool, ToolOptions};
 
-/// By how many degrees a drag of one pixel turns.
+/// Degrees of turn for each pixel of a drag; also the step of turns without Ctrl, degrees.
 const DEG_PER_PX: f64 = 0.5;
 /// The step of turns with Ctrl, degrees.
 const STEP_DEG: f64 = 5.0;

@@ -188,7 +188,7 @@ fn turning_follows_the_pointer_round_more_than_once() {
         let TransformDelta::Turn { angle_rad, .. } = transform.delta() else { panic!() };
         assert!((angle_rad - 8.0).abs() < 1e-9, "{axis:?}: {angle_rad}");
     }
-    // A free turn follows the pointer: a point that faces the eye goes round counter-clockwise.
+    // A free turn follows the pointer: as seen from the eye, the object turns counter-clockwise too.
     let mut transform = Transforming::new(Operation::Turn, start(arm(0.0)));
     transform.take(moved(arm(0.5)));
     let turned = applied(transform.delta(), transform.world_from_space());

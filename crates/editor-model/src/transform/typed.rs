@@ -7,7 +7,7 @@ pub(super) struct Typed {
     negative: bool,
 }
 
-/// The most digits that are taken.
+/// The most characters that are taken: digits and the point, but not the sign.
 const MOST: usize = 12;
 
 impl Typed {

@@ -1,4 +1,4 @@
-//! What lies on an object goes with it when its own space changes.
+//! Tests that touches on an object stay in place on its surface when an edit changes the object's own space.
 
 use std::path::Path;
 
@@ -20,7 +20,7 @@ fn cubes() -> Document {
     document
 }
 
-/// Does it to the cube `still`. Returns where its touch is then, with the normal.
+/// Applies an edit of the cube `still`. Returns the position and the normal of the touch on that cube afterwards.
 fn touch_after(edit: Arrange) -> [DVec3; 2] {
     let mut document = cubes();
     let before = document.scene().clone();
@@ -42,7 +42,7 @@ fn touches_go_with_an_object_that_is_stretched_scaled_or_turned_upright() {
     for (edit, place, normal) in [
         (stretched, at * DVec3::new(2.0, 1.0, 0.5), slope),
         (Arrange::ScaleTo(object(), 1.6), at * 2.0, DVec3::new(0.6, 0.8, 0.0)),
-        // What was Z is Y then, and what was Y points back.
+        // The old Z axis becomes Y, and the old Y axis becomes −Z.
         (Arrange::TurnUpright(object()), DVec3::new(0.4, -0.2, -0.3), DVec3::new(0.6, 0.0, -0.8)),
     ] {
         let [found, turned] = touch_after(edit.clone());

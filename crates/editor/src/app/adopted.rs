@@ -1,4 +1,4 @@
-//! Takes files that the user chose for the scene: brushes, pictures of noise, files that were missing.
+//! Takes files that the user chose for the scene: pictures of brushes, textures and noise, and files that were missing.
 
 use std::path::Path;
 

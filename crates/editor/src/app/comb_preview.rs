@@ -3,9 +3,10 @@
 use egui::Context;
 use glam::DVec2;
 use impasto_editor_model::editor::Editor;
-use impasto_editor_model::stroke_fields::field_values;
 use impasto_editor_model::tools::CombPreview;
 use impasto_painting::{FrameOptions, SurfacePlace};
+use impasto_scene::document::Sense;
+use impasto_scene::presets;
 
 use super::picture::PictureFlow;
 use crate::viewport::overlay::{Comb, CombPreviewStroke};
@@ -14,7 +15,7 @@ use crate::viewport::overlay::{Comb, CombPreviewStroke};
 const MAX_STROKES: usize = 600;
 /// Shown strokes are at least this far apart, so that the picture stays visible.
 const MIN_GAP_PX: f64 = 11.0;
-/// A preview is as long as its stroke, up to this length.
+/// A stroke is shown at the length that its region states, but no longer than this.
 const MAX_LENGTH_PX: f32 = 28.0;
 /// Time to fade in and out, seconds.
 const FADE_S: f32 = 0.15;
@@ -91,17 +92,16 @@ fn strokes(
     };
     let region = comb_preview.region.unwrap_or(scene.regions.len());
     let of_scene = comb_preview.region.filter(|region| *region < scene.regions.len());
-    let length_px = field_values(scene, of_scene)
-        .iter()
-        .find(|value| value.field.number.field == "length_px")
-        .map_or(12.0, |value| value.shown as f32 * shot_height_px / scene.size.1.max(1) as f32);
+    let body_px = presets::resolve(scene, of_scene).body().length_px;
+    let length_px = body_px * shot_height_px / scene.size.1.max(1) as f32;
+    let directed = of_scene.is_some_and(|region| scene.regions[region].sense == Sense::Arrows);
     let direction_lines =
         painting.stroke_directions_near(&place, &camera, editor.session.frame, &options, MAX_STROKES);
     let stroke = |direction_line: &impasto_painting::StrokeDirection| CombPreviewStroke {
         at_px: DVec2::from(direction_line.position_px.map(f64::from)),
         angle_rad: direction_line.angle_rad,
         length_px: length_px.clamp(6.0, MAX_LENGTH_PX),
-        directed: false,
+        directed,
     };
     let mut spaced: Vec<CombPreviewStroke> = Vec::new();
     for stroke in direction_lines.iter().filter(|direction_line| direction_line.region == region).map(stroke)

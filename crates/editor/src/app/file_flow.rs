@@ -103,7 +103,7 @@ pub(super) fn keep(preferences: &Preferences) -> Result<(), String> {
 }
 
 impl EditorApp {
-    /// Whether the window may close now. If not, a question about unsaved work is open.
+    /// Whether the window may close now. If not, a question is open: about frames being rendered, or unsaved work.
     pub(super) fn may_close(&mut self) -> bool {
         if self.render.holds_window() {
             return false;

@@ -1,4 +1,4 @@
-//! Follows another program (`impasto edit --follow`), which writes its frame and view to standard input as lines of
+//! `impasto edit --follow`: follows another program, which writes its frame and view to our standard input as lines of
 //! JSON: `{"frame": 12}` goes to a frame, `"view": {"eye": …, "target": …}` to a free view, `"view": null` to the shot
 //! camera.
 

@@ -1,4 +1,5 @@
-//! Shows the finished frames of a rendering in place of the page: reads them, plays them, and goes back to work.
+//! Shows and plays the finished frames of a rendering in place of the editor's page. Closing them shows the sheet of
+//! the rendering again.
 
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -12,14 +12,14 @@ use crate::viewport::Framing;
 const ICON: f32 = 14.0;
 const SELECTED: f32 = 17.0;
 
-/// Icons of dark lights are mixed with this much white, so that they can be seen.
+/// The colours of all icons are mixed with this much white, so that dark lights can be seen.
 const LEAST_WHITE: f32 = 0.25;
 
-/// Opacity of the ring at the distance where a lamp is as bright as a sun of intensity 1.
+/// Opacity of the ring at the distance where a point light is as bright as a sun of intensity 1.
 const RANGE_ALPHA: f32 = 0.8;
 
 /// The icons of all lights, each in its light's colour. The icon of a selected light has a ring around it. A selected
-/// lamp also has a ring in the world, whose radius is its `range`.
+/// point light also has a ring in the world, with the radius [`range`].
 pub(super) fn billboards(editor: &Editor, framing: &Framing) -> Vec<LightBillboard> {
     let px_per_point = framing.size_px()[1] as f32 / framing.viewport().height();
     let mut all = Vec::new();
@@ -56,8 +56,9 @@ fn ink(Color(color): Color) -> [f32; 4] {
     [r, g, b, 1.0]
 }
 
-/// The distance at which a lamp lights a surface that faces it as brightly as a sun of intensity 1, world units. `None`
-/// for other kinds of light, and without intensity.
+/// The distance at which a lamp or a spot lights a surface that faces it as brightly as a sun of intensity 1, world
+/// units. `None` for other kinds of light, and without intensity.
 fn range(light: &Light) -> Option<f32> {
-    (light.kind == LightKind::Point && light.intensity > 0.0).then(|| light.intensity.sqrt() as f32)
+    let is_lamp = matches!(light.kind, LightKind::Point | LightKind::Spot);
+    (is_lamp && light.intensity > 0.0).then(|| light.intensity.sqrt() as f32)
 }

@@ -38,7 +38,7 @@ enum Outcome {
     Opened(PathBuf, Result<Box<Document>, Report>),
     /// A mesh that was read from this path.
     Mesh(PathBuf, MeshFor, Result<(Adopted, Arc<MeshFile>), String>),
-    /// The document's own files, read again, and what another program changed, if that was why they were read.
+    /// The document, repaired or read again; first, what another program changed, if that was the reason.
     Mended(Option<News>, Box<Mended>),
 }
 
@@ -69,7 +69,7 @@ impl LongWork {
         self.queue.clear();
     }
 
-    /// Drops the pictures and presets that wait: they were for a mesh that was not read.
+    /// Drops the pictures and presets that wait: they were meant for the scene or mesh that could not be read.
     fn drop_brushes(&mut self) {
         self.queue.retain(|step| !matches!(step, Step::Picture(_) | Step::Preset(_)));
     }
@@ -275,7 +275,7 @@ impl EditorApp {
                 };
             }
             Outcome::Mesh(path, _, Err(words)) => {
-                // Pictures that were dropped together with the mesh were meant for it.
+                // Pictures and presets that came together with the mesh were meant for it.
                 self.long.drop_brushes();
                 self.trouble(TroubleOf::Import(path), words);
             }

@@ -112,7 +112,7 @@ struct Sheets {
     problems: bool,
 }
 
-/// Which panels are folded away.
+/// Which panels are folded away, and whether the window had the focus.
 #[derive(Default)]
 struct Folds {
     column: bool,

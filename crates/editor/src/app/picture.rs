@@ -152,7 +152,8 @@ impl PictureFlow {
         }
     }
 
-    /// The view of the first picture, for picking and tools.
+    /// The viewport's camera, framed as the first picture, for picking and tools. (In a comparison, that picture itself
+    /// is seen through the reference's camera.)
     pub(super) fn view(&self, editor: &Editor) -> View {
         self.layout.framings()[0].view(&self.camera(editor))
     }

@@ -1,4 +1,4 @@
-//! Applies and saves the preferences that are set in the command search.
+//! Applies and saves the preferences that are set in the command search, the options bar and the sheet of keys.
 
 use egui::Context;
 use impasto_editor_model::keymap::{Digits, OwnKeys, Preset};

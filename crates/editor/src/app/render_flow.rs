@@ -39,7 +39,7 @@ pub(super) struct RenderFlow {
 
 /// The question that is open.
 enum About {
-    /// This many of the files exist already.
+    /// This many of the plan's frames have a file already.
     Existing(Box<RenderPlan>, u64),
     /// The window would close while frames are rendered.
     Closing,
@@ -94,7 +94,8 @@ impl RenderFlow {
         self.is_open = true;
     }
 
-    /// How many frames are finished, with the files of those that can be viewed; `None` if their number is `before`.
+    /// How many frames are finished, and the files of those that can be viewed; `None` if still `before` are finished,
+    /// or if there is no rendering.
     pub(super) fn finished_since(&self, before: u64) -> Option<(u64, Vec<(i64, PathBuf)>)> {
         let running = self.running.as_ref()?;
         let done = running.progress().done();

@@ -99,8 +99,8 @@ pub struct Plan {
 
 /// What to do with files that are dropped or opened together.
 ///
-/// A scene is opened alone. A mesh starts a new scene if the document is empty, and is imported otherwise. Pictures
-/// become textures or brushes, if there is a scene.
+/// A scene is opened alone. A mesh starts a new scene if the document is empty, and is imported otherwise. Presets are
+/// applied, and pictures become textures or brushes, if there is a scene.
 pub fn plan(paths: &[PathBuf], present: Present) -> Plan {
     let mut plan = Plan::default();
     let mut known = Vec::new();

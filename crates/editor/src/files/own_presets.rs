@@ -45,7 +45,7 @@ pub fn presets_in(folder: &Path) -> Vec<OwnPreset> {
 /// file of a brush.
 ///
 /// # Errors
-/// Why it was not saved, in words to show; then no file was written or, if only the last step failed, only pictures.
+/// Why it was not saved, in words to show. Pictures may have been copied by then.
 pub fn save_preset(
     mut preset: StrokesFile,
     file_of: impl Fn(&str) -> Option<PathBuf>,
@@ -126,7 +126,7 @@ mod tests {
 
     use super::*;
 
-    /// A light dot on a dark ground.
+    /// Writes a picture for a brush: a light square on black.
     fn mark(path: &Path, side: u32) {
         let picture = image::RgbaImage::from_fn(side, side, |x, y| {
             let inside = x.abs_diff(side / 2) < side / 4 && y.abs_diff(side / 2) < side / 4;

@@ -93,6 +93,8 @@ impl PathSheet {
             let tokens = Tokens::of(ui);
             ui.spacing_mut().item_spacing.y = measure::GAP;
             ui.label(RichText::new(self.ask.title()).font(type_face::title()).color(tokens.text));
+            // Esc leaves the field of a new folder before it leaves the sheet.
+            let was_naming = self.new_folder.is_some();
             self.folder(ui);
             done = self.list(ui).or(self.field(ui));
             ui.add_space(measure::GAP);
@@ -108,7 +110,7 @@ impl PathSheet {
                     ui.with_layout(Layout::left_to_right(Align::Center), |ui| self.make_folder(ui));
                 }
             });
-            if self.new_folder.is_none() && ui.input(|input| input.key_pressed(Key::Escape)) {
+            if !was_naming && ui.input(|input| input.key_pressed(Key::Escape)) {
                 done = Some(Picked::Cancelled);
             }
         });

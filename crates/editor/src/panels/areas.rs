@@ -35,7 +35,7 @@ pub enum Area {
     Strip,
 }
 
-/// Where the areas of the last pass lay, in the order of `F6`.
+/// Where the areas of the last pass lay, in the order in which they were shown.
 #[derive(Clone, Debug, Default)]
 struct Places {
     pass: u64,

@@ -13,7 +13,8 @@ pub enum Question {
         /// How long it has had unsaved edits, in minutes.
         minutes: u64,
     },
-    /// The window is closing, or another scene is opening, and edits of the scene's text have not been applied yet.
+    /// The window is closing, another scene is opening, or the scene is being saved, and edits of the scene's text have
+    /// not been applied yet.
     UnreadText {
         /// The document's name.
         name: String,
@@ -91,7 +92,7 @@ pub enum Answer {
     Cancel,
     /// Save, then go on.
     Save,
-    /// Go on without saving.
+    /// Drop what the question is about (unsaved edits, edits of the text, or the recovered copy), and go on.
     Discard,
     /// Take the triangles.
     TakeFaces,

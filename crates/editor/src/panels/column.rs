@@ -5,7 +5,7 @@ use egui::{CentralPanel, Frame, Panel, Ui};
 use super::{Area, Ask, PanelInput, area, inspector, tree};
 use crate::theme::Tokens;
 
-/// From this window width on, in points, the column is wider.
+/// From this window width on, in points, the column is wider, and is shown beside both pictures of a comparison.
 const WIDE: f32 = 1600.0;
 
 /// In less width than this, in points, the column is not shown.

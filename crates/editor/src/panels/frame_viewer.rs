@@ -19,9 +19,9 @@ const LEAST_LINE: f32 = 120.0;
 /// What the viewer shows.
 #[derive(Clone, Copy)]
 pub struct ViewerShown<'a> {
-    /// The frames, and the place among them.
+    /// The frames, and which of them is asked for.
     pub frames: &'a FinishedFrames,
-    /// The picture that was read last; none if its file cannot be read, or none was read yet.
+    /// The picture of the frame that is shown; none if its file cannot be read, or no frame was read yet.
     pub picture: Option<&'a TextureHandle>,
     /// The index of the frame that is shown.
     pub shown: Option<usize>,
@@ -209,7 +209,7 @@ fn words(ui: &mut Ui, room: Rect, shown: &ViewerShown<'_>) -> Rect {
     Rect::from_min_max(room.min, pos2(right, room.max.y))
 }
 
-/// The line that is dragged to go through the frames. Returns the index of the frame under the pointer.
+/// The line on which a drag or a click goes to a frame. Returns the index of that frame, if there is a drag or a click.
 fn scrub(ui: &mut Ui, room: Rect, frames: &FinishedFrames) -> Option<i64> {
     let tokens = Tokens::of(ui);
     let area = room.shrink2(vec2(measure::GAP, 8.0));

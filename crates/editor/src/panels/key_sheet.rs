@@ -36,8 +36,8 @@ enum Doing {
     ListeningStill(CommandId, String),
     /// The command is to get these keys, which belong to the other commands now: the sheet asks whether to take them.
     Asking(CommandId, Vec<Chord>, Vec<CommandId>),
-    /// If the command gets these keys, they would no longer reach the other commands on a lane: the sheet asks whether
-    /// it is to get them.
+    /// The command works while a key on a lane is selected. There, these keys would do it instead of the other
+    /// commands: the sheet asks whether it is to get them.
     AskingToHide(CommandId, Vec<Chord>, Vec<CommandId>),
     /// The sheet asks whether all keys are to be the usual ones again.
     AskingReset,
@@ -206,7 +206,8 @@ fn line(
     whole
 }
 
-/// Gives a command its keys, or asks first if other commands would lose them.
+/// Gives a command its keys, or asks first if other commands would lose them, even if only while a key on a lane is
+/// selected.
 fn choose(keymap: &Keymap, id: CommandId, chords: Vec<Chord>, doing: &mut Doing, asks: &mut Vec<Ask>) {
     let losers = keymap.losers(id, &chords);
     let hidden = if chords == keymap.usual(id) { Vec::new() } else { keymap.hidden(id, &chords) };

@@ -74,7 +74,7 @@ pub struct PanelInput<'a> {
     pub recent: &'a [PathBuf],
     /// What failed in the window and is not settled yet.
     pub troubles: &'a [Trouble],
-    /// For each missing mesh, the file in the scene's folder that is likely meant.
+    /// The missing meshes for which the scene's folder has a file that is likely meant, each with that file.
     pub likely_meshes: &'a [(String, String)],
     /// Presets of the user's own.
     pub presets: &'a [OwnPreset],
@@ -98,7 +98,7 @@ impl<'a> PanelInput<'a> {
         }
     }
 
-    /// The keys of an action, empty if it has none.
+    /// The first shortcut of an action, as text; empty if it has none.
     pub fn keys_of(&self, action: Action) -> String {
         self.keymap.shortcut_text(action).unwrap_or_default()
     }
@@ -175,7 +175,7 @@ pub enum Ask {
     Mend(Mend),
     /// Let the user locate a missing file, and copy it to this path, where the scene looks for it.
     BringFile(PathBuf),
-    /// Show the list of problems.
+    /// Show the list of problems, or hide it if it is shown.
     ShowProblems,
     /// Settle the trouble with this index.
     Settle(usize, Settle),
@@ -195,7 +195,8 @@ pub enum Ask {
     SaveCopy,
     /// Carry out this action, as its key would.
     Act(Action),
-    /// Take over this session: mode, tools, overlays and frame.
+    /// Take over this session: mode, tools, overlays and frame. If its mode or its tool is another one than now, only
+    /// that is taken over.
     Session(Box<Session>),
     /// Do this on the timeline.
     Timeline(TimelineEvent),

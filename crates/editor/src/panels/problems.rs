@@ -58,7 +58,8 @@ pub(super) fn chip(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     }
 }
 
-/// Shows the panel at the bottom of `ui`. Returns false once it is closed or no problem is left.
+/// Shows the panel at the bottom of `ui`. Returns false once it is closed, or once no problem and no unread text is
+/// left.
 pub fn problems(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) -> bool {
     let rows = shown.document.problems();
     let count = rows.len() + shown.troubles.len();

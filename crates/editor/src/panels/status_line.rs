@@ -1,4 +1,5 @@
-//! The status line, at the bottom of the window: what the mouse would do now, and a few numbers.
+//! The status line, at the bottom of the window: what the mouse would do now, work in the background, a few numbers,
+//! and how many problems there are.
 
 use egui::{Panel, RichText, Role, WidgetInfo, accesskit};
 

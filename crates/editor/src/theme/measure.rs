@@ -10,7 +10,7 @@ pub const STATUS_LINE: f32 = 24.0;
 pub const STRIP: f32 = 44.0;
 /// Width of the tool rail.
 pub const RAIL: f32 = 48.0;
-/// Height of a row in the inspector.
+/// Height of a row in menus, in lists of commands and keys, and in the inspector's list of paint layers.
 pub const ROW: f32 = 28.0;
 /// Height of a row in the scene tree.
 pub const TREE_ROW: f32 = 26.0;
@@ -30,7 +30,7 @@ pub const SHEET_BUTTON: f32 = 34.0;
 pub const RAIL_BUTTON: f32 = 38.0;
 /// Height of a chip over the picture.
 pub const CHIP: f32 = 32.0;
-/// Space around what stands in a panel.
+/// Space at the left of a row in the sheet for files, before its icon.
 pub const PANEL_PADDING: f32 = 12.0;
 /// Space between controls.
 pub const GAP: f32 = 8.0;

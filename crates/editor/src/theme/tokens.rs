@@ -199,7 +199,7 @@ mod tests {
             assert!(contrast(tokens.out, tokens.panel) >= 3.0, "{theme}: outlines on a panel are too weak");
             assert!(contrast(tokens.key, tokens.panel) >= 3.0, "{theme}: keys on a panel are too weak");
         }
-        // In the light theme neither of these texts stands on `app`: only the picture and its chips lie on it.
+        // Two pairs miss 4.5 slightly. Of them only vermilion on `app` is used: for an error in the frame viewer.
         assert_eq!(weak_pairs, ["light ochre on app: 4.50", "light vermilion on app: 4.42"]);
     }
 }

@@ -22,12 +22,12 @@ pub fn head() -> FontId {
     semibold(13.0)
 }
 
-/// Titles of dialogs and steps: Inter SemiBold 15.
+/// Titles of dialogs, of steps, and of the sheets for files and rendering: Inter SemiBold 15.
 pub fn title() -> FontId {
     semibold(15.0)
 }
 
-/// Titles of sheets: Inter SemiBold 20.
+/// Titles of all other sheets: Inter SemiBold 20.
 pub fn sheet_title() -> FontId {
     semibold(20.0)
 }

@@ -83,7 +83,7 @@ fn overlays(ui: &mut Ui, input: &ViewportInput<'_>, events: &mut ViewportEvents)
         let response = icon_toggle(ui, icon, name, on).on_disabled_hover_text(effect);
         Tip { name, key, effect, range: "" }.on(response);
     };
-    // Directions are drawn in Paint only, so elsewhere the toggle is off.
+    // Outside Paint, direction lines are drawn only for Trust, so there this toggle is off.
     let mut direction_lines = paints && shown.direction_lines != DirectionLines::Off;
     let before = direction_lines;
     let effect = if paints { "Short lines along the strokes." } else { "Directions show in Paint." };

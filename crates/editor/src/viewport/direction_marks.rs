@@ -9,9 +9,9 @@ use impasto_scene::motion::CameraPose;
 use super::overlay::{DirectionInk, DirectionMark};
 use super::{Framing, surface_map::SurfaceMap};
 
-/// Lines are at least this many points apart.
+/// The picture is cut into square cells of this side, points; each shows at most one line.
 const APART: f64 = 20.0;
-/// At most this many lines are shown.
+/// At most this many lines are shown; in a large picture the cells grow to keep to it.
 const MOST: usize = 600;
 
 /// How to draw direction lines.
@@ -28,7 +28,7 @@ pub struct HairLook<'a> {
 }
 
 /// The direction lines of a painting at a frame. `camera` is the camera before `framing` widens it to the viewport.
-/// `map` holds the surfaces that this camera sees.
+/// `map` holds the surfaces that the widened camera sees.
 pub fn direction_marks(
     painting: &Painting,
     camera: &CameraPose,

@@ -46,7 +46,7 @@ impl Layout {
         let (top, bottom) = area.split_top_bottom_at_fraction(0.5);
         let beside = [left, right].map(|at| half(at, CHIPS, CHIPS));
         let stacked = [half(top, CHIPS, 4.0), half(bottom, 4.0, CHIPS)];
-        // Both pictures have the same size, though the two halves may differ.
+        // The two halves may differ by rounding, so both pictures get the smaller size.
         let least = stacked[0].width().min(stacked[1].width());
         let stacked = stacked.map(|at| Rect::from_center_size(at.center(), vec2(least, least / aspect)));
         let is_stacked = least > beside[0].width();
@@ -70,7 +70,7 @@ fn snapped(at: Rect) -> Rect {
     Rect::from_min_size(at.min.round(), at.size().round())
 }
 
-/// Titles, frames and the legend of a comparison.
+/// Draws what a comparison adds: titles, outlines, the line between the halves, and the legend of Trust if it is on.
 pub(super) fn titles(
     painter: &Painter,
     layout: &Layout,

@@ -26,7 +26,7 @@ pub struct Marks<'a> {
     pub direction_lines: &'a [DirectionMark],
     /// Points where strokes have no direction, and what decides whether they are visible.
     pub singular: Option<(&'a [SingularPoint], Sight<'a>)>,
-    /// Guides of the selected region.
+    /// Guides of the selected region, the selected touch, and the line of the tool.
     pub guides: &'a [GuideCurve],
     /// A preview of strokes as the comb would turn them, and its opacity (0..=1).
     pub comb_preview: Option<(&'a [CombPreviewStroke], Comb, f32)>,

@@ -49,7 +49,7 @@ impl Pictures {
         shown.is_some_and(|shown| shown.exact && shown.serial == serial && shown.view.looks_like(view))
     }
 
-    /// Drops all pictures: another document was opened.
+    /// Drops all pictures: another document was opened, or the scene has become empty.
     pub fn clear(&mut self) {
         self.shown.clear();
     }

@@ -70,7 +70,7 @@ impl Pointer {
                     } else if !pressed && self.buttons.contains(&button) {
                         self.buttons.retain(|other| *other != button);
                         push(PointerKind::Release(button), self.last_px, held);
-                        // During a drag the pointer counts as inside wherever it is. Now it may be outside.
+                        // A drag that leaves the picture sends no `Leave` until its last button is released.
                         self.inside = over(pos);
                         if !self.inside && self.buttons.is_empty() {
                             push(PointerKind::Leave, self.last_px, held);

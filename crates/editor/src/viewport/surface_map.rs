@@ -1,6 +1,6 @@
-//! A coarse map of the visible surfaces. It serves to outline objects, to show regions, and to hide direction lines
-//! that are behind surfaces. It is drawn on the CPU in the window's thread, because the picture itself comes later from
-//! another thread.
+//! A coarse map of the visible surfaces. It serves to outline objects, to tint regions and painted amounts, and to hide
+//! direction lines that are behind surfaces. It is drawn on the CPU in the window's thread, because the picture itself
+//! comes later from another thread.
 
 use std::sync::Arc;
 
@@ -87,7 +87,7 @@ impl PartialEq for StandingBody {
 /// A corner of a triangle before the perspective division: `place` and `depth` are linear in its position.
 #[derive(Clone, Copy)]
 struct Corner {
-    /// Numerators x and y of the place in pixels from the picture's centre, Y up, and their denominator w.
+    /// Numerators x and y of the place in points from the picture's centre, Y up, and their denominator w.
     place: [f64; 3],
     depth: f64,
     /// Where it lies in the triangle before clipping: barycentric weights of that triangle's second and third corner.
@@ -95,7 +95,7 @@ struct Corner {
 }
 
 impl SurfaceMap {
-    /// Draws all bodies; their indices are those of the scene's objects. `cells_per_point` is 1 or less.
+    /// Draws the visible bodies; their indices are those of the scene's objects. `cells_per_point` is 1 or less.
     pub fn new(bodies: &[StandingBody], view: &View, cells_per_point: f64) -> Self {
         let size = [view.size_px.x, view.size_px.y]
             .map(|side| ((side * cells_per_point).ceil() as usize).clamp(1, 4096));

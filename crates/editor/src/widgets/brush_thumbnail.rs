@@ -5,8 +5,8 @@ use egui::{Color32, Rect, Response, Role, Sense, Stroke, StrokeKind, TextureId, 
 use super::draw;
 use crate::theme::{Tokens, measure};
 
-/// A button with the picture of a brush, one of a group, 48 by 40 points. `picture` is tinted by the theme's text
-/// colour, so it should be white on transparent.
+/// A button with the picture of a brush, one of a group, 48 by 40 points. `picture` should be white on transparent:
+/// the dark theme shows it as it is, the light theme tints it with its text colour.
 pub fn brush_thumbnail(ui: &mut Ui, name: &str, picture: TextureId, on: bool) -> Response {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(48.0, 40.0), Sense::click());

@@ -43,7 +43,7 @@ pub fn drop_down_face(ui: &mut Ui, name: &str, shown: &str) -> Response {
     face(ui, name, None, shown)
 }
 
-/// The control while its menu is closed.
+/// Draws the control itself, without its menu.
 fn face(ui: &mut Ui, name: &str, icon: Option<Icon>, shown: &str) -> Response {
     let tokens = Tokens::of(ui);
     let before = icon.map_or(0.0, |_| measure::SMALL_ICON + 6.0);

@@ -66,7 +66,7 @@ pub(super) fn without_middle(ui: &Ui, text: &str, font: FontId, room: f32) -> St
         let [head, tail] = [&characters[..head], &characters[characters.len() - tail..]];
         head.iter().chain(&['\u{2026}']).chain(tail).collect()
     };
-    if width(ui, text, font.clone()) <= room {
+    if characters.is_empty() || width(ui, text, font.clone()) <= room {
         return text.to_owned();
     }
     // Bisection finds the most characters that fit.

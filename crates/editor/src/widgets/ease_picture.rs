@@ -14,7 +14,7 @@ const PICTURE: egui::Vec2 = vec2(17.0, 12.0);
 const HEIGHT: f32 = 26.0;
 const COLUMNS: usize = 3;
 
-/// The line of an ease from key to key: time between these x, shares 0 and 1 at these y.
+/// The curve of an ease between two keys: time goes from x `from` to x `to`, shares 0 and 1 are at y `low` and `high`.
 pub fn ease_line([from, to]: [f32; 2], [low, high]: [f32; 2], ease: Ease) -> Vec<Pos2> {
     let steps = match ease {
         Ease::Step => return vec![pos2(from, low), pos2(to, low), pos2(to, high)],
@@ -29,7 +29,7 @@ pub fn ease_line([from, to]: [f32; 2], [low, high]: [f32; 2], ease: Ease) -> Vec
     (0..=steps).map(at).collect()
 }
 
-/// A small picture of an ease, as high as the rectangle where it overshoots.
+/// A small picture of an ease, scaled so that it fills the rectangle, overshoot included.
 pub fn ease_picture(painter: &Painter, rect: Rect, ease: Ease, colour: Color32) {
     let [least, most] = ease.reach().map(|share| share as f32);
     let y = |share: f32| rect.bottom() - rect.height() * (share - least) / (most - least);

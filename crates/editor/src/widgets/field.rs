@@ -20,7 +20,7 @@ use crate::theme::{Tokens, measure, type_face};
 const LETTER: f32 = 11.0;
 
 /// A number in a box whose filled part shows where it lies in its range. It is dragged, typed after a click or `Enter`,
-/// or stepped: by the arrow keys while it has the focus, by the wheel while it has the focus or `Ctrl` is held.
+/// or stepped: by the arrow keys while it has the focus, by the wheel over it while it has the focus or `Ctrl` is held.
 /// Otherwise the wheel scrolls what the field stands in. A double click brings the default back. Typed text that is no
 /// number, or beyond the limits, is marked and rejected.
 pub struct NumberField<'a> {
@@ -53,9 +53,9 @@ pub struct FieldResponse {
     pub response: Response,
     /// The value has changed.
     pub changed: bool,
-    /// A drag, a typed number or a step began in this pass.
+    /// A drag, a typed number, a step or a reset began in this pass.
     pub began: bool,
-    /// A drag, a typed number or a step ended in this pass.
+    /// A drag, a typed number, a step or a reset ended in this pass.
     pub ended: bool,
     /// The change was one step of the wheel, of an arrow key or of a screen reader.
     pub stepped: bool,
@@ -118,7 +118,7 @@ impl<'a> NumberField<'a> {
         Self { unit, ..self }
     }
 
-    /// How far one step of the wheel or an arrow key goes, and how many decimals are shown.
+    /// How far one step of the wheel or an arrow key goes, and how many decimals are shown and kept.
     pub fn step(self, step: f64, decimals: usize) -> Self {
         Self { step, decimals, ..self }
     }
@@ -128,7 +128,7 @@ impl<'a> NumberField<'a> {
         Self { default: Some(default), ..self }
     }
 
-    /// What is wrong with the value: the box gets a vermilion outline, and the words stand under it.
+    /// What is wrong with the value: the box gets a vermilion outline, and if it has a label, the words stand under it.
     pub fn error(self, error: Option<&'a str>) -> Self {
         Self { error, ..self }
     }
@@ -441,7 +441,7 @@ impl<'a> NumberField<'a> {
 /// How far the wheel turned for the field, in points; `None` if the turn scrolls what the field stands in.
 fn scrolled(input: &mut InputState, has_focus: bool) -> Option<f32> {
     if input.modifiers.command {
-        // With Ctrl, egui reads the wheel as a zoom by this much for each point.
+        // With Ctrl, egui turns the wheel into a zoom factor: exp(points * `scroll_zoom_speed`).
         return Some(input.zoom_delta().ln() / egui::InputOptions::default().scroll_zoom_speed);
     }
     // Consumed, so that what the field stands in does not scroll as well.

@@ -5,7 +5,7 @@ use egui::{Align2, Response, Role, Sense, Stroke, StrokeKind, Ui, vec2};
 use super::draw;
 use crate::theme::{Tokens, type_face};
 
-/// A key as it is printed on a keyboard: `Ctrl`, `F`, `Middle`.
+/// A key or a mouse button, drawn as a key cap: `Ctrl`, `F`, `Middle`.
 pub fn key_cap(ui: &mut Ui, key: &str) -> Response {
     let tokens = Tokens::of(ui);
     let size = vec2(draw::width(ui, key, small_number()) + 10.0, 16.0);

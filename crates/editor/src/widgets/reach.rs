@@ -11,7 +11,7 @@ const PATIENCE: u8 = 4;
 #[derive(Clone)]
 struct Wanted {
     name: Arc<str>,
-    /// The name of the part that it is in; empty above all parts.
+    /// The name of the part that it is in; empty if it comes before the first part.
     part: Arc<str>,
     /// How many passes are left to find it in.
     passes: u8,
@@ -31,7 +31,7 @@ pub(crate) fn reach(ctx: &Context, part: &str, name: &str) {
     ctx.request_repaint();
 }
 
-/// Draws a part of the window whose controls can be reached by their names.
+/// Draws contents whose controls [`reach`] can find; [`enter_part`] divides them into parts.
 pub(crate) fn reachable<R>(ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) -> R {
     enter_part(ui.ctx(), "");
     let shown = contents(ui);

@@ -4,7 +4,7 @@ use egui::{Context, Key, Margin, Modifiers, Response, Role, TextEdit, Ui, Widget
 
 use super::dialog::sheet;
 
-/// The keys that move the mark or take its row, where they were pressed in this pass.
+/// Which of the keys that move the mark or take its row were pressed in this pass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct MarkKeys {
     /// To the row above.

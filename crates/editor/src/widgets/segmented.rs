@@ -57,8 +57,8 @@ pub fn segmented_named(ui: &mut Ui, choices: &[(&str, &str)], chosen: &mut usize
     whole
 }
 
-/// Paints the ground of one of several choices and its ring of focus, and gives it its name. Returns the colour of what is
-/// drawn on it.
+/// Draws the fill and the focus ring of one of several choices, and gives it its name. Returns the colour for its words
+/// or picture.
 pub(super) fn choice(ui: &Ui, response: &Response, seen: Rect, name: &str, on: bool) -> Color32 {
     let tokens = Tokens::of(ui);
     let fill = match (on, response.hovered()) {

@@ -19,7 +19,7 @@ pub struct Toast {
     pub error: bool,
 }
 
-/// Shows the newest three of `shown`, `clear` points above the window's lower edge, with the newest at the bottom.
+/// Shows the newest three of `shown`, with the newest at the bottom. The lowest `clear` points of the window stay free.
 /// Returns the index in `shown` of the toast whose button was clicked.
 pub fn toasts(ctx: &Context, shown: &[Toast], clear: f32) -> Option<usize> {
     let first = shown.len().saturating_sub(3);

@@ -270,7 +270,7 @@ impl<A: App, M: FnOnce(&Opened) -> A> ApplicationHandler<Happening> for Shell<A,
             Happening::Wake => open.window.request_redraw(),
             Happening::Repaint { at, pass } => {
                 let now = open.state.egui_ctx().cumulative_pass_nr();
-                // Requests of older passes are out of date: later passes have run since.
+                // A request from before the last pass is out of date: a later pass has run since.
                 if now == pass || now == pass + 1 {
                     let at = at.max(open.last_start + LEAST_FRAME);
                     self.next = Some(self.next.map_or(at, |next| next.min(at)));

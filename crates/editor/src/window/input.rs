@@ -3,7 +3,7 @@
 use egui::{Event, RawInput};
 
 /// Splits the input since the last frame, so that no pass has more than one press or release of a button, nor a key
-/// after a move or click of the pointer.
+/// press (repeats aside) after a move or click of the pointer.
 ///
 /// A slow frame may gather a whole drag. egui looks at the pointer once per pass, and would miss it. The editor handles
 /// the keys of a pass before the pointer: if `Ctrl Z` came in the same pass as the end of a drag, the drag would

@@ -95,7 +95,7 @@ impl Frame<'_> {
         self.painter
     }
 
-    /// How long the frame before this one took, from the input until it was shown.
+    /// How long the last frame that was shown took, from its input until it was on the screen.
     pub fn last_took(&self) -> Duration {
         self.last
     }
@@ -105,8 +105,8 @@ impl Frame<'_> {
         self.asks.close = true;
     }
 
-    /// Does not show this pass, because a better one will follow soon: while the view moves, the one with its next
-    /// picture. The window stays as it is, for a tenth of a second at most.
+    /// Does not show this pass, because a better one will follow soon (while the view moves, a pass with the view's
+    /// next picture). The window keeps its last contents until a tenth of a second after they were shown, at most.
     pub fn hold(&mut self) {
         self.asks.hold = true;
     }

@@ -40,7 +40,7 @@ pub struct Pens {
     greatest: Option<f64>,
     /// One pressure for each pointer event since the last pass.
     samples: Vec<f64>,
-    /// Whether the last event moved the pointer: X11 reports the axes of a movement after the movement.
+    /// Whether axes that are reported now belong to the last movement: X11 reports a movement first, then its axes.
     moved: bool,
 }
 
@@ -314,7 +314,7 @@ mod tests {
         // The pen is set down, pressed and lifted in one place.
         let events = [moved(), axis(2, 0.0), pressed(), axis(2, 1200.0), axis(2, 40.0), released()];
         assert_eq!(told(&mut pens, &events), [0.0, 0.01, 0.6]);
-        // While the string of a steady brush is not pulled, the path takes the greatest pressure.
+        // Until the pointer is farther away than the steadying string is long, the path takes the greatest pressure.
         assert!((felt(0.2, &[0.01, 0.6]) - 0.6).abs() < 1e-9);
         let events = [axis(2, 30.0), pressed(), moved(), axis(2, 1600.0), axis(2, 10.0), released()];
         let told = told(&mut pens, &events);

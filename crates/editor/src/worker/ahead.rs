@@ -21,7 +21,7 @@ struct Computing {
 }
 
 impl Ahead {
-    /// Begins to compute the frame of a view that will likely be asked for next, with the same options.
+    /// Begins to compute the frame of a view that will likely be asked for next, at the size and quality of `options`.
     pub(super) fn begin(
         &mut self,
         painting: &Painting,

@@ -19,7 +19,7 @@ use super::mailbox::{Mailbox, Order};
 use super::view_frame::{DrawOptions, frame_of, frame_options, styled};
 use super::{Picture, Report, ViewJob};
 
-/// The exact pictures of a job are drawn when it is this old and no later job has come.
+/// Exact pictures that are not quick to draw are begun when their job is this old and no later job has come.
 const REST: Duration = Duration::from_millis(100);
 
 /// Finishing the film of a job begins when the job is this old: by then the user is likely to have paused.
@@ -77,7 +77,7 @@ struct PaintWorker {
     draft_size: DraftSize,
     /// The view whose picture the renderer still holds.
     held_view: Option<usize>,
-    /// The number of pictures drawn so far.
+    /// Counts the pictures drawn for views: [`Recall::of`] picks by it which absent strokes the next draft computes.
     turn: u32,
     /// How long the last exact picture took, seconds.
     exact_s: Option<f64>,

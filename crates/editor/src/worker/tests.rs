@@ -144,15 +144,16 @@ fn a_new_scene_is_seen_unpainted_before_its_strokes_are_prepared() {
     let differs: usize = seen.iter().zip(&exact).map(|(one, other)| usize::from(one.abs_diff(*other))).sum();
     assert!(differs < 2 * seen.len(), "{differs} over {} bytes", seen.len());
     until(&worker, is_exact);
-    // This edit leaves the meshes as they were, so the strokes stay in the picture.
+    // A new version with the same meshes is no new scene: no unpainted picture comes first.
     worker.0.show(job(2));
     let told = until(&worker, is_exact);
     assert!(pictures(&told).iter().all(|picture| picture.strokes > 0));
 }
 
-/// A viewport that is taller than the shot shows the shot in its middle exactly as in a file, strokes included.
+/// A viewport that is taller than the shot shows the shot in its middle as a file would have it, but for what lies near
+/// the shot's border.
 #[test]
-fn a_wider_picture_holds_the_shot() {
+fn a_taller_picture_holds_the_shot() {
     let loaded = scene();
     let alone = view(&loaded, 3.0);
     let area = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(160.0, 130.0));
@@ -170,7 +171,7 @@ fn a_wider_picture_holds_the_shot() {
     assert_eq!(picture.image.size, [160, 130]);
     let middle = &bytes(picture)[20 * 160 * 4..110 * 160 * 4];
     let shot = rendered(&loaded, &alone, None);
-    // What lies outside the shot changes the picture near its border: shade, strokes, the light on them.
+    // What lies outside the shot adds shade, strokes and light near its border.
     let differ = middle.iter().zip(&shot).filter(|(one, other)| one.abs_diff(**other) > 24).count();
     assert!(differ * 100 < shot.len(), "{differ} of {}", shot.len());
 }

@@ -223,7 +223,7 @@ fn any_key_can_be_given() {
     click(&mut harness, "Import a mesh");
     click(&mut harness, "No key");
     assert_eq!(harness.state().keymap.shortcut_text(Action::ImportMesh), None);
-    // Keys that copy (Ctrl C) arrive as this event, never as key presses, so no command can be given them.
+    // egui reports Ctrl C as `Event::Copy`, never as a key press, so no command can be given these keys.
     click(&mut harness, "Import a mesh");
     harness.event(Event::Copy);
     harness.run();

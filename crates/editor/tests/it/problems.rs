@@ -30,7 +30,7 @@ const TEXT: &str = r#"(
 )
 "#;
 
-/// The window without its viewport; the editor does what is asked.
+/// The window without its viewport. The editor carries out repairs (`Ask::Mend`); the page notes what else is tested.
 struct Page {
     editor: Editor,
     path: PathBuf,
@@ -86,7 +86,7 @@ impl Page {
         }
         self.is_open &= self.is_open && problems::problems(ui, &shown, &mut asks);
         CentralPanel::default().frame(egui::Frame::new().fill(Tokens::of(ui).app)).show(ui, |_| {});
-        // The window gives keys to the editor first.
+        // The window hands keys to the editor before it shows panels. Here only Ctrl Enter is, and after them.
         let typing = ui.ctx().text_edit_focused();
         if ui.input(|input| input.modifiers.command && input.key_pressed(Key::Enter)) {
             let view = View { camera: self.editor.camera(), size_px: glam::DVec2::ONE };

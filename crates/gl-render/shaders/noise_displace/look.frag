@@ -3,7 +3,7 @@
 in vec2 texture_at;
 
 uniform sampler2D layer_noise;   // repeats
-uniform int layer_count;         // k
+uniform int layer_count;         // k: the layers are 1 .. k - 1
 uniform vec2 tiling;
 uniform vec2 tile_offset;
 uniform vec2 travelled;          // time times speed

@@ -17,8 +17,8 @@ float sunlit(vec3 position, vec3 normal) {
     // The distance from a lamp, along the axis of its map; 1 for a sun.
     float away = (shadow_from_world * vec4(position, 1.0)).w;
     if (away <= 0.0) return 1.0;
-    // An offset along the normal keeps the surface from shadowing itself. Measured along the light, it takes the point
-    // farther from the surface where light falls at a slant.
+    // An offset along the normal keeps the surface from shadowing itself: the more slanted the light, the farther the
+    // point then is from the surface, measured along the light's ray.
     vec3 from = position + normal * (2.5 * shadow_texel * away);
     vec4 clip = shadow_from_world * vec4(from, 1.0);
     vec3 at = clip.xyz / clip.w * 0.5 + 0.5;
@@ -57,7 +57,7 @@ struct LitPoint {
 struct Light {
     vec3 diffuse;                // what arrives, from everywhere; times the albedo it is what a matt surface sends back
     vec3 highlight;              // what a glazed surface sends back beside that
-    float glint;                 // how much of a highlight there is, 0..1
+    float glint;                 // how strong the highlight is: 0 none; lights that are near or many give more than 1
     float shadowed;              // how much arrives of the light that casts shadows, 0..1
 };
 
@@ -96,7 +96,7 @@ Light light_on(LitPoint at) {
     return Light(light, highlight, glint, shadowed);
 }
 
-// Display-linear colour; `glint` is how much of a highlight there is, 0..1.
+// Display-linear colour; `glint` is how strong the highlight is, as in `Light`.
 vec3 lit(vec3 albedo, LitPoint at, out float glint) {
     Light light = light_on(at);
     glint = light.glint;

@@ -10,13 +10,14 @@ uniform float px_scale;              // output pixels per pixel of the scene's o
 uniform mat4 view_from_world;
 uniform int block_px;                // side of a block
 
-out vec4 detail;                     // change of colour or turn, outline 0..1, highlight 0..1, body id and share
+out vec4 detail;                     // change of colour or turn, outline 0..1, highlight 0..1, body id + half its share
 
 // Change of Oklab per pixel of the scene's own size: no detail below the first, full detail above the second.
 const vec2 CHANGE = vec2(0.004, 0.034);
 // An edge of colour is narrow, and weighs more than a turn that goes on for long.
 const float EDGE = 1.6;
-// How fast the surface turns, radians per pixel of the scene's own size: a ball of 100 px radius turns by 0.01 in its middle.
+// How fast the surface turns, summed over x and y, radians per pixel of the scene's own size (0.02 in the middle of a
+// ball of 100 px radius): no detail below the first, full detail above the second.
 const vec2 TURN = vec2(0.012, 0.050);
 // A leap of the depth within a body, as a share of the depth: no outline below the first, an outline above the second.
 const vec2 LEAP = vec2(0.01, 0.03);

@@ -16,7 +16,7 @@ uniform vec4 background;             // premultiplied, display-linear
 #ifndef DRAFT
 uniform vec4 tone;                   // of the ground under paint, and how far it hides a wash of the body's colour
 #endif
-uniform float wash;                  // 0 bare ground .. 1 toned
+uniform float wash;                  // how far the toned ground under a body's paint hides the background, 0..1
 uniform vec4 finish;                 // relief, weave, varnish, output pixels per pixel of the scene's own size
 
 layout(location = 0) out vec4 finished;          // straight alpha, display-linear

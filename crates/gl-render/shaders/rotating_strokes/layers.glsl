@@ -1,4 +1,5 @@
-// The layers of paint, in the order in which they are laid on.
+// The layers of paint, numbered as in `LayerKind`: in the order in which they are laid on, unless a scene states
+// another.
 const int UNDERPAINTING = 0;
 const int BODY = 1;
 const int FORM = 2;

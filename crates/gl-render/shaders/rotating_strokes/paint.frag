@@ -58,7 +58,7 @@ const float HEIGHT_SCALE = 1.5;
 const float FREE = 1e6;
 const float STEEPNESS = 4.0;
 
-// The depth of the stroke at this pixel.
+// The depth of the stroke's centre; for a line, of the point of its middle beside this pixel.
 float own_depth() {
 #ifdef LINE
     return line.x;
@@ -74,13 +74,13 @@ float body_at(vec2 at_px) {
 }
 
 // How much paint lies in a pixel past the stroke's own body, if paint reaches this far past it. `reach_px` differs from
-// hair to hair, since hairs with more paint run further: the edge is ragged.
+// hair to hair, by the mark's tint: the edge is ragged.
 float past_body(vec2 here, float reach_px) {
     float depth = own_depth();
     float bias = 2.0 * units_per_px_at_1 * mix(depth, 1.0, orthographic);
     float away_px = length(from_center_px);
     vec2 inward = -from_center_px / max(away_px, 1e-3);
-    // No paint goes over a body in front of the stroke; a little goes over the background and over bodies behind.
+    // Only a soft edge goes over a body in front of the stroke; more paint over the background and over bodies behind.
     if (here.y != 0.0 && here.x < depth - bias) reach_px = 0.35;
     float on_own = 0.0;
     for (int index = 0; index < 4; index++) {

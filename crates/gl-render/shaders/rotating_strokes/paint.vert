@@ -1,14 +1,15 @@
-// Four corners of a stroke: a billboard of constant size on the screen, turned in pixels.
+// One corner of a stroke, which is a quad flat on the screen and measured in pixels. With LINE, a vertex of a touch's
+// strip of triangles.
 #include "shared/oklab.glsl"
 #include "rotating_strokes/layers.glsl"
 #ifdef SHAPED
 #include "shared/stroke_shape.glsl"
 #endif
 layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
-layout(location = 1) in vec4 size;           // length and width in px, fade of the facing, ln of the supply
+layout(location = 1) in vec4 size;           // length and width in px, facing fade, ln(supply / rank)
 layout(location = 2) in uvec4 marks;         // random bits, body id, albedo, mark
 layout(location = 3) in uvec2 bytes;         // paint, mixing
-layout(location = 4) in vec4 normal_and_bow; // world space, half widths
+layout(location = 4) in vec4 normal_and_bow; // normal in world space; bow of the mark in half widths
 layout(location = 5) in vec4 reach;          // overrun in px, slow noise of hue and of edges, skew
 layout(location = 6) in vec4 resolved;       // colour, presence
 layout(location = 7) in vec4 fitted;         // centre in px where it lies on its body, lightness, turn added to the angle
@@ -97,7 +98,8 @@ vec4 painted_part(float least, float level, float bow, float flip) {
     float coarser = floor(level) + 1.0;
     if (amount < 0 || coarser > COARSEST) return vec4(0.0, 1.0, 0.0, 1.0);
     vec4 part = texelFetch(mark_bounds, ivec2(min(amount, STEPS - 1), int(marks.w & 65535u)), 0);
-    // Grown by a texel of the coarser level; past the border the border's value counts.
+    // Grown by 1.5 texels of the coarser level, as far as its filtering spreads paint. A box that reaches the border
+    // goes on past it, as the texels of the border do (clamp to edge).
     vec2 reach = (1.5 * exp2(coarser) - 0.8) / MARK_SIZE;
     part += vec4(-reach.x, reach.x, -reach.y, reach.y);
     if (part.z <= 0.0) part.z = -9.0;
@@ -119,8 +121,8 @@ vec4 plane_of_stroke(vec2 center_px) {
     vec3 n = mat3(view_from_world) * normal_and_bow.xyz;
     float slant = max(abs(n.z), 0.05);
     vec2 slope = n.xy / (n.z < 0.0 ? -slant : slant);
-    // At a slant, a small bend of the surface is a large difference of depth, so more is allowed.
     bool goes_on = kind == UNDERPAINTING || kind == CONTOUR;
+    // At a slant, a small bend of the surface is a large difference of depth, so more is allowed.
     float may_leave_px = goes_on ? 1e9 : (0.07 * size.x + 2.5) * max(0.7 / slant, 1.0);
     return vec4(slope, dot(slope, center_px - place.xy), may_leave_px);
 }
@@ -186,7 +188,7 @@ void main() {
         own_form = vec4(0.5 * MARGIN * size.xy, shape.x, shape.y / max(size.x, 1e-6));
         mark_at = corner_of_box(corner, own_form, reach.w);
         from_center_px = along * mark_at.x + vec2(-along.y, along.x) * mark_at.y;
-        // A narrower part needs a coarser level.
+        // May be below 0 here: the level changes along the stroke, and the fragment shader clamps it.
         level = log2(mark_rows / (1.05 * size.y * MARGIN));
     }
     form = own_form;

@@ -8,10 +8,10 @@ uniform float px_scale;          // output pixels per pixel of the scene's own s
 uniform mat4 view_from_world;
 uniform int kind;                // layer of paint
 layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
-layout(location = 1) in vec4 size;           // length and width in px, fade near edge-on, ln of the supply
-layout(location = 2) in uvec4 marks;         // random bits, body id, albedo (sRGB bytes, A 0 where unlit), mark
+layout(location = 1) in vec4 size;           // length and width in px, facing fade, ln(supply / rank)
+layout(location = 2) in uvec4 marks;         // random bits, body id, albedo (sRGB bytes), mark; A 0: unlit, 128: fixed
 layout(location = 3) in uvec2 bytes;         // paint, mixing
-layout(location = 4) in vec4 normal_and_bow; // world space, half widths
+layout(location = 4) in vec4 normal_and_bow; // normal in world space; bow of the mark in half widths
 layout(location = 5) in vec4 reach;          // overrun in px, slow noise of hue and of edges, skew
 #include "rotating_strokes/surroundings.glsl"
 #include "rotating_strokes/mixing.glsl"
@@ -21,7 +21,7 @@ out vec4 fitted;                 // centre in px where it lies on its body, ligh
 
 const float FREE = 1e6;
 const float MOST_FULL = 1.35;
-// The least alpha of a stroke that is painted. Drafts leave out faint strokes.
+// The least presence of a stroke that is painted. Drafts leave out faint strokes.
 #ifdef DRAFT
 const float LEAST = 0.25;
 #else
@@ -32,16 +32,17 @@ const float LEAST = 0.004;
 // its own albedo, since single pixels of a thin body are light or dark by chance.
 const vec2 THIN = vec2(0.01, 0.14);
 
-// Standard deviation of the Gaussian over which colours are averaged: for each layer in widths of the stroke, but at
-// least this many pixels, since single pixels change by chance.
+// Standard deviation, across the stroke, of the Gaussian over which colours are averaged: for each layer in widths of
+// the stroke, but at least 1.4 pixels of the picture (down to LEAST_BLUR_PX in pictures below the scene's own size),
+// since single pixels change by chance.
 const float LEAST_BLUR_PX = 1.1;
 const float BLUR[8] = float[8](0.33, 0.20, 0.20, 0.22, 0.30, 0.60, 0.25, 0.25);
 
 // How far highlights are spread over their body, as in `RotatingStrokes`, pixels of the scene's own size.
 const float SPREAD_PX = 16.0;
-// Strokes of a highlight gather round its peak: each lies at this share of its particle's distance from the peak.
-// Particles count up to this distance, pixels of the scene's own size; strokes fade over its second half, so that they
-// take turns as particles pass.
+// Strokes of a highlight gather round its peak. GATHERED: a stroke lies at this share of its particle's distance from
+// the peak. GATHER_PX: particles count up to this distance, pixels of the scene's own size; strokes fade over its
+// second half, so that none pops as its particle comes near or goes.
 const float GATHERED = 0.3;
 const float GATHER_PX = 34.0;
 
@@ -64,7 +65,7 @@ float hidden_at(vec2 offset_px, float bias, bool by_own) {
 }
 
 // How much of the stroke is there, since bodies may hide it, 0..1. Other bodies are tested over the whole stroke, and
-// make it fade only when little of it is to be seen: the paint pass cuts off the parts that they cover. The stroke's
+// make it fade only when less than `WHOLE` of it shows: the paint pass cuts off the parts that they cover. The stroke's
 // own body, which may bend in front of it, is tested round the stroke's middle; so are other bodies, for paint that is
 // never cut off.
 float seen(mat2 turn) {
@@ -195,12 +196,12 @@ vec4 outline_near(vec2 own) {
 float line_wanted(vec4 outline, float lightness) {
     float at_end = smoothstep(0.02, 0.46, outline.z) * (1.0 - smoothstep(0.55, 0.95, outline.z));
     float found = smoothstep(-0.9, 0.5, reach.z);
-    float in_view = 1.0 - smoothstep(0.1, 0.5, outline.w);
+    float in_view = 1.0 - smoothstep(0.1, 0.8, outline.w);
     return 0.85 * in_view * at_end * found * mix(1.0, 0.30, smoothstep(0.30, 0.95, lightness));
 }
 
-// From the stroke's centre to the end of its body. The distance follows from the share of the surroundings past the
-// end, as if the end were straight.
+// From the stroke's centre to where it lies just inside the end of its body. The distance to the end follows from the
+// share of the surroundings past it, as if the end were straight.
 vec2 to_end_px(vec4 outline) {
     if (dot(outline.xy, outline.xy) < 1e-8) return vec2(0.0);
     return normalize(outline.xy) * (OUTLINE_PX * px_scale * (1.0 - 2.0 * outline.z) - 0.4 * size.y);
@@ -231,7 +232,7 @@ void main() {
     resolved = vec4(0.0);
     fitted = vec4(place.xy, 0.0, 0.0);
     gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
-    // Most candidates are absent; they are left early.
+    // Most strokes turn out absent: the cheap tests come first, and the rest is then skipped.
     bool small = kind == FORM || kind == ACCENTS || kind == LIGHTS;
     vec4 outline = vec4(0.0);
     float turned = 0.0;
@@ -245,14 +246,16 @@ void main() {
         there = without_last(there * wanted(detail_at(place.xy + to_peak, own.y)));
     } else if (small && there > LEAST) there = without_last(there * wanted(detail_at(place.xy, own.y)));
     if (kind == CONTOUR && there > LEAST) {
-        if (detail_at(place.xy, own.y).g < 0.01) return;
+        // No hard threshold: lines would flash where a block of `detail` is now this body's, now another's.
+        there *= smoothstep(0.002, 0.05, detail_at(place.xy, own.y).g);
+        if (there <= LEAST) return;
         outline = outline_near(own);
         if (outline.z <= 0.03) return;
         turned = turn_along(outline);
         moved = to_end_px(outline);
         turn = mat2(cos(turned), sin(turned), -sin(turned), cos(turned)) * turn;
     }
-    // What hides a touch is found pixel by pixel, in the paint pass.
+    // What hides a touch is found pixel by pixel, in the paint pass; what hides a contour line, in `outline_near`.
     if (there > LEAST && kind != CONTOUR && kind != TOUCHES) there *= seen(turn);
     if (there <= LEAST) return;
 

@@ -1,5 +1,5 @@
-// Averages the height of the paint, at half the picture's size. Compared with this average, the height tells furrows
-// from ridges, and thin paint from thick.
+// Averages the height of the paint, at half the picture's size. The average tells thin paint from thick; the height
+// compared with it tells furrows from ridges.
 uniform sampler2D height;
 uniform float step_px;           // pixels of the full size
 

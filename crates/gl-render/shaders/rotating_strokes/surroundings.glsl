@@ -6,7 +6,7 @@ uniform sampler2D normal;        // of the surface, world space, towards the eye
 uniform sampler2D detail;        // in blocks: change of colour, outline, highlight, body id and half its share
 uniform float block_px;          // side of a block
 
-// How far around a stroke it matters whether its face is thin.
+// How far from the stroke's centre ends of its face are looked for, to tell how thin it is; pixels of the picture.
 const float AROUND_PX = 8.0;
 
 // Cosine of the angle between a pixel's normal and the stroke's: below the first the pixel shows another face of the
@@ -14,8 +14,8 @@ const float AROUND_PX = 8.0;
 const vec2 SAME_FACE = vec2(0.8, 0.97);
 
 // How far before the stroke's plane its body must be to cover the stroke: from the first depth on in part, from the
-// second wholly. Smaller depths are mere errors of coarse meshes. In pictures under half the scene's size, where grooves
-// are shallower, so are these.
+// second wholly. Smaller depths are mere errors of coarse meshes. In pictures under half the scene's size both shrink
+// with the picture, since grooves have fewer pixels of depth there.
 const vec2 COVERS_PX = vec2(2.0, 6.0);
 
 // Depth and body id of the pixel at a place.
@@ -151,8 +151,8 @@ vec3 wide_mean(vec2 center_px, float id, vec3 lab, float free) {
     return sum / 8.0;
 }
 
-// How much detail the stroke's own body has around it: change of colour, outline, highlight, 0..1 each. A smooth mean
-// of the body's blocks, so that the blocks of a thin body, which come and go, hardly show.
+// How much detail the stroke's own body has around it: change of colour or turn 0..1.6, outline 0..1, highlight 0..1. A
+// smooth mean of the body's blocks, so that the blocks of a thin body, which come and go, hardly show.
 vec3 detail_at(vec2 center_px, float id) {
     vec2 at = center_px / block_px - 0.5;
     ivec2 last = textureSize(detail, 0) - 1;

@@ -1,10 +1,10 @@
 // Ink on the paper: the blurred wash, the strokes over it, and the effect of the paper on both. It reckons in sRGB
-// values: ink is subtracted from the paper, as in the source's mix.
+// values: wash and strokes each take a share of what is below (the source's mix subtracts instead).
 #include "shared/encode.glsl"
 #include "sumi_e/paper.glsl"
 uniform sampler2D soft;          // silhouette, interior, seal red, body
 uniform sampler2D wide;          // the same, blurred far
-uniform sampler2D strokes;       // what ink subtracts, and how many strokes overlap
+uniform sampler2D strokes;       // the share that ink takes of each channel; alpha grows with overlaps
 uniform vec4 background;         // alpha 0 where the paper is left out
 uniform vec3 ink;
 uniform vec3 seal;
@@ -16,7 +16,7 @@ out vec4 laid;                   // straight alpha, display-linear
 
 const float MOST_INK = 0.97;
 
-// What the wash subtracts from each channel.
+// The share that the wash takes of each channel.
 vec3 wash_at(vec2 at, vec3 here, vec3 slow) {
     float bleed = wetness.x;
     // Ink spreads along fibres and stops where the pulp is thick.
@@ -42,7 +42,7 @@ vec3 wash_at(vec2 at, vec3 here, vec3 slow) {
     dark *= 1.0 - wetness.z * 0.75 * smoothstep(0.02, 0.16, tooth) * smoothstep(0.9, 0.3, run.r);
     red = clamp(run.b / max(run.a, 1e-3), 0.0, 1.0);
     dark = mix(dark, max(dark, 0.44 * run.b + 0.5 * run.g), red);
-    // The wash is weaker under strokes, but not the red of a seal, which is stamped.
+    // In pictures with strokes the wash is weaker, but not the red of a seal, which is stamped.
     dark *= mix(amounts.x, 1.0, red * red) * amounts.z;
     return clamp(dark, 0.0, MOST_INK) * (1.0 - mix(ink, seal, red));
 }

@@ -26,7 +26,7 @@ vec2 surface_at(vec2 at_px) {
     return texelFetch(depth_and_id, texel, 0).xy;
 }
 
-// How much ink lies past the stroke's own body: a little, with a ragged edge, and none over bodies in front.
+// How much ink lies past the stroke's own body: a little, with a ragged edge; over bodies in front only a soft edge.
 float past_body(vec2 here, float tint) {
     float bias = 2.0 * units_per_px_at_1 * mix(own.x, 1.0, orthographic);
     float away_px = length(from_center_px);

@@ -1,10 +1,10 @@
-// Places the four corners of a stroke of ink: a billboard of constant size on the screen, turned in pixels.
+// Places the four corners of a stroke of ink: a quad flat on the screen, with its size and its angle in pixels.
 #include "shared/stroke_shape.glsl"
 layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
 layout(location = 1) in vec4 size;           // length and width in px, facing fade, ln(supply / rank)
 layout(location = 2) in uvec4 marks;         // random bits, body id, albedo, mark
-layout(location = 3) in uvec2 bytes;         // paint, mixing
-layout(location = 4) in vec4 normal_and_bend; // normal in world space; bow of the mark in half widths
+layout(location = 3) in uvec2 bytes;         // opacity, thickness, pickup, dryness (lowest byte first); mixing
+layout(location = 4) in vec4 normal_and_bow; // normal in world space; bow of the mark in half widths
 layout(location = 5) in vec4 reach;          // overrun in px, slow noise of hue and of edges, skew
 layout(location = 6) in vec4 resolved;       // colour and how much is there
 layout(location = 7) in vec4 fitted;         // centre in px after its shift onto its body, how dark it is
@@ -16,7 +16,7 @@ uniform float dryness;           // of the scene
 
 out vec2 mark_at;                // place on the mark, 0..1; on a shaped stroke, px along and across it
 out vec2 from_center_px;
-flat out vec4 ink;               // what it subtracts, and the height at which the mark is cut off
+flat out vec4 ink;               // what it takes from white, and the paint of the mark below which no ink is laid
 flat out vec4 mark;              // its number, level of detail, half its soft edge, bow
 flat out vec4 body;              // opacity, how dry it ends, overrun in px, sign of the flip
 flat out vec2 own;               // depth and id of the body
@@ -34,7 +34,7 @@ void main() {
     }
     float dry = float(bytes.x >> 24) * BYTE;
     float share = 0.98 * (1.0 - dry) * there;
-    // Wet ink has a soft edge.
+    // Half the width of the edge of the ink, in values of the mark's paint: small strokes have soft edges.
     float soft = clamp(2.0 * (size.x + size.y) / (size.x * size.y), 0.03, 0.22);
     ink = vec4((1.0 - resolved.rgb) * fitted.z, mix(1.0 + soft, soft + 0.02, share));
     vec2 along = vec2(cos(place.w), sin(place.w));
@@ -53,8 +53,8 @@ void main() {
     } else {
         level = max(level, 0.0);
     }
-    mark = vec4(float(marks.w & 65535u), level, soft, normal_and_bend.w);
-    // One stroke in three runs dry before its end.
+    mark = vec4(float(marks.w & 65535u), level, soft, normal_and_bow.w);
+    // Less than half of the strokes run dry towards their ends, each by another amount.
     float runs_dry = float((marks.x >> 8) & 255u) * BYTE;
     body = vec4(float(bytes.x & 255u) * BYTE, dryness * smoothstep(0.55, 1.0, runs_dry), reach.x,
                 (marks.w & 65536u) == 0u ? 1.0 : -1.0);

@@ -1,15 +1,15 @@
 // One stroke per vertex: finds its ink, its presence, and where it lies on its body.
 #include "shared/lens.glsl"
 layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
-layout(location = 1) in vec4 size;           // length and width in px, fade near edge-on, ln of the supply
+layout(location = 1) in vec4 size;           // length and width in px, facing fade, ln(supply / rank)
 layout(location = 2) in uvec4 marks;         // random bits, body id, albedo, mark
 layout(location = 3) in uvec2 bytes;         // paint, mixing
-layout(location = 4) in vec4 normal_and_bend; // world space, half widths
+layout(location = 4) in vec4 normal_and_bow; // normal in world space; bow of the mark in half widths
 layout(location = 5) in vec4 reach;          // overrun in px, slow noise of hue and of edges, skew
 
 uniform mat4 view_from_world;
 uniform sampler2D depth_and_id;
-uniform sampler2D shares;        // of each body: how much of its ink is laid
+uniform sampler2D shares;        // of each body: 0 for a backdrop, which gets no ink, else 1
 uniform sampler2D soft;          // silhouette, interior, seal red, body
 uniform sampler2D pigments;      // a row for each palette, display values, w how far strokes keep to them, 0 past the last
 uniform vec3 ink;
@@ -19,7 +19,7 @@ uniform int kind;                // layer of paint
 out vec4 resolved;               // display colour and how much is there
 out vec4 fitted;                 // centre in px where it lies on its body, how dark, unused
 
-// The layers of paint, in the order in which they are laid on.
+// The layers of paint that have ink strokes, numbered as in `LayerKind`.
 const int BODY = 1;
 const int FORM = 2;
 const int SCUMBLE = 3;
@@ -49,7 +49,7 @@ vec2 surface_at(vec2 at_px) {
 
 // How much of the centre is visible: taps around it, each compared with the depth of the stroke's own plane there.
 float seen(mat2 turn) {
-    vec3 n = mat3(view_from_world) * normal_and_bend.xyz;
+    vec3 n = mat3(view_from_world) * normal_and_bow.xyz;
     float unit = units_per_px(place.z);
     float slant = max(abs(n.z), 0.2);
     float radius_px = max(0.28 * sqrt(size.x * size.y), 2.0);

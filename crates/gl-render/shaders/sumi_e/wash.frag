@@ -1,8 +1,8 @@
-// The ink on each pixel of the bodies before it is blurred: silhouette, interior, seal red, all times the body's share.
+// The ink on each pixel of the bodies before it is blurred: silhouette, interior, seal red; none on a backdrop.
 #include "shared/lens.glsl"
 #include "shared/oklab.glsl"
 #include "sumi_e/ramp.glsl"
-uniform sampler2D shares;        // of each body: how much of its ink is laid
+uniform sampler2D shares;        // of each body: 0 for a backdrop, which gets no ink, else 1
 uniform sampler2D normal;        // world space
 uniform sampler2D depth_and_id;
 uniform sampler2D albedo_and_lit;

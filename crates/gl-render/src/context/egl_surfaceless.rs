@@ -55,7 +55,8 @@ struct Functions {
 impl Functions {
     fn load() -> Result<Self, String> {
         let library = first_library(&LIBRARIES)?;
-        // SAFETY: the names and signatures are those of the EGL 1.5 specification.
+        // SAFETY: names and signatures are those of EGL 1.5. The two functions that give a display differ only in the
+        // type of their attribute list, which is always null here.
         unsafe {
             let get_proc_address: GetProcAddress = symbol(&library, c"eglGetProcAddress")?;
             let platform_display = [c"eglGetPlatformDisplay", c"eglGetPlatformDisplayEXT"]

@@ -23,7 +23,7 @@ pub(crate) struct Buffer {
     capacity: usize,
 }
 
-/// The largest allowed buffer: some of OpenGL's functions take sizes as `i32`, and no frame needs this much.
+/// The largest allowed buffer: `glow` takes sizes of buffers as `i32`, and no frame needs this much.
 const MAX_BYTES: usize = 1 << 30;
 
 impl Buffer {

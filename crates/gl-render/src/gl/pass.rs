@@ -28,8 +28,8 @@ pub(crate) struct DrawState {
     pub blend: Blend,
     /// Clears every colour target to this colour; `None` keeps what they hold.
     pub clear: Option<[f32; 4]>,
-    /// For shadow maps: pushes surfaces away from the eye a little, so that they cast no shadow on themselves, and
-    /// clamps depth, so that surfaces before the near plane cast shadows too.
+    /// For shadow maps: pushes surfaces away from the light a little, so that they cast no shadow on themselves, and
+    /// clamps depth, so that surfaces between the light and the near plane cast shadows too.
     pub casts_shadow: bool,
 }
 

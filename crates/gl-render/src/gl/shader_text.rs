@@ -97,7 +97,8 @@ fn included(line: &str) -> Option<&str> {
 }
 
 impl Expanded {
-    /// Puts our file names into the compiler's messages: `1:12(5)`, `1(12)` and `ERROR: 1:12` all become `path:12`.
+    /// Puts our file names into the compiler's messages: `1:12` (as in `1:12(5)` and `ERROR: 1:12`) and `1(12)` become
+    /// `path:12`.
     pub(super) fn name_places(&self, log: &str) -> String {
         log.lines().map(|line| self.name_place(line)).collect::<Vec<_>>().join("\n").trim().to_owned()
     }

@@ -10,7 +10,8 @@ use crate::gl::{Format, GlError, Gpu, Texture};
 /// A texel of a mark: paint, height, tint, unused.
 pub(super) type Texel = [u8; 4];
 
-/// How many amounts of paint have a box of their own; `paint.vert` has the same number.
+/// How many thresholds of paint, evenly spaced from 0, have a box of their own; `rotating_strokes/paint.vert` has the
+/// same number.
 const STEPS: usize = 32;
 
 /// A box: start and end along the mark, then start and end across it, as shares of the mark. Where there is no paint,
@@ -28,7 +29,7 @@ pub(super) fn texture(gpu: &Gpu, marks: &[Vec<Texel>]) -> Result<Texture, GlErro
 
 const NOWHERE: Bounds = [1.0, 0.0, 1.0, 0.0];
 
-/// For each amount of paint, the box around the texels with more paint than that.
+/// For each threshold of paint, the box around the texels with more paint than that.
 fn of_mark(texels: &[Texel]) -> [Bounds; STEPS] {
     let (mut along, mut across) = ([0; SIZE[0]], [0; SIZE[1]]);
     for (y, row) in texels.chunks_exact(SIZE[0]).enumerate() {

@@ -2,7 +2,8 @@
 //! what is behind it, and may glow. Such bodies are drawn after the rest of the reference picture, the farthest first.
 //!
 //! Passes:
-//! - for each body, `place` (writes depth and id), then `look` (blends the colour, and writes the target `glow`);
+//! - for each body, `place` (writes depth and id, and a normal of 0), then `look` (blends the colour, hides highlights
+//!   behind it, and writes the target `glow`);
 //! - `background`, under these bodies where nothing else is behind them;
 //! - if something glows, `gather`, `spread` (twice) and `bloom`. They use two targets of a quarter of the width and
 //!   height.
@@ -87,7 +88,7 @@ impl NoiseDisplace {
         Ok(())
     }
 
-    /// Lets its targets go.
+    /// Lets its targets go, and with them the programs of the bloom.
     pub(crate) fn let_go(&mut self) {
         (self.targets, self.bloom) = (None, None);
     }
@@ -198,7 +199,7 @@ fn set_layers<'a>(bound: Bound<'a>, layers: &NoiseLayers, travelled: Vec2, tiles
 struct Placed<'a> {
     index: usize,
     body: &'a FrameBody,
-    /// How far its centre is from the eye.
+    /// Depth of its centre along the gaze.
     depth: f32,
     /// The box that decides whether it is within another body.
     bounds: Option<(Vec3, Vec3)>,
@@ -214,7 +215,8 @@ impl<'a> Placed<'a> {
         let (low, high) = bounds.unwrap_or_default();
         let center = body.world_from_model.transform_point3((low + high) * 0.5);
         let depth = -frame.view.view_from_world.transform_point3(center).z;
-        // Noise swings about the surface at rest, and the order must not swing with it.
+        // Noise moves the vertices to and fro. Whether a body is within another must not change with that, so the
+        // surface at rest decides.
         let is_displaced = body.noise.as_ref().is_some_and(|noise| noise.noise.vertex.is_some());
         Self { index, body, depth, bounds: if is_displaced { mesh.bounds } else { bounds } }
     }

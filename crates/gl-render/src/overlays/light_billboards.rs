@@ -18,7 +18,7 @@ use crate::shader_files::{LIGHT_BILLBOARDS, SHARED};
 /// A picture that stands at a place and faces the camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightBillboard {
-    /// Its centre, world space.
+    /// Its centre, in the scene's own world space.
     pub position: DVec3,
     /// What it shows.
     pub icon: BillboardIcon,
@@ -51,8 +51,8 @@ pub enum BillboardSize {
 }
 
 impl LightBillboard {
-    /// Its corners in world space at (u, v) = (0, 0), (1, 0), (0, 1) and (1, 1), in a picture of this height. `None` if
-    /// it is nearer than the near plane or has no size, so that nothing shows.
+    /// Its corners in the frame's world space at (u, v) = (0, 0), (1, 0), (0, 1) and (1, 1), in a picture of this
+    /// height. `None` if it is nearer than the near plane or has no size, so that nothing shows.
     pub fn corners(&self, view: &FrameView, height_px: u32) -> Option<[Vec3; 4]> {
         let depth = -view.view_from_world.transform_point3(self.seen_from(view)).z;
         let half = match self.size {
@@ -67,7 +67,7 @@ impl LightBillboard {
         Some([center - right - up, center + right - up, center - right + up, center + right + up])
     }
 
-    /// Its place in the space of the frame.
+    /// Its centre in the frame's world space, whose origin is [`FrameView::origin_in_world`].
     fn seen_from(&self, view: &FrameView) -> Vec3 {
         (self.position - view.origin_in_world).as_vec3()
     }
@@ -117,7 +117,7 @@ const BILLBOARD: ProgramSource = ProgramSource::new(
 /// A ring is drawn as this many straight pieces.
 const RING_PIECES: u32 = 64;
 
-/// An icon that passes behind something fades out over this share of its distance from the camera.
+/// An icon that passes behind something is dimmed, wholly when it lies this share of its depth behind.
 const SOFTNESS: f32 = 0.03;
 
 /// Draws billboards.
@@ -146,7 +146,7 @@ impl LightBillboards {
     }
 
     /// Draws billboards over the picture in `output`, the farthest first. `depth_and_id` is the reference pass's
-    /// texture: behind the surfaces in it, billboards fade out.
+    /// texture: behind the surfaces in it, billboards are dimmed.
     pub(crate) fn draw(
         &self,
         billboards: &[LightBillboard],

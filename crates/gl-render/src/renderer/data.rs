@@ -68,8 +68,8 @@ impl Renderer {
         style.map_or_else(Vec::new, |style| style.take_layers())
     }
 
-    /// The paint's own surface in the last picture, whose paint must have been gathered; `None` for styles without
-    /// strokes.
+    /// The paint's own surface in the last picture, whose paint must have been gathered; `None` where the style
+    /// has none.
     pub fn read_paint_surface(&self) -> Option<PaintSurface> {
         let width = self.painted.as_ref()?.pass.size_px()[0] as usize;
         let found = self.last_renderer()?.read_paint_surface()?;

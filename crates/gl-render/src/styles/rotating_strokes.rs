@@ -1,8 +1,9 @@
 //! Brush strokes that turn with what they lie on.
 //!
-//! Targets: `detail` (where small strokes are wanted), `paint` (premultiplied, linear), `height` (of the paint),
-//! `below` (the picture before a layer), `soft height`. Passes: detail, spread (twice), resolve (finds colour,
-//! presence and place of each stroke), paint (a billboard per stroke, one layer after the other), soften, finish.
+//! Targets: `fine` and `surface` (depth and body of each sample, of each pixel), `detail` (where small strokes are
+//! wanted), `paint` (premultiplied, linear), `height` (of the paint), `below` (the picture before a layer),
+//! `soft height`. Passes: coverage (samples, then pixels), detail, spread (twice), resolve (finds colour, presence and
+//! place of each stroke), paint (a billboard per stroke, one layer after the other), soften, finish.
 
 mod canvas;
 mod coverage;
@@ -163,7 +164,7 @@ impl RotatingStrokes {
         }
     }
 
-    /// Lays a layer of paint; in several pieces if the caller may stop.
+    /// Lays a layer of paint; in several pieces if the caller may stop or the paint is gathered.
     fn paint(
         &mut self,
         input: &StyleInput<'_>,
@@ -205,8 +206,8 @@ impl RotatingStrokes {
         let (Some(targets), Some(marks)) = (&self.targets, self.strokes.marks()) else { return Ok(()) };
         let frame = input.frame;
         let programs = self.programs(frame.quality);
-        // Layers without tapered or bent strokes use the cheaper program.
         let data = self.data_of(input);
+        // Layers without tapered or bent strokes use the cheaper program.
         let (program, with_shape) = match (data, &programs.shaped_paint) {
             (Some(data), _) => (data.paint(has_shape), has_shape),
             (None, Some(shaped)) if has_shape => (shaped, true),
@@ -457,7 +458,8 @@ fn strokes_of<'a>(input: &'a StyleInput<'_>, layer: LayerRun) -> &'a [Stroke] {
     &input.frame.strokes[layer.first as usize..][..layer.count as usize]
 }
 
-/// Splits strokes into runs whose quads cover about `most_px` pixels at most; returns how many strokes each run has.
+/// Splits strokes into runs that cover `most_px` pixels at most (length times width; a larger stroke is a run of its
+/// own). Returns how many strokes each run has.
 fn pieces(strokes: &[Stroke], most_px: f32) -> Vec<u32> {
     let mut pieces = vec![0];
     let mut covered_px = 0.0;

@@ -251,7 +251,8 @@ impl StyleRenderer for SumiE {
     }
 }
 
-/// Clears a target to white and draws every body into it; `set_own` sets the program's own uniforms.
+/// Clears a target to white and draws into it all bodies but hidden ones and backdrops; `set_own` sets the program's
+/// own uniforms.
 fn draw_bodies(
     gpu: &Gpu,
     input: &StyleInput<'_>,

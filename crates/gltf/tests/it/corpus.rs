@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use impasto_gltf::{Finding, Gltf, Severity, read};
 
-/// The folder of the glTF corpus, if there is one here.
+/// The folder of the glTF corpus; `None` if `IMPASTO_CORPUS` is not set.
 fn folder() -> Option<PathBuf> {
     let folder = std::env::var_os("IMPASTO_CORPUS").map(|corpus| Path::new(&corpus).join("gltf"));
     if folder.is_none() {

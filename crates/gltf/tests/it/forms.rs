@@ -182,7 +182,8 @@ fn what_is_not_read_is_refused_by_name() {
     }
 }
 
-/// Draco as Blender writes it without `extensionsRequired`: its accessors have no numbers, and would be read as zeros.
+/// Draco compression that `extensionsRequired` does not name: the accessors have no buffer view, and would be read as
+/// zeros.
 #[test]
 fn compressed_primitives_are_not_zeros() {
     let document = json!({

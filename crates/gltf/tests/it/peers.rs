@@ -1,5 +1,5 @@
 //! Reads the files of Debian's package `assimp-testmodels`, and compares how many triangles they have with what the
-//! `gltf` crate counts. Skipped where the package is not installed; `cargo xtask test` installs it.
+//! outside crate `gltf` counts. Skipped where the package is not installed; `cargo xtask test` installs it.
 
 use std::path::{Path, PathBuf};
 
@@ -16,7 +16,7 @@ fn files(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// Triangles as the `gltf` crate counts them; `None` where it does not read the file.
+/// Triangles as the outside crate `gltf` counts them; `None` where it does not read the file.
 fn triangles_of_peer(path: &Path) -> Option<usize> {
     use gltf::mesh::Mode;
     let read = std::panic::catch_unwind(|| {

@@ -1,4 +1,4 @@
-//! Measures M11, authoring: what was stated must not change when the scene is saved and read again, when its frames are
+//! Measures M11, authoring: strokes must not change when the scene is saved and read again, when its frames are
 //! made in another order, or when it has twice the particles.
 
 use std::path::Path;

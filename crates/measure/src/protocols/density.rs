@@ -1,5 +1,5 @@
 //! Measures M14, the density of strokes: on the largest object while the camera zooms in, and on a tilted flat sheet
-//! that is painted with the same settings.
+//! with strokes of the same size and coverage.
 
 use std::sync::Arc;
 
@@ -28,8 +28,8 @@ const SHEET_PX: u32 = 2048;
 /// Strokes are counted within this share of the sheet's sides: near its border, strokes from beyond it are missing.
 const WINDOW: f64 = 0.85;
 
-/// Above this many wanted strokes per particle, particles run out: even when every particle shows its stroke, fewer
-/// show than are wanted.
+/// Above this many wanted strokes per particle, particles run out: strokes fade over a range of ranks, and the part of
+/// it above 1 has no particles, so fewer show than are wanted.
 const RUN_OUT: f64 = 0.82;
 
 /// The strokes of an object in one view.

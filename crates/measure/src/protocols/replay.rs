@@ -1,5 +1,5 @@
 //! Measures M13, loop and replay: whether a frame gives the same picture after other frames, alone, and with the other
-//! driver.
+//! driver, and whether a closed shot ends as it begins.
 
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::{Driver, OpenOptions, open};

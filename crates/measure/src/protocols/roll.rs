@@ -33,7 +33,7 @@ const ODD_DEG: [f64; 3] = [7.0, 30.0, 137.0];
 /// With more particles than this, M2 measures each angle at one picture size only.
 const MANY_PARTICLES: usize = 120_000;
 
-/// How the pictures of a rolled camera differ from the picture of the level camera, turned by the same angle.
+/// How the pictures of a rolled camera differ from the picture of the unrolled camera, turned to match.
 #[derive(Default)]
 struct Turned {
     mean: f64,

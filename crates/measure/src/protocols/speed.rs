@@ -1,4 +1,4 @@
-//! M12, speed: wall clock seconds of preparing, solving and drawing; printed, not judged.
+//! M12, speed: wall clock times of preparing, solving and drawing; printed, not judged.
 
 use std::time::Instant;
 

@@ -20,8 +20,8 @@ use crate::warp::{Warp, correspondences, warp_error};
 /// A body whose pixels all move by less than this stands still.
 const STILL_PX: f64 = 0.01;
 
-/// Fixed angles are compared over as many frames as it takes half of the strokes to turn by `TURN_DEG`, but at most
-/// `MOST_FRAMES`.
+/// Fixed angles are compared over as many frames as it takes half of the strokes to turn by `TURN_DEG`; not at all if
+/// that takes more than `MOST_FRAMES`.
 const TURN_DEG: f64 = 12.0;
 const MOST_FRAMES: u32 = 48;
 
@@ -94,7 +94,7 @@ fn keep_moving(correspondences: &mut [Option<[f64; 2]>], motion: &MotionPixels) 
     }
 }
 
-/// The warp error over several frames.
+/// The warp errors between pictures `frames` apart, summed over pixels: only their ratio has a meaning.
 #[derive(Clone, Copy)]
 struct Turned {
     frames: u32,
@@ -110,7 +110,7 @@ fn turned(context: &mut MeasureContext<'_>) -> Result<Option<Turned>, MeasureErr
     let (first, last) = (timeline.first as f64, timeline.last as f64);
     let painting = context.painting(SceneVersion::Unlit)?;
     let options = context.frame_options(Rotation::On);
-    // Strokes that stand still do not count.
+    // Strokes on bodies that stand still do not count.
     let median_deg = |frame: f64, frames: f64| {
         let [before, after] =
             [frame, frame + frames].map(|frame| strokes_by_key(&painting.at(frame, &options), &[]));

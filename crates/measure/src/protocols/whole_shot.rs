@@ -7,10 +7,12 @@ use impasto_painting::Rotation;
 use super::FEW_FRAMES;
 use crate::chatter::{Place, Share};
 use crate::context::{DrawnFrame, MeasureContext};
+use crate::covered::{covered, overruns_px};
 use crate::figures::Spread;
 use crate::flicker::{Along, SEEN};
 use crate::metric::Metric;
 use crate::options::MeasureError;
+use crate::plane::Plane;
 use crate::report::{Counts, LEAST_STROKES, Reading, Row, Series, Verdict};
 use crate::shot::WholeShot;
 use crate::steps::Shown;
@@ -22,47 +24,78 @@ use impasto_painting::frame::LayerKind;
 /// by a part of a pixel, which is no flicker.
 const BLUR_PX: f64 = 1.0;
 
-/// How many of the worst coats are named.
+/// How many of the worst coats (M15) or bodies (M16) are named.
 const NAMED: usize = 3;
+
+/// A frame as M17 looks at it.
+struct Looked {
+    drawn: Rc<DrawnFrame>,
+    /// Luma of the picture and of a plain render of it, blurred.
+    lumas: [Plane; 2],
+    /// 1 where paint of a nearer body may lie.
+    covered: Plane,
+}
+
+/// Draws a frame on a board, and plainly.
+fn looked_at(context: &mut MeasureContext<'_>, frame: f64) -> Result<Looked, MeasureError> {
+    let drawn = context.drawn_once(SceneVersion::Board, frame, Rotation::On)?;
+    let plain = context.plain_luma(&drawn.frame)?;
+    let ids = &drawn.reference.body_id;
+    let lumas = [drawn.luma.blurred_within(ids, BLUR_PX), plain.blurred_within(ids, BLUR_PX)];
+    let overruns_px = overruns_px(&drawn.frame.strokes);
+    let covered = covered(drawn.luma.size_px, &drawn.reference, &overruns_px);
+    Ok(Looked { drawn, lumas, covered })
+}
+
+/// For each pixel of a frame, where its surface point is in another one; `None` where it is hidden, or may be covered, in
+/// one of the two.
+fn followed(
+    context: &mut MeasureContext<'_>,
+    now: &Looked,
+    other: &Looked,
+) -> Result<Vec<Option<[f64; 2]>>, MeasureError> {
+    let motion = context.motion(&now.drawn.frame, &other.drawn.frame)?;
+    let mut places = correspondences(&motion, &other.drawn.reference);
+    for (place, &covered_now) in places.iter_mut().zip(&now.covered.values) {
+        let is_free = |[x, y]: &[f64; 2]| covered_now == 0.0 && other.covered.sample(*x, *y) == Some(0.0);
+        *place = place.filter(is_free);
+    }
+    Ok(places)
+}
 
 /// Draws every frame of the shot once and looks at each with its neighbours.
 fn drawn_through(context: &mut MeasureContext<'_>) -> Result<WholeShot, MeasureError> {
     let timeline = &context.loaded.scene.timeline;
     let (first, last) = (timeline.first, timeline.last);
     let mut found = WholeShot::default();
-    let mut drawn: Vec<Rc<DrawnFrame>> = Vec::new();
+    let mut three: Vec<Looked> = Vec::new();
     let height_px = f64::from(context.size_px[1]);
     for frame in first..=last {
         let frame = frame as f64;
-        drawn.push(context.drawn_once(SceneVersion::Board, frame, Rotation::On)?);
+        three.push(looked_at(context, frame)?);
         found.frames += 1;
-        if drawn.len() > 3 {
-            drawn.remove(0);
+        if three.len() > 3 {
+            three.remove(0);
         }
-        if let [.., before, now] = drawn.as_slice() {
+        if let [.., before, now] = three.as_slice() {
             let steps = found.steps.count();
-            let [before, now] = [before, now].map(|drawn| shown(drawn));
+            let [before, now] = [before, now].map(|looked| shown(&looked.drawn));
             found.steps.add(frame, before, now, context.size_px);
             found.steps_by_frame.push((frame, found.steps.count() - steps));
         }
-        let [before, now, after] = drawn.as_slice() else { continue };
+        let [before, now, after] = three.as_slice() else { continue };
         let middle = frame - 1.0;
         let chatter = found.chatter.whole();
-        let strokes = [before, now, after].map(|drawn| &drawn.strokes);
-        found.chatter.add(middle, strokes, height_px);
+        found.chatter.add(middle, [before, now, after].map(|looked| &looked.drawn.strokes), height_px);
         let all = found.chatter.whole();
         let share = (all.found - chatter.found) / (all.of - chatter.of).max(1) as f64;
         found.chatter_by_frame.push((middle, 100.0 * share));
-        let places = [before, after].map(|other| -> Result<_, MeasureError> {
-            let motion = context.motion(&now.frame, &other.frame)?;
-            Ok(correspondences(&motion, &other.reference))
-        });
-        let [before_at, after_at] = places;
+        let [before_at, after_at] = [before, after].map(|other| followed(context, now, other));
         let along = Along { before: &before_at?, after: &after_at? };
         let flickering = (found.flicker.flickering, found.flicker.pixels);
-        let lumas =
-            [before, now, after].map(|drawn| drawn.luma.blurred_within(&drawn.reference.body_id, BLUR_PX));
-        found.flicker.add(middle, lumas.each_ref(), &along);
+        let [painted, plain] = [0, 1].map(|which| [before, now, after].map(|looked| &looked.lumas[which]));
+        found.flicker.add(middle, painted, &along);
+        found.plain_flicker.add(middle, plain, &along);
         let pixels = (found.flicker.pixels - flickering.1).max(1);
         let share = (found.flicker.flickering - flickering.0) as f64 / pixels as f64;
         found.flicker_by_frame.push((middle, 100.0 * share));
@@ -201,7 +234,7 @@ pub(super) fn flicker(
     let mut row = Row::new(
         Metric::M17,
         format!(
-            "{TAKEN_ON}; second difference of luma, blurred by a pixel, along the motion, where a point is seen in three frames"
+            "{TAKEN_ON}; second difference of luma, blurred by a pixel, along the motion, where a point is seen in three frames and no paint of a nearer body reaches"
         ),
         "99.9 % of pixels ≤ 0.018; above 6 of 255 ≤ 0.01 %",
     );
@@ -209,9 +242,15 @@ pub(super) fn flicker(
     let found = &shot.flicker;
     row.counts = Counts { strokes: 0, pixels: found.pixels, frames: shot.frames };
     let share = found.flickering as f64 / found.pixels.max(1) as f64;
+    let plain = &shot.plain_flicker;
+    let plain_share = plain.flickering as f64 / plain.pixels.max(1) as f64;
     row.values = vec![
         Reading::one("99.9 % of pixels are below", "of 1", found.percentile(0.999)),
         Reading::one(format!("pixels above {SEEN} of 255"), "%", 100.0 * share),
+    ];
+    row.baselines = vec![
+        Reading::one("plain render: 99.9 % of pixels are below", "of 1", plain.percentile(0.999)),
+        Reading::one(format!("plain render: pixels above {SEEN} of 255"), "%", 100.0 * plain_share),
     ];
     row.notes.extend(
         found.worst.map(|place| format!("{}: by {:.0} of 255", place_words(context, place), place.amount)),

@@ -1,14 +1,13 @@
 //! Finds what pulls at each sample of the direction field: its stated direction, the guides, the curvature.
 
 use impasto_core::direction::field::{Constraint, FieldGraph};
-use impasto_core::direction::{curvature, tangent_axes};
+use impasto_core::direction::{Symmetry, curvature, tangent_axes};
 use impasto_scene::document::{Bend, Direction, GuideMode, Seam};
 use rayon::prelude::*;
 
 use super::guides::FIRM;
 use super::inputs::{FieldInputs, SamplePoint};
 use super::samples::FieldSamples;
-use crate::stated::symmetry;
 
 /// Where no reference faces the surface, the stated direction is a guess. It pulls weakly: directions that are known
 /// win over it up to a distance of about this share of the body's size.
@@ -65,15 +64,19 @@ impl FieldInputs {
     }
 
     /// What pulls at one sample, except the curvature.
-    pub(super) fn constraint(&self, sample: &SamplePoint, anchor: f64, free: &[bool]) -> Constraint {
+    pub(super) fn constraint(
+        &self,
+        sample: &SamplePoint,
+        anchor: f64,
+        free: &[bool],
+        symmetry: Symmetry,
+    ) -> Constraint {
         let spacings = GUESS_REACH * self.extent.1 / self.samples.spacing;
         let guess = NEIGHBOURS / (spacings * spacings).max(1.0);
         let weakest = if free[sample.point.rule] || anchor < 1.0 { FAINT } else { guess };
         // Inside a soft seam the stated direction pulls little, so that the field joins the two sides.
         let mut weight = weakest + FIRM * anchor.powi(12) * sample.base.exact.powi(2);
         let mut target = sample.stated;
-        let rule = &self.rules[sample.point.rule];
-        let symmetry = symmetry(rule);
         let views = || self.references.views(sample.point, |_| None);
         for guide in self.guides_of(sample.point.rule).filter(|guide| guide.mode == GuideMode::Comb) {
             let least = LEAST_REACH_SPACINGS * self.samples.spacing;
@@ -89,13 +92,14 @@ impl FieldInputs {
         Constraint { target, weight }
     }
 
-    /// Adds the pull of the curvature where a rule asks for it. The more the two principal curvatures differ, the
-    /// stronger it pulls.
+    /// Where a rule asks for the curvature, it replaces every constraint that pulls less than it does. The more the two
+    /// principal curvatures differ, the stronger it pulls.
     pub(super) fn with_curvature(
         &self,
         graph: &FieldGraph,
         points: &[SamplePoint],
         mut constraints: Vec<Constraint>,
+        symmetry: Symmetry,
     ) -> Vec<Constraint> {
         let FieldSamples { positions, normals, spacing, .. } = &*self.samples;
         let bends = |sample: &SamplePoint| match self.rules[sample.point.rule].direction {
@@ -119,7 +123,6 @@ impl FieldInputs {
             // difference of the two angles.
             let pull = 30.0 * ((most - least) * spacing).clamp(0.0, 0.5);
             if pull > constraint.weight {
-                let symmetry = symmetry(&self.rules[points[sample].point.rule]);
                 let target = symmetry.encode(direction, tangent_axes(normal));
                 *constraint = Constraint { target, weight: pull };
             }

@@ -40,7 +40,7 @@ pub(crate) struct FieldInputs {
 pub(super) struct SamplePoint {
     pub(super) point: SurfacePoint,
     pub(super) base: StatedDirection,
-    /// The stated direction, as a unit complex number (`impasto_core::direction`).
+    /// The stated direction, as a unit complex number in the body's symmetry (`impasto_core::direction`).
     pub(super) stated: DVec2,
 }
 
@@ -59,7 +59,7 @@ impl PartialEq for FieldInputs {
 }
 
 impl FieldInputs {
-    /// Whether any rule of the body may need a field; where not, nothing is sampled.
+    /// Whether a rule or a guide of the body may need a field; if none does, no field samples are made.
     pub(crate) fn may_be_needed(used: &[u16], rules: &[RegionRule], guides: &[BodyGuide]) -> bool {
         let needs = |rule: &RegionRule| {
             matches!(rule.direction, Direction::Angle(_) | Direction::Crossing(..) | Direction::Curvature(_))
@@ -86,21 +86,21 @@ impl FieldInputs {
             automatic: self.parts.directions(self.references.own()),
             extent: self.extent,
         };
+        let symmetry = self.symmetry();
         let samples = self.samples.particles.par_iter().with_min_len(256);
-        samples.map(|sample| self.point(sample, &stated)).collect()
+        samples.map(|sample| self.point(sample, &stated, symmetry)).collect()
     }
 
-    /// The symmetry of the whole body: arrows only where all its samples have them.
-    pub(super) fn symmetry(&self, points: &[SamplePoint]) -> Symmetry {
-        let of = |sample: &SamplePoint| symmetry(&self.rules[sample.point.rule]);
-        if !points.is_empty() && points.iter().all(|sample| of(sample) == Symmetry::Arrows) {
-            Symmetry::Arrows
-        } else {
-            Symmetry::Lines
-        }
+    /// The symmetry of the whole body, in which all its samples are encoded: arrows only where all of them have arrows.
+    pub(super) fn symmetry(&self) -> Symmetry {
+        let samples = &self.samples.particles;
+        let has_arrows = |sample: &Particle| {
+            symmetry(&self.rules[usize::from(self.regions.of(sample))]) == Symmetry::Arrows
+        };
+        if !samples.is_empty() && samples.iter().all(has_arrows) { Symmetry::Arrows } else { Symmetry::Lines }
     }
 
-    fn point(&self, sample: &Particle, stated: &DirectionRules<'_>) -> SamplePoint {
+    fn point(&self, sample: &Particle, stated: &DirectionRules<'_>, symmetry: Symmetry) -> SamplePoint {
         let rule = usize::from(self.regions.of(sample));
         let part = self.parts.of_triangle[sample.triangle as usize] as usize;
         let (position, normal) = (sample.position.as_dvec3(), sample.normal.as_dvec3());
@@ -108,7 +108,7 @@ impl FieldInputs {
             SurfacePoint { place: PackedParticle::of(sample), position, height: 0.0, normal, rule, part };
         let views = self.references.views(point, |_| None);
         let base = stated.base(point, &views);
-        let stated = symmetry(&self.rules[rule]).encode(base.tangent, tangent_axes(normal));
+        let stated = symmetry.encode(base.tangent, tangent_axes(normal));
         SamplePoint { point, base, stated }
     }
 

@@ -7,11 +7,11 @@ use bytemuck::{Pod, Zeroable};
 pub struct Lines {
     /// The vertices of all strips.
     pub vertices: Vec<LineVertex>,
-    /// A strip of triangles for each piece of a touch that is in front of the camera, in painting order.
+    /// A strip of triangles for each piece of a touch that can be seen, in painting order.
     pub strips: Vec<LineStrip>,
 }
 
-/// A strip of triangles: vertices on the left and the right of a line in turn.
+/// A strip of triangles: vertices on the right and the left of a line in turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LineStrip {
     /// Index of the touch in the frame's strokes.

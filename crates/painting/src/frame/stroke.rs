@@ -35,7 +35,7 @@ pub struct Stroke {
     /// Albedo at the stroke, sRGB encoded, 8 bits a channel, as 0xAABBGGRR. A is 0 for unlit surfaces. A is
     /// [`Stroke::AS_IT_IS`] if the stroke is painted in exactly this colour.
     pub albedo_srgb8: u32,
-    /// Index of the mark in [`super::Frame::brushes`], counted over all brushes; bit 16 flips it across.
+    /// Index of the mark in [`super::Frame::brushes`], counted over all brushes, and [`Stroke::FLIPPED`].
     pub mark: u32,
     /// The paint.
     pub paint: Paint,
@@ -43,7 +43,8 @@ pub struct Stroke {
     pub mixing: Mixing,
     /// Unit surface normal in world space.
     pub normal_in_world: [f32; 3],
-    /// How far the mark bows to its left in the middle, in half widths.
+    /// How far the mark is bowed: its ends lie 0.176 × `bow` half widths to the left of its middle, or to the right
+    /// where it is flipped.
     pub bow: f32,
     /// How far paint may run past its own body, output pixels; from [`Stroke::FREE`] on without limit.
     pub overrun_px: f32,
@@ -52,7 +53,7 @@ pub struct Stroke {
     /// How far the stroke's left side is pushed forward against its right side, as a share of its width; 0 for a
     /// billboard.
     pub skew: f32,
-    /// How much narrower the stroke is at its end than at its start, −1..=1; `width_px` is its mean width.
+    /// −1..=1: the stroke is (1 + taper) times `width_px` wide at its start and (1 − taper) times at its end.
     pub taper: f32,
     /// How far the stroke turns to its left from start to end, radians; its middle lies at `angle_rad`. At most
     /// [`Stroke::most_bend_rad`] either way.
@@ -111,14 +112,17 @@ impl Default for Stroke {
 }
 
 impl Stroke {
+    /// The bit of [`Stroke::mark`] that flips the mark across.
+    pub const FLIPPED: u32 = 1 << 16;
+
     /// The overrun of strokes that are not clipped to their body.
     pub const FREE: f32 = 1e6;
 
     /// The A in [`Stroke::albedo_srgb8`] of a stroke that is painted in exactly that colour.
     pub const AS_IT_IS: u8 = 128;
 
-    /// The most that a stroke can bend, radians: half a turn, or less where its inner edge would reach the middle of
-    /// the arc.
+    /// The most that a stroke can bend, radians: half a turn, or less where its inner edge would come near the centre
+    /// of the arc.
     pub fn most_bend_rad(&self) -> f32 {
         const CLOSEST: f32 = 0.9;
         let half_quad_px = 0.5 * self.width_px * (1.0 + self.taper.abs()) / impasto_core::brush::FILL;
@@ -140,9 +144,9 @@ impl Stroke {
 /// Where a stroke comes from, and how far its angle can be trusted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StrokeSource {
-    /// Index of the particle in the painting order of all particles.
+    /// Index of the particle in the painting order of all particles; `u32::MAX` for a touch.
     pub place: u32,
-    /// Index of the particle in the progressive order of its object's layer.
+    /// Index of the particle in the progressive order of its object's layer; of a touch, its index in the scene.
     pub particle: u32,
     /// Index of the region in the scene; `regions.len()` for the implicit one.
     pub region: u32,
@@ -150,7 +154,7 @@ pub struct StrokeSource {
     pub kappa: f32,
     /// Cosine between the surface normal and the direction to the eye.
     pub facing: f32,
-    /// Rank in (0, 1): low ranks stay longest when strokes thin out.
+    /// Rank in (0, 1): low ranks stay longest when strokes thin out. 0 for a touch.
     pub rank: f32,
 }
 

@@ -74,7 +74,7 @@ impl From<io::Error> for Unfit {
 pub(super) struct ArraysToWrite<'a>(Vec<(Cow<'a, [u8]>, u32)>);
 
 impl<'a> ArraysToWrite<'a> {
-    /// Adds an array that lies in memory as it is written.
+    /// Adds an array whose bytes are written just as they are in memory.
     pub(super) fn push<T: NoUninit>(&mut self, array: &'a [T]) {
         self.0.push((Cow::Borrowed(bytemuck::cast_slice(array)), size_of::<T>() as u32));
     }

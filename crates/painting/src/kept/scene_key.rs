@@ -184,7 +184,7 @@ fn of_pose(pose: Option<&BendPose>, key: &mut KeyHasher) {
     }
 }
 
-/// The shape of an object in a view; its noise does not count there.
+/// The shape of an object in a view, without its noise: particles are counted without it.
 fn of_shape(shape: &BodyShape, surface: &BodySurface, key: &mut KeyHasher) {
     let BodyShape { pose, cache_frame, noise: _ } = shape;
     of_pose(pose.as_deref(), key);

@@ -54,7 +54,7 @@ const MOST_PARTICLES: u64 = 1 << 31;
 pub struct PrepareOptions<'a> {
     /// Called between steps: preparing is given up when it returns true.
     pub give_up: &'a (dyn Fn() -> bool + Sync),
-    /// How much memory the particles may take, bytes; `None` sets no limit.
+    /// How much memory the particles may take, bytes; with `None` only their number is limited.
     pub memory_bytes: Option<u64>,
     /// Gives the process's peak memory since the last call, bytes, or `None` where that is not known.
     pub peak_bytes: &'a dyn Fn() -> Option<u64>,

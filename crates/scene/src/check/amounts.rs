@@ -1,16 +1,18 @@
 //! Checks painted amounts.
 
-use super::regions::{check_object_of, check_radius};
+use super::regions::{check_object_of, check_radius, names_of_objects};
 use super::{Findings, strokes};
 use crate::document::{Amount, PaintedAmount, Scene};
 
 pub(super) fn check(scene: &Scene, findings: &mut Findings) {
+    let object_names = names_of_objects(scene);
     let all = scene.regions.iter().enumerate();
     let all =
         all.flat_map(|(index, region)| region.amounts.iter().enumerate().map(move |of| (index, region, of)));
     for (region_index, region, (index, amount)) in all {
         let path = format!("regions[{region_index}].amounts[{index}]");
-        check_object_of(("amount", &path), scene, region, amount.object.as_ref(), findings);
+        let of = amount.object.as_ref();
+        check_object_of(("amount", &path), (scene, &object_names), region, of, findings);
         check_dabs(&path, amount, findings);
         let bends = amount.of == Amount::Flatness && amount.dabs.iter().any(|dab| dab.by < 1.0);
         if let Some(needs) = strokes::needs_flat_strokes(scene).filter(|_| bends) {

@@ -1,7 +1,7 @@
-//! Checks the document against its meshes: that guides and dabs lie on surfaces, groups have triangles, and a morph has
-//! the topology of its mesh.
+//! Checks the document against its meshes: that guides and dabs lie on surfaces, groups and materials have triangles, a
+//! morph has the topology of its mesh, and a point cache has as many points.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
@@ -13,8 +13,8 @@ use crate::mesh_file::MeshFile;
 use crate::morph;
 use crate::point_cache::PointCache;
 
-/// At most this many distances from guides and dabs to triangles are measured. Guides and dabs after that are not
-/// checked.
+/// Work limit of one check: each point of a guide and each dab counts once for every triangle of its mesh. Guides and
+/// dabs after that are not checked.
 const MOST_DISTANCES: usize = 200_000_000;
 
 pub(super) fn check(
@@ -41,6 +41,7 @@ pub(super) fn check(
     }
     let objects: HashMap<&str, &Object> =
         scene.objects.iter().map(|object| (object.name.as_str(), object)).collect();
+    let mut covered: HashMap<*const MeshFile, Covered<'_>> = HashMap::new();
     let mut left = MOST_DISTANCES;
     for (index, region) in scene.regions.iter().enumerate() {
         let mesh_of = |name: &str| {
@@ -50,7 +51,8 @@ pub(super) fn check(
         if let Some((object, file)) = region.on.object().and_then(mesh_of) {
             let field_path = format!("regions[{index}].on");
             for patch in region.on.patches() {
-                check_covers(&field_path, patch, file, findings);
+                let covered = covered.entry(Arc::as_ptr(file)).or_insert_with(|| Covered::of(file));
+                covered.check(&field_path, patch, findings);
                 if let PatchRef::Dabs(dabs) = patch
                     && !known.dabs.contains(&index)
                 {
@@ -115,27 +117,53 @@ fn morph_name(object: &Object) -> String {
     shown(object.morph.as_deref().unwrap_or_default())
 }
 
-/// Warns of a group or material that the mesh file names but no triangle uses.
-fn check_covers(field_path: &str, patch: PatchRef<'_>, file: &MeshFile, findings: &mut Findings) {
-    let mesh = &file.mesh;
-    if mesh.triangles.is_empty() {
-        return; // A mesh without triangles was reported when it was read.
+/// The groups and materials that a mesh file names but no triangle uses.
+struct Covered<'a> {
+    empty_groups: HashSet<&'a str>,
+    empty_materials: HashSet<&'a str>,
+}
+
+impl<'a> Covered<'a> {
+    fn of(file: &'a MeshFile) -> Self {
+        let mesh = &file.mesh;
+        // A mesh without triangles was reported when it was read.
+        let empty = |names: Vec<&'a str>, used: &[u32]| -> HashSet<&'a str> {
+            let mut is_used = vec![mesh.triangles.is_empty(); names.len()];
+            for &name in used {
+                if let Some(is_used) = is_used.get_mut(name as usize) {
+                    *is_used = true;
+                }
+            }
+            let mut empty = HashSet::new();
+            // Of several with one name, the first counts.
+            let mut seen = HashSet::new();
+            for (name, is_used) in names.into_iter().zip(is_used) {
+                if seen.insert(name) && !is_used {
+                    empty.insert(name);
+                }
+            }
+            empty
+        };
+        let groups = file.groups.iter().map(String::as_str).collect();
+        let materials = file.materials.iter().map(|material| material.name.as_str()).collect();
+        Self {
+            empty_groups: empty(groups, &mesh.group_of_triangle),
+            empty_materials: empty(materials, &mesh.material_of_triangle),
+        }
     }
-    let used = |names: &[u32], name: usize| names.iter().any(|&used| used as usize == name);
-    let (word, name, is_empty) = match patch {
-        PatchRef::Group(group) => {
-            let known = file.groups.iter().position(|known| known == group);
-            ("group", group, known.is_some_and(|known| !used(&mesh.group_of_triangle, known)))
+
+    /// Warns of a patch that covers nothing.
+    fn check(&self, field_path: &str, patch: PatchRef<'_>, findings: &mut Findings) {
+        let (word, name, is_empty) = match patch {
+            PatchRef::Group(group) => ("group", group, self.empty_groups.contains(group)),
+            PatchRef::Material(material) => ("material", material, self.empty_materials.contains(material)),
+            PatchRef::Whole | PatchRef::Dabs(_) | PatchRef::Flood(..) => return,
+        };
+        if is_empty {
+            let message =
+                format!("the {word} \"{}\" has no triangles: the region covers nothing", shown(name));
+            findings.warning(field_path, message, "give it faces in the mesh file, or remove the region");
         }
-        PatchRef::Material(material) => {
-            let known = file.materials.iter().position(|known| known.name == material);
-            ("material", material, known.is_some_and(|known| !used(&mesh.material_of_triangle, known)))
-        }
-        PatchRef::Whole | PatchRef::Dabs(_) | PatchRef::Flood(..) => return,
-    };
-    if is_empty {
-        let message = format!("the {word} \"{}\" has no triangles: the region covers nothing", shown(name));
-        findings.warning(field_path, message, "give it faces in the mesh file, or remove the region");
     }
 }
 

@@ -11,7 +11,7 @@ use crate::problem::Severity;
 
 pub(super) fn check(scene: &Scene, findings: &mut Findings) {
     findings.unique("regions", scene.regions.iter().map(|region| region.name.as_str()));
-    let object_names: HashSet<&str> = scene.objects.iter().map(|object| object.name.as_str()).collect();
+    let object_names = names_of_objects(scene);
     for (index, region) in scene.regions.iter().enumerate() {
         let region_path = format!("regions[{index}]");
         if let Some(object) = region.on.object().filter(|object| !object_names.contains(object)) {
@@ -36,13 +36,18 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
         for (guide_index, guide) in region.guides.iter().enumerate() {
             let guide_path = format!("{region_path}.guides[{guide_index}]");
             let of = guide.object.as_ref();
-            check_object_of(("guide", &guide_path), scene, region, of, findings);
+            check_object_of(("guide", &guide_path), (scene, &object_names), region, of, findings);
             check_guide(&guide_path, guide, findings);
         }
         strokes::check_of_region(&format!("{region_path}.strokes"), scene, index, findings);
     }
     check_covered(scene, findings);
     check_counts(scene, findings);
+}
+
+/// The names of all objects, to look many names up.
+pub(super) fn names_of_objects(scene: &Scene) -> HashSet<&str> {
+    scene.objects.iter().map(|object| object.name.as_str()).collect()
 }
 
 pub(super) fn unknown_object(field_path: &str, object: &str, scene: &Scene, findings: &mut Findings) {
@@ -121,14 +126,14 @@ pub(super) fn check_radius(field_path: &str, what: &str, radius: f64, findings: 
 /// Checks the `object` that an item of a region states. `what` is the kind of item for messages, such as "guide".
 pub(super) fn check_object_of(
     (what, its_path): (&str, &str),
-    scene: &Scene,
+    (scene, object_names): (&Scene, &HashSet<&str>),
     region: &Region,
     object: Option<&String>,
     findings: &mut Findings,
 ) {
     let field_path = format!("{its_path}.object");
     match (object, region.on.object()) {
-        (Some(object), _) if scene.objects.iter().all(|known| known.name != *object) => {
+        (Some(object), _) if !object_names.contains(object.as_str()) => {
             unknown_object(&field_path, object, scene, findings);
         }
         (Some(object), Some(of_region)) if object != of_region => {

@@ -1,4 +1,4 @@
-//! Checks the picture size, the frames, the camera and the lights.
+//! Checks the picture size, the frames, the references, the camera, the exposure, the lights and the background's keys.
 
 use glam::DVec3;
 

@@ -1,4 +1,4 @@
-//! Checks stroke settings and the style.
+//! Checks stroke settings, the style, and the names of AOVs.
 
 use std::collections::HashSet;
 use std::ops::RangeInclusive;

@@ -16,8 +16,13 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
             findings.limit("touches", message, "remove some: touches are few, and single ones");
         }
     }
+    let object_names = regions::names_of_objects(scene);
     for (index, touch) in scene.touches.iter().enumerate().take(limits::MAX_TOUCHES) {
-        check_touch(&format!("touches[{index}]"), touch, scene, findings);
+        let path = format!("touches[{index}]");
+        if !object_names.contains(touch.on.as_str()) {
+            regions::unknown_object(&format!("{path}.on"), &touch.on, scene, findings);
+        }
+        check_touch(&path, touch, findings);
     }
     if !scene.touches.is_empty() && !scene.style.settings().preparation().lays_touches {
         let message = format!("touches are not painted in the style {}", scene.style.info().name);
@@ -25,11 +30,8 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
     }
 }
 
-fn check_touch(path: &str, touch: &Touch, scene: &Scene, findings: &mut Findings) {
+fn check_touch(path: &str, touch: &Touch, findings: &mut Findings) {
     let field = |name: &str| format!("{path}.{name}");
-    if scene.objects.iter().all(|known| known.name != touch.on) {
-        regions::unknown_object(&field("on"), &touch.on, scene, findings);
-    }
     match touch.points.len() {
         0 => findings.error(
             field("points"),

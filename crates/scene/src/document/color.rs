@@ -1,6 +1,6 @@
 //! Colours as a scene file states them.
 
-/// An sRGB colour, each channel in 0..=1; in the file `"#rrggbb"`.
+/// An sRGB colour, each channel in 0..=1; in the file `"#rrggbb"` or `"#rgb"`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Color(pub [f32; 3]);
 

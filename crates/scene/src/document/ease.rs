@@ -25,11 +25,11 @@ pub enum Ease {
 }
 
 impl Ease {
-    /// The curve that a file would most often want, in the place of one that it does not state: `ease` of CSS.
+    /// The curve that is offered for a key that has none of its own yet: `ease` of CSS.
     pub const USUAL_CURVE: Self = Self::Curve([0.25, 0.1], [0.25, 1.0]);
 
-    /// How far the value has come, 0 at the key and 1 at the next one, when the part `time` of the time from key to key has
-    /// passed. Exactly 0 up to time 0, and 1 from time 1 on. Only [`Ease::Curve`] leaves the range from 0 to 1.
+    /// How far the value has come: 0 at the key, 1 at the next one. `time` is how much of the time between them has
+    /// passed, 0..=1. Exactly 0 up to time 0, and 1 from time 1 on. Only [`Ease::Curve`] leaves the range from 0 to 1.
     pub fn share(self, time: f64) -> f64 {
         if time <= 0.0 {
             return 0.0;
@@ -54,7 +54,7 @@ impl Ease {
     /// The least and the greatest share that it passes.
     pub fn reach(self) -> [f64; 2] {
         let Self::Curve([_, first], [_, second]) = self else { return [0.0, 1.0] };
-        // The derivative, a quadratic in the part of the curve: a·s² + b·s + c.
+        // A third of the derivative of `bezier` by its parameter s: a·s² + b·s + c.
         let (a, b, c) = (1.0 + 3.0 * (first - second), 2.0 * (second - 2.0 * first), first);
         let root = (b * b - 4.0 * a * c).max(0.0).sqrt();
         let turns =
@@ -65,8 +65,8 @@ impl Ease {
             .fold([0.0, 1.0], |[least, most], share| [f64::min(least, share), f64::max(most, share)])
     }
 
-    /// The curve nearest to it in look, as the two handles of [`Ease::Curve`]. `Smooth`, `In`, `Out` and `Linear` are exactly
-    /// such curves; `Step` and `Bounce` are none.
+    /// The two handles of the [`Ease::Curve`] that equals it. No curve equals `Step` or `Bounce`: they get the handles
+    /// of `Linear` and `Out`.
     pub fn handles(self) -> [[f64; 2]; 2] {
         const THIRD: f64 = 1.0 / 3.0;
         match self {
@@ -79,11 +79,10 @@ impl Ease {
     }
 }
 
-/// A ball that falls, and bounces to a quarter, a sixteenth and a 64th of its height: parabolas of one and the same curvature, so
-/// that the times from floor to floor are as 2 × 1/2, 2 × 1/4 and 2 × 1/8 of the first fall (R. Penner, *Motion, Tweening and
-/// Easing*, 2002).
+/// A ball that falls, and bounces to a quarter, a sixteenth and a 64th of its height. All parabolas have one curvature,
+/// so the bounces take 1, 1/2 and 1/4 of the time of the first fall (R. Penner, *Motion, Tweening and Easing*, 2002).
 fn bounced(time: f64) -> f64 {
-    // In units of the first fall, which is 1 of 1 + 1 + 1/2 + 1/4.
+    // Time in units of the first fall; the whole takes 1 + 1 + 1/2 + 1/4 of them.
     let falls = 2.75 * time;
     let (middle, height) = match falls {
         ..1.0 => (0.0, 1.0),
@@ -100,13 +99,14 @@ fn bezier(part: f64, first: f64, second: f64) -> f64 {
     part * (3.0 * rest * (rest * first + part * second) + part * part)
 }
 
-/// Its derivative by `part`.
+/// The derivative of [`bezier`] by `part`.
 fn bezier_slope(part: f64, first: f64, second: f64) -> f64 {
     let rest = 1.0 - part;
     3.0 * (rest * rest * first + 2.0 * rest * part * (second - first) + part * part * (1.0 - second))
 }
 
-/// The part of the curve at which its `x` is this time, by Newton's method; where a step leaves the bracket, by bisection.
+/// The parameter of the curve at which its `x` equals `time`, by Newton's method; where a step leaves the bracket, by
+/// bisection.
 fn part_at(time: f64, first_x: f64, second_x: f64) -> f64 {
     const MOST_STEPS: usize = 80;
     let (mut low, mut high, mut part) = (0.0, 1.0, time);
@@ -121,7 +121,7 @@ fn part_at(time: f64, first_x: f64, second_x: f64) -> f64 {
             high = part
         }
         let newton = part - off / bezier_slope(part, first_x, second_x);
-        // Newton's method has converged long before; what is left to do where it has not is for bisection.
+        // Newton's method mostly converges in far fewer than 12 steps; where it has not, bisection goes on.
         let next = if step < 12 && newton > low && newton < high { newton } else { 0.5 * (low + high) };
         if next == part {
             break;

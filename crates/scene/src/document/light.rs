@@ -37,6 +37,10 @@ pub struct Light {
 }
 
 impl Light {
+    /// How much of the light from above comes from below where an `Ambient` light states no `ground`, by linear channel:
+    /// as if bounced off a warm floor.
+    pub const OFF_THE_FLOOR: [f32; 3] = [0.5, 0.42, 0.34];
+
     /// A white light of intensity 1 without keys, from nowhere yet: suns need a direction, point lights a position.
     pub fn new(name: impl Into<String>, kind: LightKind) -> Self {
         Self {
@@ -58,7 +62,8 @@ impl Light {
 pub enum LightKind {
     /// Parallel light; the first one casts shadows.
     Sun,
-    /// Light from a point, falling off with the square of the distance; casts no shadow.
+    /// Light from a point, falling off with the square of the distance; without a sun, the brightest `Point` or `Spot`
+    /// casts shadows.
     Point,
     /// As `Point`, into a cone with a soft edge.
     Spot,

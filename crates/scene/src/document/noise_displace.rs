@@ -72,7 +72,7 @@ usual_fields! {
     pub struct SurfaceNoise {
         /// Picture file, relative to the scene file; left out, the built-in grey Perlin noise.
         pub texture: Option<String> = None,
-        /// How many layers are multiplied, from 1 to 64; 1 shows the tint alone.
+        /// One more than the number of layers that are multiplied, from 1 to 64; 1 shows the tint alone.
         pub layer_count: u32 = 4,
         /// How fast layers move.
         pub speed: f64 = 1.0; within NOISE_RATE,
@@ -112,7 +112,7 @@ pub enum NoiseForward {
 /// How the product of the layers is brightened again.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 pub enum NoiseMix {
-    /// By the power 1/k for k layers, as the source has it: darker the more layers there are.
+    /// By the power 1/k, where k is `layer_count`, as the source has it: darker the more layers there are.
     #[default]
     Root,
     /// By the power 1/(2(k − 1)), where 2(k − 1) is the number of texture lookups: about as light as the texture for

@@ -34,7 +34,7 @@ macro_rules! number {
 /// Declares a struct of the scene file of which every field may be left out.
 ///
 /// Each field states its usual value behind `=`. A field with its usual value is not saved, unless it is marked
-/// `saved always`. A number states its range behind `within`, and so becomes one of `numbers()`.
+/// `saved always`. A number that states its range behind `within` is one of `numbers()`.
 macro_rules! usual_fields {
     (@is_saved $differs:expr, always) => {
         true

@@ -57,7 +57,7 @@ macro_rules! layer_numbers {
             /// Whether the layer is left out of the picture.
             pub hidden: bool,
             $($(#[doc = $effect])+ pub $field: f32,)+
-            /// How many pixels this layer's paint runs past its body where the body layer's paint runs one pixel.
+            /// Factor on the pixels of [`Edges::Overrun`], by which this layer runs past the border of its body.
             pub overrun: f32,
         }
     };

@@ -1,4 +1,5 @@
-//! Ink on paper, as a scene file states it.
+//! Ink on paper, as a scene file states it. *The source* below is the effect that it follows: see
+//! docs/techniques/sumi_e.md.
 
 use serde::{Deserialize, Serialize};
 
@@ -108,7 +109,8 @@ impl StyleSettings for SumiE {
         }
     }
 
-    /// The numbers' ranges; the tones must rise, and `silhouette_from` must lie below `silhouette_to`.
+    /// The numbers' ranges; `to_light` must not be zero, the tones must lie from 0 to 1 and not fall, and
+    /// `silhouette_from` must lie below `silhouette_to`.
     fn rules(&self) -> Vec<SettingRule> {
         let mut rules: Vec<SettingRule> =
             Self::numbers().map(|number| SettingRule::range(number, self)).collect();

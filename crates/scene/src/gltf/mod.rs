@@ -2,7 +2,8 @@
 //! them as shots.
 //!
 //! A node's mesh includes the uneven scale and shear of the node's place in the world at rest. Turn, place and even
-//! scale are left to the object's pose. Each primitive is a group; materials keep their names.
+//! scale are left to the object's pose. A triangle's group is the one that the file states (`_GROUP`), or else that of
+//! its primitive; materials keep their names.
 
 mod bend;
 mod joints;
@@ -80,7 +81,8 @@ pub(crate) fn open(
     Ok((GltfFile { path: path.to_owned(), gltf, rest, in_scene, materials, sidecar }, warnings))
 }
 
-/// The files that a glTF file in `root` names and that are found there.
+/// The files that are found in `root` and belong to a glTF file there: those that it names, its sidecar, and the point
+/// caches that the sidecar names.
 ///
 /// # Errors
 /// A [`Report`] where the file cannot be read or has errors.
@@ -101,13 +103,17 @@ pub(crate) fn companions(path: &Path, root: &Path) -> Result<BTreeSet<PathBuf>, 
 }
 
 impl GltfFile {
-    /// The whole file at rest as one mesh, with a group for each node.
+    /// The whole file at rest as one mesh. Triangles without a group in the file have their node as group.
     ///
     /// # Errors
     /// It shows no triangle.
     pub fn whole(&self) -> Result<MeshFile, Report> {
-        let placed =
-            |node: usize| self.rest.is_visible[node].then(|| (node, self.rest.world_from_node[node]));
+        let placed = |node: usize| {
+            // The joints of a skin place it in the world, whatever its own node says.
+            let is_skinned = self.gltf.nodes[node].skin.is_some();
+            let place = if is_skinned { DAffine3::IDENTITY } else { self.rest.world_from_node[node] };
+            self.rest.is_visible[node].then_some((node, place))
+        };
         let nodes: Vec<(usize, DAffine3)> = (0..self.gltf.nodes.len()).filter_map(placed).collect();
         let nodes = nodes.iter().filter(|(node, _)| self.gltf.nodes[*node].mesh.is_some());
         surface::mesh_of_nodes(self, nodes).ok_or_else(|| self.bare("the file shows no triangle"))

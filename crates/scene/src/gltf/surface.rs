@@ -15,7 +15,8 @@ use super::materials;
 use crate::mesh_file::MeshFile;
 use crate::surface::{Builder, Built, Geometry};
 
-/// The mesh of several nodes, each placed; `None` where there is no triangle with an area. Groups are the nodes.
+/// The mesh of several nodes, each placed; `None` where there is no triangle with an area. Groups are those that the
+/// file states for its vertices; where it states none, the nodes, by name.
 pub(super) fn mesh_of_nodes<'a>(
     file: &GltfFile,
     nodes: impl Iterator<Item = &'a (usize, DAffine3)>,
@@ -25,8 +26,8 @@ pub(super) fn mesh_of_nodes<'a>(
     joined.finish(file).map(|(mesh, _)| mesh)
 }
 
-/// The mesh of one node, placed, with what bends it; `None` where there is no triangle with an area. Groups are the
-/// primitives.
+/// The mesh of one node, placed, with what bends it; `None` where there is no triangle with an area. Groups are those
+/// that the file states for its vertices; where it states none, the primitives, named by [`group_name`].
 pub(super) fn mesh_of_node(file: &GltfFile, node: (usize, DAffine3)) -> Option<MeshFile> {
     let mut joined = Joined::default();
     let bends = bend::bends(file, node.0);

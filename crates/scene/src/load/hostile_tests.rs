@@ -87,7 +87,7 @@ impl Dice {
     }
 }
 
-/// Cuts a text where words, numbers and signs meet.
+/// Cuts a text into words, numbers and single other characters.
 fn pieces(text: &str) -> Vec<String> {
     let mut pieces: Vec<String> = Vec::new();
     let mut was_word = false;

@@ -23,7 +23,8 @@ pub(super) struct Parsed {
     pub(super) located: Located,
 }
 
-/// Parses a text without byte order mark. Reports all unknown fields at once, but only the first fault of another kind.
+/// Parses a text without byte order mark. Reports the unknown fields up to the first fault of another kind, and that
+/// fault.
 pub(super) fn parse(path: &Path, text: &str) -> Result<Parsed, Report> {
     parse_with(path, text, from_ron).map(|(scene, located)| Parsed { scene, located })
 }

@@ -61,7 +61,7 @@ pub struct Loss {
     pub fix: Option<Fix>,
 }
 
-/// Reads as much of a scene file as can be read.
+/// Reads as much of a scene file as can be read. Of `options`, only the folders are used.
 ///
 /// # Errors
 /// Where there is nothing to open: no file, no text, a newer version, more than this build allows.
@@ -347,8 +347,8 @@ impl Reading<'_> {
         true
     }
 
-    /// Overwrites a field or an item of a list with spaces; if that is overwritten already, the value around it
-    /// instead.
+    /// Overwrites the [`removable_range`] of a field or item with spaces; if that is overwritten already, the one of
+    /// the value around it instead.
     fn blank_for(&mut self, located: &Located, field_path: &str, loss: Listed) -> Result<(), Report> {
         let mut path = field_path.to_owned();
         loop {
@@ -390,7 +390,8 @@ impl Reading<'_> {
     }
 }
 
-/// The range of text to overwrite for a field, with its comma; `None` if only spaces are left of it.
+/// The range of text to overwrite for a field, with its comma: that of the innermost field or list item on its path
+/// that the text states. `None` if only spaces are left of it.
 fn removable_range(located: &Located, field_path: &str, left: &str) -> Option<std::ops::Range<usize>> {
     let mut node = located.root();
     let mut range = None;

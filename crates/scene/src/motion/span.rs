@@ -10,7 +10,7 @@ use crate::document::Key;
 pub(crate) struct Span {
     pub(crate) left: usize,
     pub(crate) right: usize,
-    /// 0 at the left key, 1 at the right one; beyond where the ease overshoots.
+    /// 0 at the left key, 1 at the right one; outside 0..=1 where the ease overshoots.
     pub(crate) share: f64,
 }
 
@@ -39,7 +39,7 @@ impl Span {
         if self.overshoots() { mixed.clamp(*limits.start(), *limits.end()) } else { mixed }
     }
 
-    /// Whether the moment lies beyond the values of both keys.
+    /// Whether the ease overshoots here: a mixed value lies outside the values of the two keys.
     pub(crate) fn overshoots(&self) -> bool {
         !(0.0..=1.0).contains(&self.share)
     }

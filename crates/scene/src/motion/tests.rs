@@ -277,8 +277,8 @@ fn an_object_that_holds_its_pose_holds_all_that_moves_it() {
     close(morphs_at(&scene, 6.5), [0.12, 0.18]);
 }
 
-/// A key that is made from the pose of a key is that key, with an even and an uneven scale. A scale past the limits is
-/// clamped.
+/// The pose at a key, turned back into a key, gives the same values, whether the scale is even or not. A scale past the
+/// limits is clamped.
 #[test]
 fn a_pose_comes_back_as_a_key() {
     for scale in [[1.0; 3], [2.5; 3], [0.5, 3.0, 1.25]] {

@@ -13,8 +13,8 @@ use crate::limits;
 use crate::mesh_file::MeshFile;
 use crate::motion;
 
-/// Colours of regions in overlays, distinguishable with colour blindness too (Krzywinski's twelve); neighbours differ
-/// most.
+/// Colours of regions in overlays, distinguishable with colour blindness too (Krzywinski's twelve); those that
+/// follow each other here differ most.
 pub const REGION_COLORS: [Color; 12] = [
     rgb(0x00, 0x8d, 0xf9),
     rgb(0xff, 0xc3, 0x3b),
@@ -75,9 +75,9 @@ pub fn add_mesh(
     name
 }
 
-/// A region for each group of an object's mesh; if it has only one, for each material; else one for the whole object.
-/// Their names are unique among each other, their colours the first of [`REGION_COLORS`]. Groups and materials that no
-/// triangle uses are left out; more than 64 of them make no regions.
+/// A region for each group of an object's mesh, or else for each material, or else one for the whole object. Groups (or
+/// materials) get regions if triangles use 2 to 64 of them and the object shows the whole mesh; unused ones get none.
+/// The regions' names differ; their colours are [`REGION_COLORS`] in order.
 pub fn regions_of(object: &Object, mesh: &MeshFile) -> Vec<Region> {
     let own = |selector: fn(String, String) -> Selector| {
         move |name: &str| (name.to_owned(), selector(object.name.clone(), name.to_owned()))

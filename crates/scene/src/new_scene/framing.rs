@@ -191,7 +191,7 @@ impl Framing {
         }
         let [right, left, top, bottom] = reach;
         let distance = ((right + left) / (2.0 * slope_x)).max((top + bottom) / (2.0 * slope_y));
-        // A mesh that is almost a point is seen from a small distance.
+        // The eye stays a little before the nearest point, also if the mesh is a single point.
         let distance = distance.max(depth.1 + 0.05);
         let eye = DVec3::new((right - left) / 2.0, (top - bottom) / 2.0, distance);
         Self { eye, nearest: distance - depth.1, farthest: distance - depth.0 }

@@ -17,7 +17,7 @@ pub enum Ground {
     /// A floor and a wall that fill the picture.
     #[default]
     Backdrop,
-    /// A patch of floor on a plain ground.
+    /// A patch of floor before a plain background.
     Vignette,
     /// Nothing: one colour.
     Plain,

@@ -47,7 +47,7 @@ const HARMONIES: [[[f32; 3]; 2]; 8] = [
     [[0.59, 0.042, 305.0], [0.60, 0.034, 88.0]],
 ];
 
-/// Differences between neighbouring groups: in hue, degrees, and in Oklab lightness.
+/// Steps by which the colours of groups differ: in hue, degrees, and in Oklab lightness.
 const GROUP_HUE_DEG: f32 = 16.0;
 const GROUP_LIGHTNESS: f32 = 0.05;
 
@@ -99,7 +99,8 @@ impl Scheme {
         Self::lit(None, [0.58, GROUND_CHROMA, hue], [luminance(mean), high])
     }
 
-    /// The scheme for colours of lightness, chroma and hue, and for the mean and a high albedo of the model.
+    /// The scheme for a body and a ground (lightness, chroma and hue), and for the mean and a high albedo of the model.
+    /// The light decides the ground's lightness; the one in `ground` is not used.
     fn lit(body: Option<[f32; 3]>, ground: [f32; 3], [mean, high]: [f64; 2]) -> Self {
         let high = high.max(1e-3);
         // A dark model stays darker than a light one, but by less than its albedo says.
@@ -171,7 +172,7 @@ pub(super) fn has_no_color(mesh: &MeshFile) -> bool {
     used(mesh).all(|(material, _)| material.texture.is_none() && material.color == NO_COLOR)
 }
 
-/// The materials that faces use, each with the area of its faces.
+/// The materials that faces use, each with twice the area of its faces: only ratios of areas are used.
 fn used(mesh: &MeshFile) -> impl Iterator<Item = (&Material, f64)> {
     let mut areas = vec![0.0f64; mesh.materials.len()];
     for (triangle, &material) in mesh.mesh.material_of_triangle.iter().enumerate() {
@@ -246,7 +247,7 @@ fn srgb(linear: [f32; 3]) -> Color {
     Color::from_bytes(linear.map(|channel| (srgb_from_linear(channel) * 255.0).round() as u8))
 }
 
-/// The hash of a model's name, which chooses its harmony and its ground.
+/// The hash of a model's name, which chooses its harmony, the scene's seed and how the wall's strokes lean.
 pub(super) fn name_hash(name: &str) -> u32 {
     hash::of_name(name)
 }

@@ -1,5 +1,5 @@
-//! The text of an OBJ file that is given to tobj to read. It has the plain lines of vertices and faces unchanged, the
-//! odd ones rewritten, and no other lines.
+//! The text of an OBJ file as tobj gets it: plain lines (vertices, faces, comments, empty lines) unchanged, other
+//! vertices and faces rewritten, and nothing else.
 
 use std::collections::VecDeque;
 use std::io::{self, BufRead, Read};

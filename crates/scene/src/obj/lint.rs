@@ -9,7 +9,7 @@ use super::oddities::Oddities;
 use super::scan::{self, Counts, Indices, Kind, MAX_COORDINATE, MAX_UV, Piece, gives, raise, unit};
 use super::text::{Findings, Lines, Word, finite, name_of};
 
-/// One face of at least three different corners.
+/// A face of at least three corners, no two equal ones side by side.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Face {
     pub group: u32,
@@ -47,7 +47,8 @@ impl Names {
     }
 }
 
-/// What an OBJ text holds. Its geometry is in `cleaned`, where every index is in range if [`check`] found no error.
+/// What an OBJ text holds. Its geometry is in `cleaned`: if [`check`] found no error, every index there is in range,
+/// except for texture coordinates or normals of which the file has none at all.
 #[derive(Debug)]
 pub(super) struct Checked<'a> {
     /// Vertices and faces, for tobj.

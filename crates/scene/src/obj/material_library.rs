@@ -66,10 +66,10 @@ impl<'a> MaterialLibrary<'a> {
         self.warnings
     }
 
-    /// One material for each name that the faces use.
+    /// One material for each name in `checked`, and one without a name if there are none.
     ///
     /// # Errors
-    /// A [`Report`] when a picture claims more than the limits; everything else is a warning and a grey material.
+    /// A [`Report`] when a picture claims more than the limits; everything else is a warning.
     pub fn materials(
         &mut self,
         checked: &Checked<'_>,

@@ -39,7 +39,8 @@ pub const MAX_MTL_BYTES: u64 = 64 << 20;
 /// Reads an OBJ file with the materials and pictures that it names.
 ///
 /// `root` is the scene's folder: materials and pictures come from it and from `folders` only. Returns the mesh and the
-/// warnings, in the order of the files. A missing material or picture is a warning, and its faces become grey.
+/// warnings, in the order of the files. A missing material or picture is a warning; its faces get the colour that the
+/// material states, or else grey.
 ///
 /// # Errors
 /// A [`Report`] of every error found, with lines and columns: a file that is missing or too large, numbers or indices

@@ -42,8 +42,8 @@ pub(super) struct Oddities {
     pub zero_w: Tally,
     pub bad_normal: Tally,
     pub bad_uv: Tally,
-    /// Indices of values (positions, texture coordinates, normals) of which the file has none, by
-    /// [`super::scan::Kind`].
+    /// Indices of texture coordinates or normals, where the file has none, by [`super::scan::Kind`]. Those of positions
+    /// are errors, so the first tally stays 0.
     pub absent: [Tally; 3],
     pub color: Tally,
     pub bad_color: Tally,

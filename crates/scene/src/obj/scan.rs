@@ -9,7 +9,8 @@ use rayon::prelude::*;
 
 use super::text::{Lines, finite};
 
-/// The largest coordinate. Beyond it, products of coordinates (areas) would overflow in single precision.
+/// The largest coordinate. Beyond it, squares of areas (in the length of a cross product) would overflow in single
+/// precision.
 pub(super) const MAX_COORDINATE: f64 = 1e9;
 
 /// Texture coordinates from here on count as unusable.
@@ -55,7 +56,7 @@ pub(super) struct Piece {
     pub faces: Vec<u32>,
     /// Which indices each corner of the plain faces has, see [`gives`].
     pub corners: Vec<u8>,
-    /// The highest indices of the plain faces.
+    /// At least the highest indices of the plain faces; a face that proves not plain at its end can raise them further.
     pub highest: Indices,
     pub rest: Vec<Rest>,
 }
@@ -66,7 +67,7 @@ pub(super) fn gives(corner: Indices) -> u8 {
     (0..3).map(|kind| u8::from(corner[kind] > 0) << kind).sum()
 }
 
-/// A direction of unit length, if there is one.
+/// `numbers` scaled to unit length; `None` if their length is nearly 0 or not finite.
 pub(super) fn unit(numbers: [f64; 3]) -> Option<[f32; 3]> {
     let length = numbers.iter().map(|number| number * number).sum::<f64>().sqrt();
     (length > 1e-30 && length.is_finite()).then(|| numbers.map(|number| (number / length) as f32))
@@ -167,7 +168,8 @@ impl Piece {
     }
 
     /// Takes the face whose keyword is at `keyword`, and returns where the next line begins. `None` if the face is not
-    /// plain: it has fewer than three corners, or two equal ones side by side.
+    /// plain: it has an index that counts backwards or is no number, fewer than three corners, or the same position at
+    /// two neighbouring corners.
     fn face(&mut self, text: &[u8], keyword: usize) -> Option<usize> {
         let before = self.corners.len();
         let end = self.face_corners(text, keyword + 1);
@@ -188,8 +190,11 @@ impl Piece {
         loop {
             at = skip_blanks(text, at);
             if let Some(end) = line_end(text, at) {
+                if count < 3 || first == last {
+                    return None;
+                }
                 self.highest = highest;
-                return (count >= 3 && first != last).then_some(end);
+                return Some(end);
             }
             let mut corner = Indices::default();
             (corner[0], at) = index(text, at)?;

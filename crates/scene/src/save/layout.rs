@@ -1,5 +1,5 @@
-//! Lays out the RON of saved scenes on lines: what fits on one line stays on one; everything else, and each list of
-//! several items, is broken at its outermost brackets.
+//! Lays out the RON of saved scenes on lines. A value that fits on its line stays there with all that is in it, unless
+//! it is itself a list of several items. Everything else is broken at its outermost brackets.
 
 /// A value without a type: only how it is written.
 #[derive(Clone, Debug)]

@@ -7,7 +7,8 @@ use serde::ser::{self, Impossible, Serialize, Serializer};
 
 use super::layout::{Group, Value, number, text};
 
-/// Turns a document into a [`Value`]. What no document holds (maps, bytes, structs without field names) is an error.
+/// Turns a document into a [`Value`]. What no document holds (maps, bytes, units, structs of several unnamed fields) is
+/// an error.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ToValue;
 

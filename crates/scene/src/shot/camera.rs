@@ -113,8 +113,8 @@ impl Shot {
         let node_data = &self.file.gltf.nodes[node];
         let own = posed.lenses[node_data.camera?];
         let lens = lens_in(own, size);
-        // The sidecar's shift is in halves of the camera's own picture. A picture of another aspect shows more, so the
-        // shift is a smaller share of it.
+        // The sidecar's shift is in half widths and half heights of the camera's own picture. The scene's is in half
+        // heights of this picture, which shows more if its aspect is another.
         let own_half = half_size(own);
         let half_height = match lens {
             Lens::Perspective { fov_y_deg, .. } => (0.5 * fov_y_deg.to_radians()).tan(),

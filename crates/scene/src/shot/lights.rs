@@ -8,7 +8,7 @@ use super::Shot;
 use crate::document::{Color, Light, LightKind};
 
 /// The intensity, in a scene, of a sun of one watt per square metre. A white surface is then as bright as in the
-/// program that made the shot: 1/π, divided by the factor, about 0.7, that the display curve gives middle values.
+/// program that made the shot: 1/π, divided by the factor (about 0.7) by which the soft shoulder darkens middle values.
 const OF_WATT: f64 = 0.455;
 
 /// Lux per watt per square metre, as exporters convert.

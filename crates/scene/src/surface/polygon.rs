@@ -11,7 +11,7 @@ pub(super) const MAX_TESTS: u64 = 300_000_000;
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Cut {
     pub triangles: Vec<[usize; 3]>,
-    /// The polygon crosses itself, or is too large to be cut with care: some triangles may lie outside it.
+    /// The polygon crosses itself, or no tests were left for it: some triangles may lie outside it.
     pub is_rough: bool,
 }
 
@@ -71,7 +71,8 @@ struct Ears<'a> {
     before: Vec<usize>,
     after: Vec<usize>,
     is_reflex: Vec<bool>,
-    /// Corners that turn right, sorted by x: only these can lie in an ear. Entries that have become convex are skipped.
+    /// Corners that do not turn left, sorted by x: only these can rule out an ear. Those that have become convex are
+    /// skipped.
     reflex_by_x: Vec<usize>,
     tests_left: &'a mut u64,
 }
@@ -135,7 +136,7 @@ impl<'a> Ears<'a> {
             let at = match next {
                 Some(at) if is_gone[at] || (*self.tests_left > 0 && !self.is_ear(at)) => continue,
                 Some(at) if *self.tests_left > 0 => at,
-                // No ear is left, so the polygon crosses itself; or it is too large. Cut on regardless.
+                // No ear is left, so the polygon crosses itself; or no tests are left. Cut on regardless.
                 _ => {
                     let stuck = start;
                     cut.is_rough |= self.turn_at(stuck) != 0.0;

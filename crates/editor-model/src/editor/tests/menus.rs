@@ -69,3 +69,35 @@ fn a_tool_of_another_mode_brings_its_mode() {
     act(&mut editor, Action::Scale);
     assert_eq!((editor.session.mode, editor.session.tool()), (Mode::Arrange, Tool::Scale));
 }
+
+#[test]
+fn delete_takes_the_point_under_the_pointer_and_elsewhere_the_whole_guide() {
+    let mut editor = with_apple();
+    act(&mut editor, Action::Paint);
+    act(&mut editor, Action::GuideCurve);
+    let middle = middle_of_the_apple(&editor);
+    let before: usize = editor.document().scene().regions.iter().map(|region| region.guides.len()).sum();
+    for step in 0..3 {
+        let at = middle + DVec2::new(30.0 * f64::from(step), 0.0);
+        event(&mut editor, PointerKind::Move, at, HERE);
+        event(&mut editor, PointerKind::Press(Button::Left), at, HERE);
+        event(&mut editor, PointerKind::Release(Button::Left), at, HERE);
+    }
+    act(&mut editor, Action::Confirm);
+    let Some(Item::Guide(region, index)) = editor.document().selection().active().cloned() else {
+        panic!("the new curve is selected");
+    };
+    let guides = |editor: &Editor| {
+        let scene = editor.document().scene();
+        let of_region = scene.regions.iter().find(|other| other.name == region).expect("the region is there");
+        of_region.guides.clone()
+    };
+    let points = guides(&editor)[index].points.len();
+    event(&mut editor, PointerKind::Move, middle + DVec2::new(60.0, 0.0), HERE);
+    act(&mut editor, Action::Delete);
+    assert_eq!(guides(&editor)[index].points.len(), points - 1);
+    event(&mut editor, PointerKind::Move, middle + DVec2::new(0.0, 400.0), HERE);
+    act(&mut editor, Action::Delete);
+    let after: usize = editor.document().scene().regions.iter().map(|region| region.guides.len()).sum();
+    assert_eq!(after, before, "the curve that is selected went");
+}

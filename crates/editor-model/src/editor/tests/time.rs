@@ -314,7 +314,7 @@ fn a_copy_that_lands_on_a_key_takes_its_place() {
     assert!(editor.run(&Command::Time(Time::SetEase(vec![(of(), 0.0)], Ease::Step))));
     let first = editor.document().scene().objects[0].keys[0].clone();
     let second = editor.document().scene().objects[0].keys[1].clone();
-    // Each copy lands on the frame of another copied key.
+    // The copy of the first key lands on the second one, which is copied too.
     assert!(editor.run(&Command::Time(Time::CopyKeys(vec![(of(), 0.0), (of(), 60.0)], 60.0))));
     let keys = &editor.document().scene().objects[0].keys;
     assert_eq!(frames(editor.document().scene()), [0.0, 60.0, 90.0, 120.0]);

@@ -125,7 +125,7 @@ fn a_box_selects_across_lanes_and_a_click_between_keys_changes_the_ease() {
     let curved = super::super::lanes(&curved);
     hand.take(press(None, at(30.0, 1)), &curved);
     assert_eq!(hand.take(KeysEvent::Release, &curved), None);
-    // After the last key there is no ease to change: a click selects nothing.
+    // After the last key there is no ease to change: a click clears the selection.
     assert_eq!(eased(&mut hand, 110.0), None);
     assert_eq!(hand.selected(), []);
     assert!(!hand.has_focus());

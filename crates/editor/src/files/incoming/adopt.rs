@@ -49,7 +49,7 @@ pub enum AdoptError {
         /// What the system said.
         source: io::Error,
     },
-    /// The files are too many or too large.
+    /// The files together are too large.
     #[error("{file} and what it names are over {} MiB, the most that is copied; put them into the scene's folder", MAX_COPIED_BYTES >> 20)]
     TooMuch {
         /// The file's name.
@@ -58,8 +58,8 @@ pub enum AdoptError {
 }
 
 /// Makes a mesh available to a scene. A mesh inside the scene's folder is named where it is. Any other is copied to
-/// `meshes/NAME/` in that folder, with the MTL files and pictures that it names and that are inside the mesh's own
-/// folder. No existing file is overwritten.
+/// `meshes/NAME/` in that folder, with the files that belong to it ([`mesh_format::companions`]) and are inside the
+/// mesh's own folder. No existing file is overwritten.
 ///
 /// # Errors
 /// [`AdoptError`], with the words to show.

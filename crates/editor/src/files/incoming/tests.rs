@@ -12,7 +12,8 @@ const OBJ: &str = "mtllib looks/all.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusem
 const MTL: &str =
     "newmtl skin\nKd 1 0 0\nmap_Kd ../pictures/skin.png\nnewmtl spare\nmap_Kd ../../secret.png\n";
 
-/// A home with a mesh of three files, a file beside the mesh's folder, and an empty scene folder.
+/// A folder with a mesh of three files, a text beside the mesh, a file outside the mesh's folder, and an empty folder
+/// for a scene.
 struct Home(tempfile::TempDir);
 
 impl Home {

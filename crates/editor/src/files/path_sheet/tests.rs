@@ -16,7 +16,7 @@ struct Page {
     passes: usize,
 }
 
-/// A sheet over a folder with two scenes, a mesh, a text, a hidden file and a folder with a scene.
+/// A sheet over a folder with two scenes, a mesh, a text, an EXR file, a hidden file and a folder with a scene.
 fn sheet(ask: FileAsk, start: &str) -> (Harness<'static, Page>, tempfile::TempDir) {
     let home = tempfile::tempdir().expect("a temporary folder");
     for name in [

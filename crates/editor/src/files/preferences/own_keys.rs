@@ -33,7 +33,7 @@ impl OwnKeysText {
         Some(format!("Some of your own keys cannot be read, and are left out: {first}{more}"))
     }
 
-    /// Replaces the keys that can be read by `own`; entries that cannot be read stay.
+    /// Puts `own` in place of all keys that can be read. Entries that cannot be read stay, unless `own` replaces them.
     pub fn set(&mut self, own: &OwnKeys) {
         let read = self.keys();
         let mut map = match std::mem::replace(&mut self.0, Value::Unit) {

@@ -77,7 +77,7 @@ pub fn reach(ctx: &Context, control: &Control) {
     widgets::reach(ctx, &control.section, &control.name);
 }
 
-/// Whether a node is something to set, or a section.
+/// Whether a node is an enabled control, or the head of a section.
 fn is_control(node: &Node) -> bool {
     let role = matches!(
         node.role(),

@@ -10,7 +10,7 @@ use super::Asker;
 pub(super) struct EditedStrokes<'a> {
     pub(super) of: StrokesOf,
     pub(super) own: [&'a StrokeSettings; 2],
-    /// With preset, scene and region combined. Hidden layers keep their coverage.
+    /// Preset, scene and region combined. Hidden layers keep their coverage here, so that it can be shown.
     pub(super) resolved: [ResolvedStrokes; 2],
     /// The region's index in the scene as it is shown; `None` for the scene's own settings.
     pub(super) index: Option<usize>,

@@ -11,10 +11,11 @@ use super::number::Number;
 use super::parts::{reset, row, seen};
 use crate::widgets;
 
-/// `silhouette_to` is larger than `silhouette_from` by at least this.
+/// The number fields keep `silhouette_to` above `silhouette_from` by at least this.
 const MIN_DIFFERENCE: f64 = 0.01;
 
-/// Shows all settings. `shown` includes the change that is being previewed, `stored` does not.
+/// Shows the settings except `to_light`; under `InkRule::Source`, only those that have an effect there. `shown`
+/// includes the change that is being previewed, `stored` does not.
 pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, [shown, stored]: [&SumiE; 2]) {
     choices(ui, asker, [shown, stored]);
     let is_painter = shown.rule == InkRule::Painter;

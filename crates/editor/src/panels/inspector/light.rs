@@ -1,6 +1,7 @@
 //! The inspector of a light: its kind, colour, intensity, and direction or place.
 
 use egui::Ui;
+use impasto_core::color::{linear_from_srgb, srgb_from_linear};
 use impasto_editor_model::Item;
 use impasto_editor_model::command::{Arrange, Command, KeyOf, set_light};
 use impasto_scene::document::{Color, Light, LightKey, LightKind};
@@ -88,11 +89,35 @@ fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [light, kept]: [&Light; 2]) {
             states(LightKey { position: Some(position), ..LightKey::at(frame) }, "place")
         });
     }
+    if light.kind == LightKind::Spot {
+        let cone = |light: &Light| light.cone_deg.unwrap_or([0.0, 45.0]);
+        let ([inner, outer], [inner_was, outer_was]) = (cone(&light), cone(&stored));
+        let angle = |name, effect, least: f64, most: f64, default: f64| Number {
+            range: least..=most,
+            limits: Some(least..=most),
+            step: (0.5, 1),
+            unit: "°",
+            default: Some(default),
+            ..Number::new(name, effect)
+        };
+        let ends = angle("Cone", "From the axis of the spot to where its light ends.", 1.0, 90.0, 45.0);
+        asker.number(ui, &ends, [outer, outer_was], |to| {
+            let outer = to.unwrap_or(45.0);
+            set(Light { cone_deg: Some([inner_was.min(outer), outer]), ..kept.clone() }, "cone")
+        });
+        let fades = angle("Fades from", "From the axis to where its light begins to fade.", 0.0, outer, 0.0);
+        asker.number(ui, &fades, [inner, inner_was], |to| {
+            set(Light { cone_deg: Some([to.unwrap_or(0.0), outer_was]), ..kept.clone() }, "soft edge")
+        });
+    }
     if light.kind == LightKind::Ambient {
         row(ui, "Ground", |ui| {
-            asker.colour(ui, "Ground colour", seen(light.ground.unwrap_or(dim(light.color))), |color| {
-                states(LightKey { ground: Some(color), ..LightKey::at(frame) }, "ground")
-            });
+            asker.colour(
+                ui,
+                "Ground colour",
+                seen(light.ground.unwrap_or(off_the_floor(light.color))),
+                |color| states(LightKey { ground: Some(color), ..LightKey::at(frame) }, "ground"),
+            );
             if light.ground.is_none() {
                 note(ui, "from the colour above");
             } else if kept.keys.is_empty() && reset(ui, "Ground colour") {
@@ -102,12 +127,16 @@ fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [light, kept]: [&Light; 2]) {
     }
 }
 
-/// Roughly the light from below that a sky has while no ground colour is set: its own colour, dimmed.
-fn dim(Color(channels): Color) -> Color {
-    Color(channels.map(|channel| channel * 0.4))
+/// The colour of a sky's light from below while no ground colour is set.
+fn off_the_floor(Color(channels): Color) -> Color {
+    let channel = |at: usize| {
+        srgb_from_linear((linear_from_srgb(channels[at]) * Light::OFF_THE_FLOOR[at]).clamp(0.0, 1.0))
+    };
+    Color(std::array::from_fn(channel))
 }
 
-/// The light as another kind, with defaults for what that kind needs.
+/// The light as another kind, with defaults for what that kind needs. Its old direction, place, cone and ground colour
+/// are dropped, from its keys too.
 fn of_kind(light: &Light, kind: LightKind) -> Light {
     let mut light =
         Light { kind, direction: None, position: None, cone_deg: None, ground: None, ..light.clone() };

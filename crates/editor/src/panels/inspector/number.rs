@@ -25,7 +25,7 @@ pub(super) struct Number<'a> {
     pub(super) letter: &'a str,
     /// The numbers that a drag can reach.
     pub(super) range: RangeInclusive<f64>,
-    /// The numbers that can be typed. None: only those that a drag can reach.
+    /// The numbers that typing and steps can reach. None: the same as a drag.
     pub(super) limits: Option<RangeInclusive<f64>>,
     /// Whether the scene may refuse a number within these limits; a typed number is then checked against the scene.
     pub(super) scene_decides: bool,

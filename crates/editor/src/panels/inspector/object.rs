@@ -157,7 +157,7 @@ fn material(ui: &mut Ui, asker: &mut Asker<'_, '_>, of_object: [&Object; 2]) {
     };
     let file = asker.shown.document.shown().meshes.get(&object.mesh);
     row(ui, "Colour", |ui| {
-        // A mesh of several materials has no one colour to show.
+        // With several materials, or a picture, there is no one colour to show: it is white.
         let of_mesh = match file.map(|file| &file.materials[..]) {
             Some([only]) if only.texture.is_none() && shown.texture.is_none() => Color(only.color),
             _ => Color::white(),

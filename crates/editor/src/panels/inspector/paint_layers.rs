@@ -38,7 +38,7 @@ pub(super) fn section_of(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<
     });
 }
 
-/// Whether the scene is painted: only then do layers have an order and touches over them.
+/// Whether the style is brush strokes: only then does the order of layers matter, and do touches lie over them.
 fn is_painted(asker: &Asker<'_, '_>) -> bool {
     matches!(asker.scene().style, Style::RotatingStrokes(_))
 }

@@ -18,7 +18,8 @@ use crate::widgets::{self, Button};
 /// Width of the label before three fields.
 pub(super) const NARROW_LABEL: f32 = 48.0;
 
-/// The numbers of an object's pose. In Animate, a changed number keys this frame; in other modes it shifts the motion.
+/// The numbers of an object's pose. In Animate, a changed number keys this frame (with Auto key off, the pose stays
+/// loose: shown, but not keyed). In other modes it shifts the motion.
 pub(super) fn of_object(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]: [&Object; 2]) {
     let frame = asker.shown.session.frame;
     let animate = asker.shown.session.mode == Mode::Animate;
@@ -142,7 +143,7 @@ pub(super) fn key_rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: KeyOf, ease: 
     // Not previewed: a key that moved to another frame would vanish from this section during the drag. It moves
     // on release.
     asker.asks.retain(|ask| !matches!(ask, Ask::Preview(Command::Time(Time::MoveKeys(..)))));
-    // The key was moved by typing, or by a step of the wheel or the arrows: go to its new frame.
+    // The key was moved, by a drag that ended, by typing or by a step: go to its new frame.
     if let Some(
         Ask::Do(Command::Time(Time::MoveKeys(_, by)))
         | Ask::DoMerged(Command::Time(Time::MoveKeys(_, by)), _),

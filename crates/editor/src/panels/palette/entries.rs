@@ -31,7 +31,7 @@ struct Switch {
     set: fn(&mut Session),
 }
 
-/// Everything of the session that has no command of its own.
+/// The switches of the session that have no command of their own.
 const SWITCHES: &[Switch] = &[
     Switch {
         name: "Shading: painted",
@@ -144,7 +144,7 @@ pub(super) fn entries(ctx: &Context, shown: &PanelInput<'_>, controls: &[Control
     all
 }
 
-/// The values that preferences can be set to: the words of each, whether it is the present one, and the value.
+/// The preferences as entries: the words of each, whether it shows as on, and the value that choosing it sets.
 fn preferences(
     ctx: &Context,
     shown: &PanelInput<'_>,

@@ -23,8 +23,9 @@ const LINES_AROUND: usize = 40;
 /// The text that is edited, from one pass to the next.
 #[derive(Clone, Default)]
 pub(super) struct Memory {
-    /// The text being edited, and the source that it began as.
+    /// The text being edited.
     typed: String,
+    /// The document's source when `follow` last saw it. Its text is `typed`, unless `typed` has edits.
     begun_from: Option<Arc<Source>>,
     /// The line to scroll to in the next pass.
     pub(super) go_to: Option<usize>,
@@ -43,7 +44,7 @@ impl Memory {
         ctx.data_mut(|data| data.insert_temp(Self::id(), self));
     }
 
-    /// Whether the text was edited since it began.
+    /// Whether the text has edits: it differs from that of the source last seen.
     fn is_edited(&self) -> bool {
         self.begun_from.as_ref().is_some_and(|begun| begun.text != self.typed)
     }

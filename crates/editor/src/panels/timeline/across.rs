@@ -46,14 +46,14 @@ impl FrameScale {
         steps.into_iter().find(|step| *step >= least).unwrap_or(steps[3])
     }
 
-    /// The frames at multiples of half a step, each with whether it is a multiple of the whole step.
+    /// The whole frames at multiples of half a step, each with whether it is a multiple of the whole step.
     pub(in crate::panels) fn ticks(self, step: f64) -> impl Iterator<Item = (f64, bool)> {
         let half = step / 2.0;
         let begin = (self.first / half).ceil();
         let count = ((self.last - self.first) / half).floor().max(0.0) as usize;
         (0..=count)
             .map(move |index| (begin + index as f64) * half)
-            .filter(move |frame| *frame <= self.last && (step != 1.0 || frame.fract() == 0.0))
+            .filter(move |frame| *frame <= self.last && frame.fract() == 0.0)
             .map(move |frame| (frame, frame.rem_euclid(step) == 0.0))
     }
 }
@@ -111,7 +111,7 @@ pub(in crate::panels) fn number(ui: &Ui, at: Pos2, align: Align2, frame: f64) {
     ui.painter().text(at, align, format!("{frame}"), type_face::ruler(), Tokens::of(ui).weak);
 }
 
-/// Draws a bar over each frame that playback has dropped.
+/// Marks each frame that playback has dropped with a bar, whose upper edge is at `top`.
 pub(in crate::panels) fn drops(ui: &Ui, across: FrameScale, top: f32, shown: &PanelInput<'_>) {
     let wide = ((across.right - across.left) / across.span() as f32).max(2.0);
     for frame in shown.time.playback.missed() {
@@ -156,7 +156,7 @@ mod tests {
 
     #[test]
     fn labels_stand_as_far_apart_as_they_need() {
-        // 120 frames on a narrow and a wide strip, then a long film and a single second.
+        // 120 frames on a narrow and a wide strip, and with closer labels; then a long film and a single second.
         assert_eq!(across(0.0, 119.0, 786.0).label_step(128.0), 20.0);
         assert_eq!(across(0.0, 119.0, 1388.0).label_step(128.0), 20.0);
         assert_eq!(across(0.0, 119.0, 1388.0).label_step(90.0), 10.0);
@@ -180,6 +180,9 @@ mod tests {
     fn ticks_lie_within_the_ends_and_on_whole_frames() {
         let ticks: Vec<_> = across(-3.0, 21.0, 100.0).ticks(20.0).collect();
         assert_eq!(ticks, [(0.0, true), (10.0, false), (20.0, true)]);
+        // Half of a step of five is no whole frame.
+        let fives: Vec<_> = across(0.0, 12.0, 100.0).ticks(5.0).map(|(frame, _)| frame).collect();
+        assert_eq!(fives, [0.0, 5.0, 10.0]);
         assert!(across(0.0, 9.0, 100.0).ticks(1.0).all(|(frame, labelled)| frame.fract() == 0.0 && labelled));
     }
 }

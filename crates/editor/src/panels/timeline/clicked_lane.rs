@@ -1,4 +1,5 @@
-//! The lane whose name was clicked last: what nothing can select, as the background, is chosen so for its curves.
+//! Remembers the lane whose name was clicked last. The background and the scene's strokes are no items that can be
+//! selected, so this is how the user chooses to see their curves.
 
 use egui::{Id, Ui};
 use impasto_editor_model::command::KeyOf;

@@ -27,7 +27,7 @@ const STEP: f64 = 0.01;
 /// The names of the handles.
 const HANDLES: [&str; 2] = ["First handle", "Second handle"];
 
-/// Maps frames and shares to the window.
+/// Maps frames and shares to the window. A share is how far a value has come from one key (0) to the next (1).
 #[derive(Clone, Copy)]
 struct Plot {
     area: Rect,
@@ -129,7 +129,8 @@ fn menu_id(curves: Id) -> Id {
     curves.with("menu")
 }
 
-/// The lane whose curves show: that of what is selected, else that whose name was clicked last, else the first with curves.
+/// The lane whose curves show: the one whose name was clicked last, if its owner is selected or there is no selection;
+/// else that of the active item, else the first of a selected item, else the first with two keys, else the first.
 fn shown_lane<'a>(ui: &Ui, lanes: &'a [Lane], shown: &PanelInput<'_>) -> Option<&'a Lane> {
     let clicked = clicked_lane::last(ui);
     let selection = shown.document.selection();
@@ -144,7 +145,7 @@ fn shown_lane<'a>(ui: &Ui, lanes: &'a [Lane], shown: &PanelInput<'_>) -> Option<
         .or_else(|| lanes.first())
 }
 
-/// Shows the curves of one lane over the place of the lanes, and what is done to them.
+/// Shows the curves of one lane where the keys of all lanes would be, and handles what the user does to them.
 pub(super) fn curves(ui: &mut Ui, layout: &LaneLayout<'_>, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let area = layout.area;
     let all = lanes(&shown.document.shown().scene);
@@ -180,7 +181,7 @@ pub(super) fn curves(ui: &mut Ui, layout: &LaneLayout<'_>, shown: &PanelInput<'_
         }
     }
     if memory.drag.is_some() && !ui.input(|input| input.pointer.any_down()) {
-        // The key of the handle is gone.
+        // The handle did not end its drag itself: it no longer shows, as when its key was deleted.
         memory.drag = None;
         asks.push(Ask::EndPreview);
     }
@@ -190,7 +191,7 @@ pub(super) fn curves(ui: &mut Ui, layout: &LaneLayout<'_>, shown: &PanelInput<'_
     ui.data_mut(|data| data.insert_temp(id, memory));
 }
 
-/// Where curves no longer show while a handle is dragged, by a key: takes the drag back.
+/// Called while keys show instead of curves: takes back the drag of a handle during which a shortcut hid the curves.
 pub(super) fn leave(ui: &Ui, asks: &mut Vec<Ask>) {
     let id = memory_id(ui);
     let memory = ui.data(|data| data.get_temp::<Memory>(id)).filter(|memory| memory.drag.is_some());
@@ -338,7 +339,8 @@ impl Handle<'_> {
         Command::Time(Time::SetEase(vec![self.key()], ease))
     }
 
-    /// Its line and its circle, and what is done to it. `None` where it lies outside the plot, and is not dragged there.
+    /// Draws its line and its circle, and handles what the user does to it. `None` if it lies outside the plot and no
+    /// handle is being dragged.
     fn show(&self, ui: &mut Ui, memory: &mut Memory, asks: &mut Vec<Ask>) -> Option<Response> {
         let Self { plot, segment, lane, index } = *self;
         let [time, share] = segment.left.ease.handles()[index];

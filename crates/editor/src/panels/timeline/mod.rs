@@ -1,4 +1,5 @@
-//! The timeline with its lanes: transport, ruler, and a lane of keys for the camera and for each object.
+//! The timeline with its lanes: transport, ruler, and lanes of keys for the camera, each object and whatever else has
+//! keys.
 
 pub(super) mod across;
 mod clicked_lane;

@@ -106,7 +106,8 @@ fn grips(ui: &mut Ui, rect: Rect, across: FrameScale, shown: &PanelInput<'_>, as
             }
             continue;
         };
-        // The scale of the ruler stays as it was at the press; otherwise the end would run away from the pointer.
+        // `across` is made from the scene without this preview: if it followed the preview, the end would run away
+        // from the pointer.
         let to = across.place(pointer.x - side * 8.0).round() as i64;
         let range = match side < 0.0 {
             true => Time::SetRange(to.min(timeline.last), timeline.last),

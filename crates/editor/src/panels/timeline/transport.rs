@@ -17,7 +17,8 @@ use crate::widgets::{self, Button, FieldResponse, NumberField, Tip};
 /// The frames per second that can be typed.
 const FPS: std::ops::RangeInclusive<f64> = 0.001..=1e6;
 
-/// In a window narrower than this, in points, the bar leaves out what is no control: the time and the key of *Set key*.
+/// In a window narrower than this, in points, the bar leaves out the time and the shortcut of *Set key*, which are no
+/// controls.
 const NARROW: f32 = 900.0;
 
 /// In a window narrower than this, in points, *Curves* is an icon.
@@ -123,7 +124,7 @@ fn seconds(ui: &mut Ui, shown: &PanelInput<'_>) {
     divider(ui);
 }
 
-/// The controls at the right end, from right to left: fold, loop, fields for rate and range, pacing.
+/// What is at the right end, from right to left: fold, finish, loop, fields for rate and range, dropped frames, pacing.
 pub(super) fn range_fields(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.x = measure::GAP;
     ui.add_space(6.0);

@@ -1,5 +1,5 @@
 //! The scene tree, in which the user finds, selects, renames and moves the parts of a scene. Its rows are camera,
-//! lights, objects with their regions and child objects, regions without an object, and canvas.
+//! lights, objects with their regions, touches and child objects, regions without an object, and canvas.
 
 mod add;
 mod drop;
@@ -225,7 +225,7 @@ fn rename_row(ui: &mut Ui, row: &TreeLine, mut typed: String, asks: &mut Vec<Ask
 fn words_below(ui: &mut Ui, rows: &[TreeLine], state: &ColumnState, empty: bool) {
     let words = match &state.search {
         Some(text) if rows.is_empty() => format!("Nothing is named \u{201c}{}\u{201d}.", text.trim()),
-        _ if empty => "No objects yet. Drop an OBJ anywhere, or press +".to_owned(),
+        _ if empty => "No objects yet. Drop a model anywhere, or press +".to_owned(),
         _ => return,
     };
     let weak = Tokens::of(ui).weak;

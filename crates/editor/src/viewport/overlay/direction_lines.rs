@@ -12,7 +12,7 @@ const LENGTH: f32 = 12.0;
 const WIDTH: f32 = 1.4;
 /// Above this trust a direction is sure.
 const SURE: f32 = 0.90;
-/// From this trust on it is fair; below, it cannot be trusted.
+/// From this trust up to `SURE` a direction is fair; below, it cannot be trusted.
 const FAIR: f32 = 0.72;
 /// Opacity of faint lines.
 const FAINT: f32 = 0.35;

@@ -18,7 +18,7 @@ pub struct GuideCurve {
     pub handles_px: Vec<(usize, DVec2)>,
     /// Whether the end of the guide is visible: only then is the arrow drawn.
     pub end_shows: bool,
-    /// Whether it is selected: then handles and the arrow are drawn.
+    /// Whether it is selected: only then are handles drawn. The arrow is drawn if it is selected or lit.
     pub selected: bool,
     /// The part that the pointer is on, or holds.
     pub lit: Option<CurvePart>,

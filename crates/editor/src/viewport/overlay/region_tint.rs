@@ -22,9 +22,9 @@ pub struct RegionTint {
     runs: Vec<[usize; 3]>,
     edge: Outline,
     cells_per_point: f64,
-    /// Where its name is drawn, points: in the middle of its cells or, if that is outside them, at the nearest place in
-    /// them.
-    middle_px: DVec2,
+    /// Where its name is drawn: the place in its cells that is nearest to their mean, in points of the window from the
+    /// picture's upper left corner.
+    middle_points: DVec2,
 }
 
 impl RegionTint {
@@ -68,14 +68,14 @@ impl RegionTint {
                 sum += DVec2::new(0.5 * (first + end) as f64, row as f64 + 0.5) * length;
                 count += length;
             }
-            let middle_px = nearest(&runs, sum / count) * scale;
+            let middle_points = nearest(&runs, sum / count) * scale;
             Self {
                 name: names[region].0.to_owned(),
                 colour: names[region].1,
                 runs,
                 edge: Outline::of_lines(edge),
                 cells_per_point: map.cells_per_point(),
-                middle_px,
+                middle_points,
             }
         };
         shown.map(tint).collect()
@@ -105,6 +105,6 @@ pub fn region_tint(sheet: &Sheet<'_>, tint: &RegionTint) {
     for line in tint.edge.in_window(sheet) {
         edge.line(sheet.painter, &line);
     }
-    let at = sheet.at(tint.middle_px);
+    let at = sheet.at(tint.middle_points);
     ink::edged_words(sheet.painter, pos2(at.x, at.y), &tint.name, type_face::head(), Color32::WHITE);
 }

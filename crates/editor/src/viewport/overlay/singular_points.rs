@@ -11,7 +11,8 @@ use super::{Sheet, Sight};
 pub struct SingularPoint {
     /// Its place, world space.
     pub position_in_world: DVec3,
-    /// Unit normal of the surface there, for the visibility test.
+    /// The unit vector that the visibility test takes for the surface normal. It points to the eye, so that only a
+    /// surface in front of the point hides the mark.
     pub normal_in_world: DVec3,
     /// How many turns the strokes make on a small loop around it, such as +½, +1 or −½.
     pub index: f32,

@@ -204,9 +204,10 @@ fn a_guide_shows_only_where_its_surface_faces_the_eye() {
     let shown = GuideCurve::seen(&line, &line[..1], &sight);
     assert_eq!((shown.runs_px.len(), shown.handles_px.len(), shown.end_shows), (1, 1, true));
     assert!((shown.handles_px[0].1 - DVec2::new(150.0, 90.0)).length() < 1e-6);
-    // The back of the body, and a point behind it.
+    // Nothing shows where the surface faces away.
     let turned: Vec<[DVec3; 2]> = line.iter().map(|&[at, normal]| [at, -normal]).collect();
     assert!(GuideCurve::seen(&turned, &turned, &sight).runs_px.is_empty());
+    // Nor behind the surface.
     let gaze = view.axes()[2];
     let behind: Vec<[DVec3; 2]> = line.iter().map(|&[at, normal]| [at + gaze * 0.3, normal]).collect();
     assert!(GuideCurve::seen(&behind, &behind, &sight).handles_px.is_empty());

@@ -184,8 +184,10 @@ fn lights_camera_and_scene_show_all_that_can_be_set() {
     );
     let sky = harness("still_life.ron", Some(Item::Light("room".to_owned())));
     assert_named(&sky, &["Ground colour", "Reset Ground colour"]);
-    let lamp = harness("still_life.ron", Some(Item::Light("pool".to_owned())));
+    let mut lamp = harness("still_life.ron", Some(Item::Light("pool".to_owned())));
     assert_named(&lamp, &["Place X", "Place Y", "Place Z"]);
+    pick(&mut lamp, "Kind of light", "Spot");
+    assert_named(&lamp, &["Place X", "Shines X", "Cone", "Fades from"]);
     let camera = harness("still_life.ron", Some(Item::Camera));
     assert_named(
         &camera,

@@ -203,7 +203,7 @@ impl Column {
 
 pub const SIZE: Vec2 = Vec2::new(280.0, 692.0);
 
-/// A harness that draws nothing: pictures need a renderer.
+/// A harness without a renderer, so it can take no pictures.
 pub fn harness_of(column: Column, theme: Theme, size: Vec2) -> Harness<'static, Column> {
     build(builder(theme, size), column)
 }
@@ -222,7 +222,8 @@ pub fn build(builder: HarnessBuilder<Column>, column: Column) -> Harness<'static
     harness
 }
 
-/// A harness in a window that is high enough for every row, with every section unfolded.
+/// A harness in a window that is high enough for every row, with the rows of the tree expanded. The inspector's
+/// sections stay as they are at first.
 pub fn harness(scene: &str, selected: Option<Item>) -> Harness<'static, Column> {
     let mut column = Column::open(scene);
     column.document.select(selected.into_iter().collect());

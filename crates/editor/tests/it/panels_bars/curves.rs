@@ -15,7 +15,7 @@ use super::{click, harness, snapshot};
 
 const SIZE: (f32, f32) = (1280.0, 620.0);
 
-/// A page whose curves show, with the document behind it.
+/// A page that shows curves and carries out what they ask of its document.
 fn curved() -> Page {
     let mut page = Page { applies: true, ..animated() };
     page.session.toggle_curves();
@@ -57,7 +57,7 @@ fn the_curves_of_the_selected_lane_take_the_place_of_the_lanes() {
         harness.query_by_label("apple curves").is_some() && harness.query_by_label("apple keys").is_none()
     );
     assert_eq!(keys(&harness).len(), 4);
-    // Names choose the lane; one without two keys has no handles.
+    // A lane with two keys or more has handles. When another item is selected, the curves of its lane show.
     assert!(harness.query_by_role_and_label(Role::Slider, "First handle").is_some());
     harness.state_mut().document.select(Selection::only(Item::Camera));
     harness.run();
@@ -76,7 +76,7 @@ fn a_handle_is_dragged_shown_at_once_and_kept_as_one_entry() {
     let count = harness.state().document.undo_count();
     let [left, right] = [keys(&harness)[1], keys(&harness)[2]];
     let from = place(&harness, "First handle");
-    // Smooth leaves the key level, for a third of the time.
+    // The first handle of `Smooth` is level with its key, a third of the way to the next one.
     assert!((from.x - (left.x + (right.x - left.x) / 3.0)).abs() < 0.6 && (from.y - left.y).abs() < 0.6);
     let to = pos2(left.x + (right.x - left.x) * 0.8, left.y + 12.0);
     harness.drag_at(from);
@@ -97,7 +97,7 @@ fn a_handle_is_dragged_shown_at_once_and_kept_as_one_entry() {
     assert_eq!(harness.state().document.undo_count(), count + 1);
     harness.state_mut().document.undo();
     assert_eq!(*harness.state().document.scene(), before);
-    // The other end, far out: it stops at the end of the time and of the values.
+    // The second handle, dragged far out, stops at the greatest time (1) and the greatest value (3) allowed.
     harness.run();
     let from = place(&harness, "Second handle");
     drag(&mut harness, from, pos2(right.x + 200.0, 0.0));

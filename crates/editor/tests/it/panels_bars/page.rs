@@ -15,7 +15,7 @@ use impasto_editor_model::timeline::{TimeHand, TimelineEvent, lanes};
 use impasto_editor_model::{Command, Document, Session};
 
 pub const COMBING: &str = "[Drag] comb  [Shift] smooth  [Ctrl] against  [F] radius  [Middle] orbit";
-pub const DROP: &str = "Drop an OBJ or a scene anywhere in the window";
+pub const DROP: &str = "Drop a model or a scene anywhere in the window";
 
 /// What is shown over the bars.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,11 +38,12 @@ pub struct Page {
     pub shows: Shows,
     pub choices: welcome::Choices,
     pub questions: Vec<Question>,
-    /// Everything that the bars asked for, except changes of the session or the frame: the page makes those itself.
+    /// What the bars asked for, except changes of the session or the frame: the page makes those itself. Events on keys
+    /// are here as the commands that came of them.
     pub asked: Vec<Ask>,
     pub left: Option<welcome::Left>,
     pub answer: Option<Answer>,
-    /// Whether the page carries out what is asked of the document, in place of keeping it in `asked`.
+    /// Whether the page carries out commands and previews that the bars ask for, in place of keeping them in `asked`.
     pub applies: bool,
 }
 

@@ -150,7 +150,7 @@ fn keys_are_dragged_by_the_pointer_and_snap_to_frames() {
     drag(&mut harness, from + vec2(3.0, 4.0), from + vec2(3.0 + 13.3 * per_frame, -20.0));
     assert_eq!(commands(harness.state()), [&Time::MoveKeys(vec![apple(60.0)], 13.0)]);
     assert_eq!(harness.state().time.keys.selected(), [apple(60.0)]);
-    // A click does not drag the key, it selects it.
+    // A press that moves by one point is a click: it selects the key and does not drag it.
     harness.state_mut().asked.clear();
     drag(&mut harness, places[1].1, places[1].1 + vec2(1.0, 0.0));
     assert_eq!((harness.state().asked.len(), harness.state().time.keys.selected()), (0, &[apple(37.0)][..]));

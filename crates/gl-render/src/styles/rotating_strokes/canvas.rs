@@ -17,8 +17,8 @@ const WANDER: f32 = 0.35;
 /// How often a thread strays and returns in one tile.
 const WANDER_CYCLES: u32 = 3;
 
-/// Height, then its slopes in x and in y per texel, each halved and centred on 128; four bytes a texel, bottom row
-/// first.
+/// Height above the mean, then its slopes in x and in y per texel, −1..1 stored as 0..255; four bytes a texel, the last
+/// unused; bottom row first.
 pub(super) fn tile() -> Vec<u8> {
     let side = SIDE as usize;
     let heights: Vec<f32> = (0..side * side).map(|index| height(index % side, index / side)).collect();

@@ -30,7 +30,8 @@ fn a_ball_bounces_three_times_ever_lower() {
     let shares: Vec<f64> = times().map(|time| Ease::Bounce.share(time)).collect();
     assert!(shares.iter().all(|share| (0.0..=1.0).contains(share)));
     assert!(Ease::Bounce.share(1.0 - f64::EPSILON / 2.0) > 1.0 - 1e-15);
-    // The floor is met after 4, 8 and 10 of 11 parts of the time, and between them the ball is half way.
+    // In elevenths of the time: the ball meets the floor at 4, 8, 10 and 11, and half way between them it is at the top
+    // of a bounce.
     for (floor, top, height) in [(4.0, 6.0, 0.25), (8.0, 9.0, 0.0625), (10.0, 10.5, 0.015_625)] {
         assert!((Ease::Bounce.share(floor / 11.0) - 1.0).abs() < 1e-12);
         assert!((Ease::Bounce.share(top / 11.0) - (1.0 - height)).abs() < 1e-12);
@@ -78,12 +79,12 @@ fn a_curve_is_solved_for_its_time() {
     for [first, second] in handles {
         for part in times() {
             let [time, share] = divided([first, second], part);
-            // Near the ends of time, x hardly tells the parts of some of these curves from each other.
             let found = Ease::Curve(first, second).share(time);
+            // The tolerance is wide since near times 0 and 1, x hardly changes along some of these curves.
             assert!((found - share).abs() < 1e-6, "{first:?} {second:?}: {found} for {share} at {time}");
         }
     }
-    // The steepest curve of all: x is a cube about its middle.
+    // The steepest curve of all, vertical in its middle: x = 1/2 + 4 (part − 1/2)³.
     let steep = Ease::Curve([1.0, 0.0], [0.0, 1.0]);
     assert!((steep.share(0.5) - 0.5).abs() < 1e-5);
     // `ease` of CSS, as browsers have it.
@@ -94,7 +95,7 @@ fn a_curve_is_solved_for_its_time() {
 fn a_curve_that_rises_never_falls() {
     for ends in 0..=20_u32 {
         let [first, second] = [f64::from(ends % 5) / 4.0, f64::from(ends / 5) / 4.0];
-        // Values that rise with the part: then what falls would be a part that goes back in time.
+        // y rises along the curve, so a share that falls means that the part found for a later time is an earlier one.
         let curve = Ease::Curve([first, 0.4], [second, 0.6]);
         let shares: Vec<f64> = times().map(|time| curve.share(time)).collect();
         assert!(shares.is_sorted(), "{curve:?}");

@@ -22,8 +22,8 @@ struct Open {
     has_colon: bool,
 }
 
-/// Ends a text before the offset `fault`, or earlier where a bracket must have been forgotten. `None` if nothing before
-/// it can be kept.
+/// Ends a text before the offset `fault`, or earlier where a bracket must have been forgotten; at its own end if the
+/// bracket at `fault` is never closed. `None` if no bracket opens before that, or if nothing would be cut or closed.
 pub(super) fn before(text: &str, fault: usize) -> Option<Cut> {
     let bytes = text.as_bytes();
     // A bracket that is never closed is reported at its opening; the text behind it may be good to the end.

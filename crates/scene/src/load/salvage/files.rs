@@ -1,4 +1,4 @@
-//! Reads the files of a scene with errors; boxes stand in for meshes that are missing.
+//! Reads the files of a scene with errors; boxes stand in for meshes that cannot be read.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -153,7 +153,7 @@ impl<'a> FileCache<'a> {
     }
 
     fn at(&self, problem: Problem, field_path: &str, located: &Located) -> Problem {
-        // The line of an error within the mesh file is kept in the message.
+        // The line of an error within another file, such as a mesh, is kept in the message.
         let words = match problem.place {
             Some(place) if problem.path != self.path => format!("line {}: {}", place.line, problem.message),
             _ => problem.message.clone(),

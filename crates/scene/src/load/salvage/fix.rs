@@ -20,7 +20,7 @@ pub struct Fix {
 }
 
 /// A text with fixes applied. An edit is skipped if its range is not in the text (the fix was found in another text),
-/// or if it overlaps a later edit.
+/// or if it overlaps an edit that starts behind it in the text.
 pub fn mended(text: &str, fixes: &[&Fix]) -> String {
     let mut edits: Vec<&(Range<usize>, String)> = fixes.iter().flat_map(|fix| &fix.edits).collect();
     edits.sort_by_key(|(range, _)| std::cmp::Reverse(range.start));
@@ -52,7 +52,7 @@ pub(super) fn renamed(located: &Located, field: &Field, error: &ron::Error) -> O
 
 /// Whether one of two names may be the other one, mistyped.
 pub(super) fn is_near(name: &str, other: &str) -> bool {
-    name.len() <= 64 && strsim::damerau_levenshtein(name, other) <= NEAR
+    name.len() <= 64 && other.len() <= 64 && strsim::damerau_levenshtein(name, other) <= NEAR
 }
 
 /// All fields of the value that a field belongs to.
