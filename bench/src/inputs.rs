@@ -72,7 +72,7 @@ pub const LARGEST: usize = PAPER_SCENES[2].particles;
 
 /// The particles of one body as points, in the order in which Impasto keeps them.
 pub struct Cloud {
-    /// The scene's name, or `objects`, and the number of points, for the table of results.
+    /// For the table of results: the number of points, after the scene's name, or `objects` for clouds of other sizes.
     pub name: String,
     /// Positions, model space.
     pub positions: Vec<Vec3>,

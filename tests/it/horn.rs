@@ -182,7 +182,8 @@ fn a_neighbour_list_of_another_particle_is_noticed() {
             lists.of((index + 1500) % 3000).iter().map(|&other| at(other as usize)).collect();
         let right: Vec<DVec3> = lists.of(index).iter().map(|&other| at(other as usize)).collect();
         let exact = weighted_sum_rad(at(index), &right, &reference.clip, &now.clip);
-        let fault = weighted_sum_rad(at(index), &wrong, &reference.clip, &now.clip);
+        let wrong = wrong.iter().map(|&neighbour| [neighbour; 2]);
+        let fault = turn_rad([at(index); 2], wrong, &reference.clip, &now.clip);
         errors += u32::from(degrees_apart(exact, fault) > 1e-3);
     }
     assert!(errors > 950, "only {errors} of 1000 planted faults show");

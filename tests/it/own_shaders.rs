@@ -96,7 +96,13 @@ fn the_command_draws_with_a_folder_of_shaders_or_says_what_is_wrong_with_it() {
     let broken = run();
     assert!(!broken.status.success() && said(&broken).contains("shared/encode.glsl:5"), "{}", said(&broken));
     assert!(!folder.path().join("a.png").exists());
-    std::fs::write(&file, ENCODE.replace("both.a);\n", "1.0).bgra;\n")).unwrap();
+    let red = ENCODE.replace("return mix(high, low,", "return vec3(1.0, 0.0, 0.0) + 0.0 * mix(high, low,");
+    std::fs::write(&file, red).unwrap();
     let drawn = run();
     assert!(drawn.status.success(), "{}", said(&drawn));
+    let picture = impasto_frame_files::frame_reader::read(&folder.path().join("a.png")).expect("a picture");
+    assert!(
+        picture.rgba.chunks_exact(4).all(|pixel| pixel == [255, 0, 0, 255]),
+        "the folder's shader was not used"
+    );
 }

@@ -8,7 +8,7 @@ use crate::animation::{Interpolation, Track};
 /// frames to 32 bits, half of them upwards. Only stepped values depend on it.
 const ROUNDED: f64 = 2.0 * f32::EPSILON as f64;
 
-/// A time among the keys of a clock.
+/// Where a time lies in a list of key times.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Place {
     /// The key at or before the time; the first, if the time is before all.
@@ -60,7 +60,7 @@ impl Place {
         array::from_fn(|axis| f64::from(track.values[start + axis]))
     }
 
-    /// `N` numbers of the value at the time, each by itself.
+    /// The first `N` numbers of the value at the time. Each is interpolated alone, so linear rotations cannot use this.
     pub fn numbers<const N: usize>(self, track: &Track) -> [f64; N] {
         array::from_fn(|axis| self.number(track, axis))
     }

@@ -86,8 +86,8 @@ fn displacement(then: &MeasuredStroke, now: &MeasuredStroke) -> f64 {
     dx.hypot(dy)
 }
 
-/// The same strokes with their presence as alpha: without what the picture decides, which is what hides a stroke, and
-/// whether its layer is wanted at its place (small strokes only near detail).
+/// The same strokes with their presence as alpha: as if nothing hid them, and as if each layer were wanted everywhere
+/// (in the picture small strokes, for example, are wanted only near detail).
 pub fn by_presence(strokes: &StrokesByKey) -> StrokesByKey {
     strokes.iter().map(|(key, stroke)| (*key, MeasuredStroke { alpha: stroke.presence, ..*stroke })).collect()
 }

@@ -31,7 +31,7 @@ pub(crate) struct CountInputs {
     least: u32,
     /// The body layer's count, where the object states it.
     stated: Option<u64>,
-    /// How many times as many particles the painted amounts ask for.
+    /// The factor, at least 1, by which painted amounts raise the counts.
     more_wanted: f32,
     paper: bool,
 }
@@ -120,7 +120,7 @@ impl CountInputs {
         std::array::from_fn(|kind| match self.stated {
             Some(stated) if kind == LayerKind::Body as usize => stated as usize,
             _ if self.left_out[kind] => 0,
-            // By the paper's rule a polygon without a particle stays bare.
+            // Painted as in the source paper, a polygon without a particle would stay bare: at least one for each.
             _ if self.paper => found[kind].max(surface.faces().count()),
             _ if LayerKind::ALL[kind] != LayerKind::Underpainting => {
                 particle_count::times(found[kind], self.more_wanted)

@@ -19,10 +19,11 @@ pub(crate) struct PaintingOrder {
 }
 
 impl PaintingOrder {
-    /// How many particles share one word of flags. Every coat begins with a new word.
+    /// Culling (`candidates`) keeps a bit for each number in words of this many. The numbers of each coat begin at a multiple
+    /// of it, so that no two coats share a word: numbers between coats may be unused.
     pub(crate) const WORD: usize = u64::BITS as usize;
 
-    /// A kept order of coats with these counts of particles; `None` if it does not fit them.
+    /// The painting order from kept arrays; `None` if they do not fit coats with `counts` particles.
     pub(crate) fn of_kept(numbers: Vec<u32>, firsts: Vec<u32>, counts: &[usize]) -> Option<Self> {
         let (begins, end) = begins(counts.iter().copied());
         let mut coat_of_word = Vec::with_capacity(end / Self::WORD);

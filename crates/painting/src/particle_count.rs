@@ -26,7 +26,7 @@ pub(crate) fn least(objects: usize) -> u32 {
     (LEAST >> halvings.min(31)).max(LEAST_OF_MANY)
 }
 
-/// Faces count up to this many half sizes of the picture from its middle.
+/// How far from the middle of the picture a face still counts, in half sizes of the picture.
 const MARGIN: f64 = 1.1;
 
 /// Faces that cover the picture more often than this, one behind the other, give their object no more particles: nearly
@@ -36,7 +36,7 @@ const DEEPEST: f64 = 32.0;
 /// At most this many faces are examined.
 const FACES: usize = 20_000;
 
-/// One view of the object, at the scene's own size.
+/// One view of the object, in a picture of the size that the scene states.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Sighting {
     pub(crate) map: ScreenMap,
@@ -69,8 +69,8 @@ struct CountedFace<const LAYERS: usize> {
     wanted_per_px: [f64; LAYERS],
 }
 
-/// For each layer, how many particles give nine tenths of the object's area in the picture all the strokes wanted
-/// there, in the view that needs most; no fewer than `least`. `wanted_per_px` gives the strokes per pixel wanted on a
+/// How many particles each layer needs, at least `least`: so many that in every view, nine tenths of the object's area
+/// in the picture have all the strokes that are wanted there. `wanted_per_px` gives the strokes per pixel wanted on a
 /// triangle, from its index, a point of it and its normal. `positions_at` gives the vertices' positions in a shape, or
 /// `None` at rest.
 pub(crate) fn find<const LAYERS: usize>(

@@ -25,7 +25,7 @@ fn ink_strokes(strokes: Vec<Stroke>) -> Frame {
         ..SumiE::default()
     });
     scene.objects[0].scale = Scale::even(3.0);
-    // The darkest colour has the darkest tone.
+    // The tone of an unlit surface comes from its colour alone: black gets the first tone, 0.5.
     scene.objects[0].material =
         Some(MaterialOverride { color: Some(BLACK), unlit: true, ..MaterialOverride::default() });
     scene.objects[0].keys = vec![ObjectKey { translation: [0.0, 0.0, -2.0], ..ObjectKey::at(0.0) }];
@@ -149,7 +149,7 @@ fn between_two_texels_of_the_ramp_tones_go_over_evenly() {
     let sheet_px = 2.0 / 2.25 * 360.0;
     let mut steps = 0;
     for x in 170..470 {
-        // Direct3D's sampling at corners moves the picture by half a pixel.
+        // The source's rule samples at a pixel's left edge, as Direct3D 9 does (`mix.frag`): `x`, not `x + 0.5`.
         let diffuse = from + (to - from) * ((x as f64 - 320.0) / sheet_px + 0.5);
         // The texels on either side of the step have their middles at 127.5 and 128.5 of 256.
         let share = (diffuse * 256.0 - 127.5).clamp(0.0, 1.0);

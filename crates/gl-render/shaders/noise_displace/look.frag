@@ -1,12 +1,12 @@
 // Layers of one texture that move against each other, multiplied: T = Π X·Y, where X and Y are a layer's two lookups,
-// moved along x and along y. Then the root of T, then the tint.
+// moved along x and along y. Then T to the power `exponent`, then the tint.
 in vec2 texture_at;
 
 uniform sampler2D layer_noise;   // repeats
 uniform int layer_count;         // k: the layers are 1 .. k - 1
 uniform vec2 tiling;
 uniform vec2 tile_offset;
-uniform vec2 travelled;          // time times speed
+uniform vec2 travelled;          // how far the layers have moved, in lengths of the texture (fraction only); y is 0 unless they go round a circle
 uniform float speed;
 uniform float first_way;         // 1: the first layer goes forward
 uniform float exponent;
@@ -16,7 +16,7 @@ uniform float bloom;
 uniform float threshold;
 
 layout(location = 0) out vec4 color;    // premultiplied, display-linear
-layout(location = 1) out vec4 glint;    // 0: it hides the highlights behind it
+layout(location = 1) out vec4 glint;    // of strength 0, laid over with the alpha of the look: it hides the highlights behind it
 layout(location = 2) out vec4 glow;     // premultiplied
 
 vec4 noise_at(vec2 at) {

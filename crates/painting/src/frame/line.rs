@@ -30,16 +30,17 @@ pub struct LineVertex {
     pub at_px: [f32; 2],
     /// Where it is on the brush mark, 0..=1: along and across.
     pub on_mark: [f32; 2],
-    /// From the line's middle to the vertex, pixels.
+    /// From the centre line to the vertex, straight across, pixels.
     pub from_middle_px: [f32; 2],
-    /// Depth of the line's middle, world units.
+    /// Depth of the centre line beside the vertex, world units.
     pub depth: f32,
     /// How far the paint is there, 0..=1; 0 where the surface is seen edge-on.
     pub presence: f32,
-    /// Depth of the surface's plane under the vertex, less the depth of the line's middle, pixels.
+    /// Depth of the surface's plane under the vertex, less that of the centre line beside it, pixels.
     pub lean_px: f32,
     /// How far the surface may leave that plane before paint ends, pixels of depth.
     pub leave_px: f32,
-    /// How much more paint the mark needs to show here, because the brush runs dry: a share of a mark's full paint.
+    /// The brush runs dry: how much more paint a texel of the mark must have to show here than at the line's beginning, as
+    /// a share of full paint.
     pub run_dry: f32,
 }

@@ -1,4 +1,4 @@
-//! The targets that the passes of the ink style draw into, for each of its two rules.
+//! The targets that the passes of the ink style draw into, for each `InkRule`.
 
 use std::rc::Rc;
 
@@ -7,7 +7,7 @@ use crate::gl::{Filter, Format, Framebuffer, GlError, Gpu, Texture};
 /// Pixels of the picture per texel of the wide blur, along each side.
 pub(super) const WIDE: u32 = 4;
 
-/// The targets of the rule `Source`, the effect that `styles/sumi_e.rs` names.
+/// The targets of `InkRule::Source`, which does as the RenderMonkey effect "Sumi-e Drawing" does.
 pub(super) struct SourceTargets {
     pub(super) silhouette: Rc<Texture>,
     pub(super) blurred_silhouette: Rc<Texture>,

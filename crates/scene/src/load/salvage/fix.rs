@@ -20,7 +20,7 @@ pub struct Fix {
 }
 
 /// A text with fixes applied. An edit is skipped if its range is not in the text (the fix was found in another text),
-/// or if it overlaps an edit that starts behind it in the text.
+/// or if it overlaps an edit further on in the text.
 pub fn mended(text: &str, fixes: &[&Fix]) -> String {
     let mut edits: Vec<&(Range<usize>, String)> = fixes.iter().flat_map(|fix| &fix.edits).collect();
     edits.sort_by_key(|(range, _)| std::cmp::Reverse(range.start));
