@@ -35,7 +35,8 @@ class ImpastoEngine(bpy.types.RenderEngine):
         try:
             self._paint(depsgraph)
         except Stopped:
-            pass
+            if export_request.is_on:
+                export_request.failure = "Stopped: the shot on disk is the one from before"
         except Failure as failure:
             self._fail(str(failure))
         except Exception as error:  # noqa: BLE001

@@ -138,6 +138,11 @@ fn frames_do_not_depend_on_how_many_draw_them() {
         // Frame 5 of `three` was there before, so it and the sheet may differ.
         assert!(name == "f_sheet.png" || name == "f_05.png" || one == three, "{name}");
     }
+    // Frames that were kept are on the sheet, too.
+    let sheet = || std::fs::read(folder.path("one/f_sheet.png")).unwrap();
+    let before = sheet();
+    assert_eq!(render("1", "one/f_##.png"), Vec::<u64>::new());
+    assert!(sheet() == before);
 }
 
 #[test]

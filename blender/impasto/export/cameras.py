@@ -24,8 +24,8 @@ class Camera:
 def picture_size(scene: bpy.types.Scene) -> tuple[int, int]:
     """Pixels of the picture."""
     render = scene.render
-    share = render.resolution_percentage / 100.0
-    return max(int(render.resolution_x * share), 1), max(int(render.resolution_y * share), 1)
+    percent = render.resolution_percentage
+    return max(render.resolution_x * percent // 100, 1), max(render.resolution_y * percent // 100, 1)
 
 
 def camera_of_frame(scene: bpy.types.Scene, frame: int) -> bpy.types.Object | None:

@@ -9,6 +9,11 @@ from typing import Any
 
 import numpy as np
 
+from .errors import ExportError
+
+# A .glb file counts its bytes in 32 bits.
+_MOST_BYTES = 2**32 - 1
+
 COMPONENT_CODES = {np.dtype(np.float32): 5126, np.dtype(np.uint32): 5125, np.dtype(np.uint16): 5123,
                    np.dtype(np.uint8): 5121}
 SHAPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
@@ -82,6 +87,8 @@ class Glb:
         text += b" " * (-len(text) % 4)
         binary = self._length + padding
         total = 12 + 8 + len(text) + (8 + binary if binary else 0)
+        if total > _MOST_BYTES:
+            raise ExportError(f"The shot has {total >> 30} GiB, and a .glb file holds 4: export fewer frames or objects")
         part = path.with_name(path.name + ".part")
         with open(part, "wb") as file:
             file.write(struct.pack("<4sII", b"glTF", 2, total))

@@ -91,7 +91,9 @@ def _read_mix(node: bpy.types.Node, entered: Entered, look: Look) -> bool:
     if is_clear[0] != is_clear[1]:
         solid = 1 if is_clear[0] else 0
         found = _read_shader(node.inputs[1 + solid], entered, look)
+        of_side, look.alpha = look.alpha, 1.0
         _read_alpha(node.inputs[0], entered, look, is_turned=solid == 0)
+        look.alpha *= of_side
         return found
     share = 0.5
     if source_of(node.inputs[0], entered) is None:

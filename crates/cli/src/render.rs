@@ -5,7 +5,7 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use impasto_frame_files::frame_reader::{self, Depth};
+use impasto_frame_files::frame_reader::{self, Depth, FrameFileError};
 use impasto_frame_files::picture_file::{self, Pixels};
 use impasto_frame_files::{FrameList, Pattern, not_an_input, ready_folder, scene_of, state_of};
 use impasto_gl_render::shader_folder::ShaderFolder;
@@ -175,8 +175,8 @@ fn name_of(loaded: &LoadedScene) -> String {
 }
 
 /// The picture in the file of a frame that was there.
-fn picture_in(path: &Path) -> Result<Picture, Failure> {
-    let frame = frame_reader::read(path).map_err(|error| Failure::Refused(error.to_string()))?;
+fn picture_in(path: &Path) -> Result<Picture, FrameFileError> {
+    let frame = frame_reader::read(path)?;
     let rgba8 = match frame.depth {
         Depth::Eight => frame.rgba,
         Depth::Sixteen => frame.rgba.chunks_exact(2).map(|bytes| bytes[0]).collect(),
@@ -292,7 +292,13 @@ impl Plan {
                             foreign.push(path.clone());
                         }
                         if let Some(sheet) = &mut sheet {
-                            sheet.add(&picture_in(&path)?);
+                            match picture_in(&path) {
+                                Ok(picture) => sheet.add(&picture),
+                                Err(error) => {
+                                    sheet.leave_empty();
+                                    bar.suspend(|| eprintln!("warning: the sheet has a gap: {error}"));
+                                }
+                            }
                         }
                     }
                     // This ends the command: a folder that is full or gone would take no further frame either.

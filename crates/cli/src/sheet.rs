@@ -6,6 +6,9 @@ use impasto_gl_render::Picture;
 const SMALL_PX: u32 = 240;
 const GAP_PX: u32 = 6;
 
+/// What is seen between the copies.
+const GROUND: [u8; 4] = [24, 24, 24, 255];
+
 /// The most frames on one sheet. Of more frames, only every second, third, … is shown.
 const MAX_COPIES: u64 = 144;
 
@@ -34,11 +37,19 @@ impl Sheet {
         self.seen += 1;
     }
 
+    /// Leaves the place of the next frame empty.
+    pub(crate) fn leave_empty(&mut self) {
+        if self.seen.is_multiple_of(self.stride) {
+            self.copies.push(vec![GROUND; self.small_px[0] as usize * self.small_px[1] as usize]);
+        }
+        self.seen += 1;
+    }
+
     pub(crate) fn picture(&self) -> Picture {
         let [width, height] = self.small_px;
         let rows = (self.copies.len() as u32).div_ceil(self.columns).max(1);
         let size_px = [self.columns * (width + GAP_PX) + GAP_PX, rows * (height + GAP_PX) + GAP_PX];
-        let mut pixels = vec![[24u8, 24, 24, 255]; size_px[0] as usize * size_px[1] as usize];
+        let mut pixels = vec![GROUND; size_px[0] as usize * size_px[1] as usize];
         for (index, copy) in self.copies.iter().enumerate() {
             let (column, row) = (index as u32 % self.columns, index as u32 / self.columns);
             let (left, top) = (GAP_PX + column * (width + GAP_PX), GAP_PX + row * (height + GAP_PX));

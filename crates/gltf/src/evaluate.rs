@@ -350,9 +350,9 @@ fn rotation(track: &Track, place: keys::Place) -> DQuat {
 }
 
 /// Sets a property of a camera. A field of view is clamped; another value that is out of range by itself changes
-/// nothing. Near and far are not compared.
+/// nothing. A far plane that is not behind the near plane is dropped (perspective), or put one unit behind it.
 fn drive_lens(lens: &mut Lens, property: CameraProperty, value: f64) {
-    match (lens, property) {
+    match (&mut *lens, property) {
         (Lens::Perspective { yfov_rad, .. }, CameraProperty::Yfov) => {
             *yfov_rad = value.clamp(1e-4, std::f64::consts::PI - 1e-4);
         }
@@ -363,6 +363,14 @@ fn drive_lens(lens: &mut Lens, property: CameraProperty, value: f64) {
         (Lens::Perspective { zfar, .. }, CameraProperty::Zfar) if value > 0.0 => *zfar = Some(value),
         (Lens::Orthographic { zfar, .. }, CameraProperty::Zfar) if value > 0.0 => *zfar = value,
         _ => {}
+    }
+    match lens {
+        Lens::Perspective { znear, zfar, .. } => *zfar = zfar.filter(|far| far > znear),
+        Lens::Orthographic { znear, zfar, .. } => {
+            if *zfar <= *znear {
+                *zfar = *znear + 1.0;
+            }
+        }
     }
 }
 

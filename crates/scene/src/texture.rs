@@ -79,8 +79,15 @@ pub fn decode(path: &Path, bytes: &[u8]) -> Result<Decoded, Problem> {
     if pixels == 0 {
         return Err(broken(format!("the picture is {width} x {height} pixels")));
     }
-    if pixels > MAX_PIXELS || decoder.total_bytes() > MAX_DECODER_BYTES {
+    if pixels > MAX_PIXELS {
         return Err(over_limit(path, Some([width, height])));
+    }
+    let bytes_needed = decoder.total_bytes();
+    if bytes_needed > MAX_DECODER_BYTES {
+        let (needed, most) = (bytes_needed >> 20, MAX_DECODER_BYTES >> 20);
+        let message = format!("the picture takes {needed} MiB to decode; the limit is {most} MiB");
+        let mend = "save it with 8 bits a channel, or scale it down".to_owned();
+        return Err(Problem { message, mend, ..over_limit(path, None) });
     }
     if format != ImageFormat::WebP && pixels / MAX_PIXELS_PER_BYTE > bytes.len() as u64 {
         return Err(broken(format!(

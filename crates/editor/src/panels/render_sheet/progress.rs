@@ -94,7 +94,8 @@ fn state(ui: &Ui, at: egui::Pos2, right: f32, progress: &RenderProgress) {
         ui.painter().text(at, Align2::LEFT_TOP, icon.glyph(), font, colour);
         at.x += measure::SMALL_ICON + 6.0;
     }
-    let words = if is_without { "No file is there yet".to_owned() } else { progress.state_words() };
+    let none_yet = if progress.kept > 0 { "No new file yet" } else { "No file is there yet" };
+    let words = if is_without { none_yet.to_owned() } else { progress.state_words() };
     let galley = ui.painter().layout(words.clone(), type_face::small(), colour, right - at.x);
     let rect = Rect::from_min_size(at, galley.size());
     ui.painter().galley(at, galley, colour);

@@ -97,6 +97,7 @@ pub(super) fn rows(document: &Document, state: &ColumnState) -> Vec<TreeLine> {
     rows.push(TreeLine {
         item: None,
         name: "canvas".to_owned(),
+        keyed: scene.background_keys.len() > 1,
         ..TreeLine::new(Item::Camera, "background", RowMark::Icon(icons::BACKDROP))
     });
     match searched {
@@ -154,6 +155,7 @@ fn region_row((index, region): (usize, &Region), depth: usize) -> TreeLine {
     TreeLine {
         depth,
         note: note_of(region),
+        keyed: region.strokes.keys.len() > 1,
         hidden: region.hidden,
         locked: region.locked,
         ..TreeLine::new(
