@@ -124,7 +124,7 @@ pub const AOVS: [AovRow; 26] = [
         "light",
         "light.R light.G light.B",
         "half",
-        "light that falls on the surface, with shadows; 1 on unlit surfaces",
+        "light that falls on the surface, with shadows; 1 on unlit surfaces and where noise colours",
     ),
     row(
         Aov::Shadow,
