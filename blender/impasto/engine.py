@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 
 from . import cryptomatte, painting, passes, refusals
+from .export.cameras import picture_size
 from .export_request import export_request
 from .exr import Planes, read
 from .failure import Failure, Stopped
@@ -36,7 +37,7 @@ class ImpastoEngine(bpy.types.RenderEngine):
             self._paint(depsgraph)
         except Stopped:
             if export_request.is_on:
-                export_request.failure = "Stopped: the shot on disk is the one from before"
+                export_request.failure = "Stopped: nothing was written"
         except Failure as failure:
             self._fail(str(failure))
         except Exception as error:  # noqa: BLE001
@@ -87,8 +88,7 @@ class ImpastoEngine(bpy.types.RenderEngine):
         self.update_progress(1.0)
 
     def _whole_size_px(self, scene: bpy.types.Scene) -> list[int]:
-        share = scene.render.resolution_percentage
-        return [max(1, side * share // 100) for side in (scene.render.resolution_x, scene.render.resolution_y)]
+        return list(picture_size(scene))
 
     def _export(
         self, place: painting.Painting, depsgraph: bpy.types.Depsgraph, view_layer: bpy.types.ViewLayer

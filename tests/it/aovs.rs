@@ -448,7 +448,8 @@ fn what_noise_colours_takes_no_light_and_has_no_normal() {
             }
         }
     }
-    assert!(coloured > 400, "the fire is not seen: {coloured}");
+    // Four values a pixel.
+    assert!(coloured > 4 * 100, "the fire is not seen: {coloured}");
 }
 
 #[test]

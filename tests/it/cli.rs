@@ -374,6 +374,9 @@ fn strokes_are_listed_as_they_are_drawn() {
     assert_eq!(json["strokes"].as_array().unwrap().len(), csv("0").lines().count() - 1);
     let svg = words(&folder.run(&["strokes", "scene.ron", "--format", "svg"]).stdout);
     assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
+    let groups: Vec<&str> = svg.lines().filter(|line| line.starts_with("<g id=")).collect();
+    let distinct: std::collections::BTreeSet<&&str> = groups.iter().collect();
+    assert!(!groups.is_empty() && distinct.len() == groups.len(), "{groups:?}");
     let shapes: Vec<&str> = svg.lines().filter(|line| line.starts_with("<path ")).collect();
     assert_eq!(shapes.len(), csv("0").lines().count() - 1, "a shape per stroke");
     assert!(shapes.iter().all(|shape| shape.ends_with("/>") && shape.matches('"').count() % 2 == 0));

@@ -316,6 +316,9 @@ fn a_template_is_one_that_runners_take_and_odd_ones_are_refused() {
     openjd(&["-o", "film.mp4"], "farms paint frames");
     openjd(&["-o", "f.exr", "--movie", "a.mp4"], "--exr");
     openjd(&["--", "--output", "x.png"], "the job says it itself");
+    openjd(&["--", "-f3"], "the job says it itself");
+    openjd(&["--", "--apng"], "cannot be used with");
+    openjd(&["-o", "f_####.exr", "--", "--contact-sheet"], "needs frames in .png");
     openjd(&["--", "--sizee", "1x1"], "unexpected argument '--sizee'");
     openjd(&["--", "--aov", "all"], "add --exr");
     std::fs::write(here.join("bad.ron"), "(version: 1, camera: 7)").unwrap();

@@ -181,9 +181,11 @@ fn a_neighbour_list_of_another_particle_is_noticed() {
         let wrong: Vec<DVec3> =
             lists.of((index + 1500) % 3000).iter().map(|&other| at(other as usize)).collect();
         let right: Vec<DVec3> = lists.of(index).iter().map(|&other| at(other as usize)).collect();
-        let exact = weighted_sum_rad(at(index), &right, &reference.clip, &now.clip);
-        let wrong = wrong.iter().map(|&neighbour| [neighbour; 2]);
-        let fault = turn_rad([at(index); 2], wrong, &reference.clip, &now.clip);
+        let turn = |list: &[DVec3]| {
+            let pairs = list.iter().map(|&neighbour| [neighbour; 2]);
+            turn_rad([at(index); 2], pairs, &reference.clip, &now.clip)
+        };
+        let (exact, fault) = (turn(&right), turn(&wrong));
         errors += u32::from(degrees_apart(exact, fault) > 1e-3);
     }
     assert!(errors > 950, "only {errors} of 1000 planted faults show");

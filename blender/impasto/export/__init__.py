@@ -55,6 +55,7 @@ def export_shot(walk: Callable[[int], bpy.types.Depsgraph], scene: bpy.types.Sce
         _write_nodes(met, NodeWriter(glb, tracks, last - first + 1), stop)
         tracks.finish()
         report(0.95)
+        glb.check_size()
         _finish_caches(met, folder)
         glb.write(folder / "shot.glb")
         write_sidecar(sidecar_of(met, inputs_sum), folder / "shot.impasto.json")

@@ -11,8 +11,8 @@ import numpy as np
 
 from .errors import ExportError
 
-# A .glb file counts its bytes in 32 bits.
-_MOST_BYTES = 2**32 - 1
+# Impasto reads no larger file.
+_MOST_BYTES = 2 << 30
 
 COMPONENT_CODES = {np.dtype(np.float32): 5126, np.dtype(np.uint32): 5125, np.dtype(np.uint16): 5123,
                    np.dtype(np.uint8): 5121}
@@ -76,6 +76,12 @@ class Glb:
             item["min"], item["max"] = rows.min(axis=0).tolist(), rows.max(axis=0).tolist()
         return self.add_once("accessors", item)
 
+    def check_size(self) -> None:
+        """Raises `ExportError` where the file would be larger than what can be read."""
+        if self._length > _MOST_BYTES:
+            raise ExportError(f"The shot has {self._length / 2**30:.1f} GiB, and at most 2 are read: "
+                              "export fewer frames or objects.")
+
     def write(self, path: Path) -> None:
         """Writes the file, whole or not at all."""
         if self._used:
@@ -87,8 +93,6 @@ class Glb:
         text += b" " * (-len(text) % 4)
         binary = self._length + padding
         total = 12 + 8 + len(text) + (8 + binary if binary else 0)
-        if total > _MOST_BYTES:
-            raise ExportError(f"The shot has {total >> 30} GiB, and a .glb file holds 4: export fewer frames or objects")
         part = path.with_name(path.name + ".part")
         with open(part, "wb") as file:
             file.write(struct.pack("<4sII", b"glTF", 2, total))

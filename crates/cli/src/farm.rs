@@ -18,15 +18,15 @@ use impasto_sequence::movie::Kind;
 use crate::args::{Arguments, Command};
 use crate::failure::Failure;
 use crate::farm_args::{FarmArguments, FarmCommand, PackArguments, SlurmArguments};
+use crate::render::has_ending;
 
 /// Flags of `impasto render` that the job sets itself.
-const OWN_FLAGS: [&str; 8] =
-    ["-o", "--output", "-f", "--frames", "--skip-existing", "--progress", "-q", "--quiet"];
+const OWN_FLAGS: [&str; 6] = ["-o", "--output", "-f", "--frames", "--skip-existing", "--progress"];
 
 pub(crate) fn farm(command: &FarmCommand) -> Result<(), Failure> {
     let (arguments, text) = match command {
         FarmCommand::Openjd(arguments) => {
-            let mut job = job(arguments)?;
+            let mut job = job(arguments, &["--progress", "openjd"])?;
             // A template's paths are relative to its folder, and lie in it.
             let folder = arguments.job.as_deref().and_then(Path::parent).unwrap_or(Path::new(""));
             for path in [&mut job.scene, &mut job.output].into_iter().chain(&mut job.movie) {
@@ -46,7 +46,7 @@ pub(crate) fn farm(command: &FarmCommand) -> Result<(), Failure> {
         }
         FarmCommand::Slurm(SlurmArguments { farm, chunk }) => {
             let frames_a_task = chunk.map(|frames| frames as usize);
-            (farm, slurm::script(&job(farm)?, frames_a_task).map_err(Failure::Usage)?)
+            (farm, slurm::script(&job(farm, &["--quiet"])?, frames_a_task).map_err(Failure::Usage)?)
         }
     };
     let Some(path) = &arguments.job else {
@@ -85,7 +85,8 @@ fn read(scene: &Path, asset_dirs: &[std::path::PathBuf], quiet: bool) -> Result<
 }
 
 /// The job; the scene is read, so that its errors are found here and not on a hundred machines.
-fn job(arguments: &FarmArguments) -> Result<Job, Failure> {
+/// `own` are words that the job adds to the command line.
+fn job(arguments: &FarmArguments, own: &[&str]) -> Result<Job, Failure> {
     let list = arguments.frames.as_deref().map(FrameList::parse).transpose().map_err(Failure::Usage)?;
     let is_own = |word: &String| {
         let is_attached = word.starts_with("-f") || word.starts_with("-o");
@@ -122,7 +123,7 @@ fn job(arguments: &FarmArguments) -> Result<Job, Failure> {
         let words = || Failure::Usage(format!("{}: the name is not UTF-8", path.display()));
         path.to_str().map(str::to_owned).ok_or_else(words)
     };
-    check_further(arguments)?;
+    check_further(arguments, own)?;
     let mut further = Vec::new();
     for folder in &arguments.asset_dirs {
         further.extend(["--asset-dir".to_owned(), text(folder)?]);
@@ -153,12 +154,11 @@ fn tell_frames_beyond(list: &FrameList, first: i64, last: i64) {
 
 /// Refuses arguments after `--` that `impasto render` would refuse, so that they fail here and not on a hundred
 /// machines.
-fn check_further(arguments: &FarmArguments) -> Result<(), Failure> {
-    let own = ["impasto", "render", "-o", &arguments.output, "--"].map(OsString::from);
-    let [program, command, flag, output, end] = own;
+fn check_further(arguments: &FarmArguments, own: &[&str]) -> Result<(), Failure> {
+    let always = ["impasto", "render", "-o", &arguments.output, "-f", "0", "--skip-existing"];
     let more = arguments.more.iter().map(OsString::from);
-    let words = [program, command, flag, output].into_iter().chain(more);
-    let words = words.chain([end, arguments.scene.clone().into_os_string()]);
+    let words = always.iter().chain(own).map(OsString::from).chain(more);
+    let words = words.chain(["--".into(), arguments.scene.clone().into_os_string()]);
     let parsed = Arguments::try_parse_from(words).map_err(|error| {
         let told = error.to_string();
         let first = told.lines().next().unwrap_or_default().trim_start_matches("error: ").to_owned();
@@ -166,6 +166,10 @@ fn check_further(arguments: &FarmArguments) -> Result<(), Failure> {
     })?;
     let Command::Render(render) = parsed.command else { return Ok(()) };
     let is_exr = render.picture.exr || arguments.output.to_lowercase().ends_with(".exr");
+    if render.contact_sheet && has_ending(&arguments.output, ".exr") {
+        let words = "behind --: --contact-sheet needs frames in .png: let -o end in it, and add --exr for EXR files beside them";
+        return Err(Failure::Usage(words.to_owned()));
+    }
     if !render.picture.aovs.is_empty() && !is_exr {
         let words = "behind --: --aov is for EXR files: let -o end in .exr, or add --exr for EXR files beside the frames";
         return Err(Failure::Usage(words.to_owned()));

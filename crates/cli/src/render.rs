@@ -176,12 +176,8 @@ fn name_of(loaded: &LoadedScene) -> String {
 
 /// The picture in the file of a frame that was there.
 fn picture_in(path: &Path) -> Result<Picture, FrameFileError> {
-    let frame = frame_reader::read(path)?;
-    let rgba8 = match frame.depth {
-        Depth::Eight => frame.rgba,
-        Depth::Sixteen => frame.rgba.chunks_exact(2).map(|bytes| bytes[0]).collect(),
-    };
-    Ok(Picture { size_px: frame.size_px, rgba8 })
+    let frame = frame_reader::read(&path.with_extension("png"))?.at_depth(Depth::Eight);
+    Ok(Picture { size_px: frame.size_px, rgba8: frame.rgba })
 }
 
 /// Where the contact sheet goes.
@@ -216,7 +212,8 @@ fn wanted(arguments: &RenderArguments, destination: &Destination, scene: &Scene)
     })
 }
 
-fn has_ending(output: &str, ending: &str) -> bool {
+/// Whether a file name has this ending, in small letters or capitals.
+pub(crate) fn has_ending(output: &str, ending: &str) -> bool {
     output.to_lowercase().ends_with(ending)
 }
 
@@ -292,12 +289,13 @@ impl Plan {
                             foreign.push(path.clone());
                         }
                         if let Some(sheet) = &mut sheet {
-                            match picture_in(&path) {
-                                Ok(picture) => sheet.add(&picture),
-                                Err(error) => {
-                                    sheet.leave_empty();
+                            match sheet.shows_next().then(|| picture_in(&path)) {
+                                Some(Ok(picture)) => sheet.add(&picture),
+                                Some(Err(error)) => {
+                                    sheet.leave_out();
                                     bar.suspend(|| eprintln!("warning: the sheet has a gap: {error}"));
                                 }
+                                None => sheet.leave_out(),
                             }
                         }
                     }
@@ -308,6 +306,9 @@ impl Plan {
                     }
                     FileOutcome::Failed(error) => {
                         failed += 1;
+                        if let Some(sheet) = &mut sheet {
+                            sheet.leave_out();
+                        }
                         bar.suspend(|| eprintln!("frame {frame_number}: {}: {error}", path.display()));
                     }
                     FileOutcome::Written(drawn) => {

@@ -19,6 +19,7 @@ use serde_json::{Value, json};
 
 use crate::args::ServeArguments;
 use crate::failure::Failure;
+use crate::render::has_ending;
 use crate::session::{self, Prepared};
 use orders::{Current, Order, Orders, RenderOrder};
 
@@ -137,12 +138,12 @@ impl Server<'_> {
     }
 
     fn render(&mut self, order: &RenderOrder, current: &Current) -> Result<Ending, Failure> {
+        if !has_ending(&order.output, ".exr") {
+            return Err(Failure::Usage(format!("output {}: let the name end in .exr", order.output)));
+        }
         self.ready()?;
         tell(&self.words_of_ready(order.id))?;
         let frames = FrameList::parse(&order.frames).map_err(Failure::Usage)?;
-        if !order.output.to_lowercase().ends_with(".exr") {
-            return Err(Failure::Usage(format!("output {}: let the name end in .exr", order.output)));
-        }
         let pattern = Pattern::parse(&order.output, frames.count());
         let Some(Ready { prepared: Prepared { painting, .. }, inputs, .. }) = &self.ready else {
             return Ok(Ending::Stopped);

@@ -31,15 +31,20 @@ impl Sheet {
     }
 
     pub(crate) fn add(&mut self, picture: &Picture) {
-        if self.seen.is_multiple_of(self.stride) {
+        if self.shows_next() {
             self.copies.push(reduced(picture, self.small_px));
         }
         self.seen += 1;
     }
 
-    /// Leaves the place of the next frame empty.
-    pub(crate) fn leave_empty(&mut self) {
-        if self.seen.is_multiple_of(self.stride) {
+    /// Whether the next frame is one that the sheet shows.
+    pub(crate) fn shows_next(&self) -> bool {
+        self.seen.is_multiple_of(self.stride)
+    }
+
+    /// Leaves the place of the next frame empty, if it has one.
+    pub(crate) fn leave_out(&mut self) {
+        if self.shows_next() {
             self.copies.push(vec![GROUND; self.small_px[0] as usize * self.small_px[1] as usize]);
         }
         self.seen += 1;
@@ -89,4 +94,30 @@ fn reduced(picture: &Picture, small_px: [u32; 2]) -> Vec<[u8; 4]> {
         }
     }
     small
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_clear_does_not_darken_its_neighbours() {
+        let half = Picture { size_px: [2, 1], rgba8: vec![255, 255, 255, 255, 255, 0, 0, 0] };
+        assert_eq!(reduced(&half, [1, 1]), [[255, 255, 255, 127]]);
+    }
+
+    #[test]
+    fn a_frame_that_is_left_out_keeps_its_place() {
+        let grey = |value: u8| Picture { size_px: [1, 1], rgba8: vec![value, value, value, 255] };
+        let mut sheet = Sheet::new(3, [1, 1]);
+        sheet.add(&grey(100));
+        sheet.leave_out();
+        sheet.add(&grey(200));
+        let picture = sheet.picture();
+        let at = |column: u32, row: u32| {
+            let [x, y] = [column, row].map(|place| GAP_PX + place * (1 + GAP_PX));
+            picture.rgba8[((y * picture.size_px[0] + x) * 4) as usize]
+        };
+        assert_eq!([at(0, 0), at(1, 0), at(0, 1)], [100, GROUND[0], 200]);
+    }
 }

@@ -312,7 +312,7 @@ mod tests {
             bow: 0.0,
         };
         assert_eq!(bent(&row(0.0, 0.0), [30.0, 4.0]), [30.0, 4.0]);
-        // Bowed by 2 half widths: its end is 0.116 of these to the left, above, and its middle 0.06 below.
+        // Bowed by 2 half widths: its end is 0.116 of these to the left, which is above.
         let bowed = outline(&Row { bow: 2.0, ..row(0.0, 0.0) });
         assert!(bowed.contains("50.00 -1.16"), "{bowed}");
         assert_eq!(bent(&row(1.0, 0.0), [50.0, 4.0]), [50.0, 0.0]);

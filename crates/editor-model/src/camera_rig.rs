@@ -30,6 +30,8 @@ pub struct FreeView {
     pose: CameraPose,
     /// Vertical field of view that [`Self::toggle_orthographic`] goes back to, degrees.
     fov_y_deg: f64,
+    /// The near and far plane that it began with, world units.
+    depths: [f64; 2],
 }
 
 /// A view along an axis of the world, named after the side that the camera is on.
@@ -56,7 +58,8 @@ impl FreeView {
             Lens::Perspective { fov_y_deg, .. } => fov_y_deg,
             Lens::Orthographic { .. } => 35.0,
         };
-        Self { pose, fov_y_deg }
+        let (Lens::Perspective { near, far, .. } | Lens::Orthographic { near, far, .. }) = pose.lens;
+        Self { pose, fov_y_deg, depths: [near, far] }
     }
 
     /// Its pose.
@@ -192,12 +195,12 @@ impl FreeView {
         self.pose.target += step;
     }
 
-    /// Moves the clip planes apart so that points this far away show.
+    /// Puts the clip planes where they were at first, or so far apart that points this far away show.
     fn reach(&mut self, distance: f64) {
         match &mut self.pose.lens {
             Lens::Perspective { near, far, .. } | Lens::Orthographic { near, far, .. } => {
-                *far = far.max(distance * 2.0);
-                *near = near.min(distance * 0.01);
+                *far = self.depths[1].max(distance * 2.0);
+                *near = self.depths[0].min(distance * 0.01);
             }
         }
     }

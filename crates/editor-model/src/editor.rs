@@ -401,7 +401,7 @@ impl Editor {
             return words;
         }
         if self.document.scene().objects.is_empty() {
-            return "Drop a model or a scene anywhere in the window".to_owned();
+            return "Drop a mesh or a scene anywhere in the window".to_owned();
         }
         let light = self.active_light().map(|place| place.light.name);
         let object = || Some(self.document.shown().scene.objects[self.active_object()?].name.clone());

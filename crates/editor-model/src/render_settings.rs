@@ -12,11 +12,11 @@ mod progress;
 mod tests;
 
 use std::collections::HashSet;
-use std::ffi::{OsStr, OsString};
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use impasto_frame_files::{FrameList, Pattern, PlaceError, ready_folder};
+use impasto_frame_files::{FrameList, Pattern, PlaceError, not_an_input, ready_folder};
 use impasto_scene::aovs::AovSet;
 use impasto_scene::document::Scene;
 use impasto_scene::limits::{MAX_PIXELS, MAX_SIDE_PX};
@@ -182,8 +182,12 @@ impl RenderSettings {
         let list = self.frames(document.scene(), shown);
         let frames = FrameList::parse(&list).map_err(fault(Field::Frames))?;
         check_size(self.size_px).map_err(fault(Field::Size))?;
-        let output = output_file(&self.output, document.folder()).map_err(fault(Field::Output))?;
+        let mut output = output_file(&self.output, document.folder()).map_err(fault(Field::Output))?;
         let kind = self.kind.fitting(&self.output);
+        if kind != FileKind::Movie {
+            // Files are written with the ending in small letters, however it was typed.
+            output.set_extension(kind.endings()[0]);
+        }
         if kind == FileKind::Movie && self.transparent && !is_clear(&output) {
             let words = "this kind of movie holds no transparency: let the name end in .mov or .webm";
             return Err(fault(Field::Output)(words.to_owned()));
@@ -218,11 +222,7 @@ impl RenderPlan {
     pub fn path(&self, frame: i64) -> PathBuf {
         match self.kind {
             FileKind::Movie => self.output.clone(),
-            _ => {
-                // The ending as it is written, which may be typed in capitals.
-                let path = self.pattern.path(frame);
-                self.kind.files(&path).into_iter().next().unwrap_or(path)
-            }
+            _ => self.pattern.path(frame),
         }
     }
 
@@ -279,19 +279,10 @@ impl RenderPlan {
     /// When files cannot be written there, or one would replace a file that the scene is read from.
     pub fn ready(&self) -> Result<(), PlaceError> {
         ready_folder(&self.output)?;
-        // Frames may be many and inputs are few, so each input is looked up among the files of the frames.
+        let (inputs, there) = (self.loaded.inputs(), names_in(self.folder()));
+        let is_there = |path: &PathBuf| path.file_name().is_some_and(|name| there.contains(name));
         let files = self.frames.iter().flat_map(|frame| self.kind.files(&self.path(frame)));
-        let names: HashSet<OsString> =
-            files.filter_map(|path| path.file_name().map(OsStr::to_os_string)).collect();
-        let folder = self.folder().canonicalize().ok();
-        let is_ours = |input: &PathBuf| {
-            let Ok(input) = input.canonicalize() else { return false };
-            input.parent() == folder.as_deref() && input.file_name().is_some_and(|name| names.contains(name))
-        };
-        match self.loaded.inputs().into_iter().find(is_ours) {
-            Some(input) => Err(PlaceError::Input(input)),
-            None => Ok(()),
-        }
+        files.filter(is_there).try_for_each(|path| not_an_input(&path, &inputs))
     }
 
     /// The name of the scene's file, which the rendered files record.

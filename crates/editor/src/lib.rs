@@ -35,16 +35,10 @@ pub enum EditError {
 /// # Errors
 /// [`EditError`]: a file that is neither scene nor mesh, shaders that cannot be read, no display, no OpenGL.
 pub fn run(options: &EditOptions) -> Result<(), EditError> {
-    use incoming::Kind;
     if let Some(path) = &options.path {
-        let what = match incoming::taken(path).map_err(EditError::Refused)? {
-            Kind::Scene | Kind::Mesh => None,
-            Kind::Preset => Some("a preset of strokes"),
-            Kind::Picture | Kind::Exr => Some("a picture"),
-            Kind::Movie => Some("a movie"),
-        };
-        if let Some(what) = what {
-            let words = format!("{} is {what}: open a scene or a mesh first", path.display());
+        // What cannot begin a scene is refused here, as where it is dropped on an empty window.
+        let plan = incoming::plan(std::slice::from_ref(path), incoming::Present::Nothing);
+        if let Some(words) = plan.refused.into_iter().next() {
             return Err(EditError::Refused(words));
         }
     }

@@ -165,7 +165,7 @@ pub fn viewport(ui: &mut Ui, layout: &Layout, input: &ViewportInput<'_>) -> View
 
     if input.empty {
         let font = type_face::title();
-        let words = "Drop a model here, or open a scene";
+        let words = "Drop a mesh here, or open a scene";
         painter.text(area.center(), egui::Align2::CENTER_CENTER, words, font, tokens.weak);
     }
     if let Some(words) = input.trouble {

@@ -69,7 +69,7 @@ impl Frames {
                 end += 1;
             }
             // Two frames that are no neighbours make no run, so that the second may begin one.
-            if end - at == 2 && step > 1 {
+            if end - at == 2 && step != 1 {
                 end = at + 1;
             }
             runs.push(Run { first: all[at], last: all[end - 1], step: if end - at == 1 { 1 } else { step } });
@@ -115,6 +115,7 @@ mod tests {
             ("10-19:3,30", "10-19:3,30"),
             ("-5--1", "-5--1"),
             ("1,2,3,2,1,7", "1-3,7"),
+            ("-9000000000000000000,9000000000000000000", "-9000000000000000000,9000000000000000000"),
         ] {
             let found = frames(list);
             assert_eq!(found.text(), told, "of {list}");

@@ -131,6 +131,11 @@ mod tests {
         }
         std::fs::write(&path, [bytes.as_slice(), b"x"].concat()).unwrap();
         assert!(!is_whole(&path), "a byte too many");
+        let table = head(&mut File::open(&path).unwrap()).unwrap().2;
+        let mut wild = bytes.clone();
+        wild[table + 8..table + 16].fill(0xff);
+        std::fs::write(&path, &wild).unwrap();
+        assert!(!is_whole(&path), "an entry of the table beyond all numbers");
         assert!(!is_whole(&folder.path().join("none.exr")));
     }
 }

@@ -221,6 +221,7 @@ impl Animator {
         for Playable { track, clock } in &self.tracks {
             posed.drive(track, places[*clock]);
         }
+        posed.lenses.iter_mut().for_each(settle_lens);
         for &node in &self.order {
             let local = posed.locals[node].parent_from_local();
             let Some(parent) = self.parents[node] else {
@@ -350,9 +351,9 @@ fn rotation(track: &Track, place: keys::Place) -> DQuat {
 }
 
 /// Sets a property of a camera. A field of view is clamped; another value that is out of range by itself changes
-/// nothing. A far plane that is not behind the near plane is dropped (perspective), or put one unit behind it.
+/// nothing. Near and far are compared by [`settle_lens`].
 fn drive_lens(lens: &mut Lens, property: CameraProperty, value: f64) {
-    match (&mut *lens, property) {
+    match (lens, property) {
         (Lens::Perspective { yfov_rad, .. }, CameraProperty::Yfov) => {
             *yfov_rad = value.clamp(1e-4, std::f64::consts::PI - 1e-4);
         }
@@ -364,6 +365,10 @@ fn drive_lens(lens: &mut Lens, property: CameraProperty, value: f64) {
         (Lens::Orthographic { zfar, .. }, CameraProperty::Zfar) if value > 0.0 => *zfar = value,
         _ => {}
     }
+}
+
+/// Drops a far plane that is not behind the near plane (perspective), or puts it one unit behind.
+fn settle_lens(lens: &mut Lens) {
     match lens {
         Lens::Perspective { znear, zfar, .. } => *zfar = zfar.filter(|far| far > znear),
         Lens::Orthographic { znear, zfar, .. } => {

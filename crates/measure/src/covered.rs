@@ -47,7 +47,8 @@ pub fn covered(size_px: [usize; 2], reference: &ReferencePixels, overruns_px: &B
                 if dx * dx + dy * dy > reach * reach {
                     continue;
                 }
-                if let Some(other) = at(x + dx, y + dy).filter(|&other| lies_behind(other)) {
+                let other = at(x + dx, y + dy).filter(|&other| reference.body_id[other] != 0);
+                if let Some(other) = other.filter(|&other| lies_behind(other)) {
                     covered.values[other] = 1.0;
                 }
             }

@@ -44,6 +44,8 @@ pub(crate) struct BodyField {
 /// The part of a field that does not depend on guides.
 struct UnguidedField {
     points: Vec<SamplePoint>,
+    /// In which the points are encoded.
+    symmetry: Symmetry,
     /// Computed when first needed.
     graph: OnceLock<FieldGraph>,
 }
@@ -57,7 +59,11 @@ impl BodyField {
             FieldInputs { guides, ..FieldInputs::clone(inputs) } == *before.inputs
         };
         let unguided = before.filter(only_guides_differ).map_or_else(
-            || Arc::new(UnguidedField { points: inputs.points(), graph: OnceLock::new() }),
+            || {
+                let symmetry = inputs.symmetry();
+                let points = inputs.points(symmetry);
+                Arc::new(UnguidedField { points, symmetry, graph: OnceLock::new() })
+            },
             |before| Arc::clone(&before.unguided),
         );
         let points = &unguided.points;
@@ -77,7 +83,7 @@ impl BodyField {
             return None;
         }
         let graph = unguided.graph.get_or_init(|| inputs.graph(points));
-        let symmetry = inputs.symmetry();
+        let symmetry = unguided.symmetry;
         let anchors = inputs.anchors(points, &free);
         let constraints: Vec<Constraint> = (0..points.len())
             .into_par_iter()

@@ -85,7 +85,8 @@ fn brightest_lamp(scene: &Scene) -> Option<usize> {
 }
 
 fn cone(light: &Light) -> Cone {
-    let [inner, outer] = light.cone_deg.unwrap_or([0.0, 45.0]).map(|deg| deg.to_radians().cos() as f32);
+    let [inner, outer] =
+        light.cone_deg.unwrap_or(Light::USUAL_CONE_DEG).map(|deg| deg.to_radians().cos() as f32);
     let axis = DVec3::from(light.direction.unwrap_or([0.0, -1.0, 0.0])).as_vec3();
     Cone { axis: axis.normalize_or(Vec3::NEG_Y), inner_cosine: inner, outer_cosine: outer }
 }

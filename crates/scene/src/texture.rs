@@ -84,7 +84,7 @@ pub fn decode(path: &Path, bytes: &[u8]) -> Result<Decoded, Problem> {
     }
     let bytes_needed = decoder.total_bytes();
     if bytes_needed > MAX_DECODER_BYTES {
-        let (needed, most) = (bytes_needed >> 20, MAX_DECODER_BYTES >> 20);
+        let (needed, most) = (bytes_needed.div_ceil(1 << 20), MAX_DECODER_BYTES >> 20);
         let message = format!("the picture takes {needed} MiB to decode; the limit is {most} MiB");
         let mend = "save it with 8 bits a channel, or scale it down".to_owned();
         return Err(Problem { message, mend, ..over_limit(path, None) });

@@ -28,6 +28,9 @@ enum Line {
     Stop,
     /// End.
     Quit,
+    /// Stands for a line that is too long to be read.
+    #[serde(skip)]
+    TooLong,
 }
 
 /// Frames to be rendered.
@@ -117,17 +120,16 @@ impl Orders {
                 if !matches!(read, Ok(count) if count > 0) {
                     break;
                 }
-                if line.trim_ascii().is_empty() {
+                let is_cut = line.len() as u64 == LONGEST_LINE && !line.ends_with(b"\n");
+                if is_cut && input.skip_until(b'\n').is_err() {
+                    break;
+                }
+                if !is_cut && line.trim_ascii().is_empty() {
                     continue;
                 }
-                if line.len() as u64 == LONGEST_LINE && !line.ends_with(b"\n") {
-                    if input.skip_until(b'\n').is_err() {
-                        break;
-                    }
-                    line.clear();
-                }
-                let order = match serde_json::from_slice(&line) {
-                    _ if line.is_empty() => Order::Unread(format!(
+                let read = if is_cut { Ok(Line::TooLong) } else { serde_json::from_slice(&line) };
+                let order = match read {
+                    Ok(Line::TooLong) => Order::Unread(format!(
                         "a line is longer than {LONGEST_LINE} bytes: it is passed over"
                     )),
                     Ok(Line::Prepare { id }) => Order::Prepare { id },

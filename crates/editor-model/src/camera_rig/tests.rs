@@ -95,8 +95,24 @@ fn zooming_keeps_the_point_under_the_cursor() {
             let grown = view.view(SIZE_PX).px_per_unit(view.pose().target) / before;
             assert!((grown - ZOOM_PER_STEP.powf(-steps)).abs() < 1e-9);
         }
+        let depths = |view: &FreeView| match view.pose().lens {
+            Lens::Perspective { near, far, .. } => Some([near, far]),
+            Lens::Orthographic { .. } => None,
+        };
         view.zoom(1e9, point);
+        if let Some([near, far]) = depths(&view) {
+            assert!(near < view.distance() && view.distance() < far, "too far off: {near}, {far}");
+        }
         view.zoom(-1e9, point);
+        if let Some([near, far]) = depths(&view) {
+            assert!(near < view.distance() && view.distance() < far, "too near: {near}, {far}");
+        }
+        // Back at a usual distance, the planes come together again, so that depths stay told apart.
+        let back = (1.0 / view.distance()).ln() / ZOOM_PER_STEP.ln();
+        view.zoom(back, point);
+        if let Some([near, far]) = depths(&view) {
+            assert!((near - 0.01).abs() < 1e-6 && far == 100.0, "{near}, {far}");
+        }
         assert!(view.pose().view_from_world().is_finite());
     }
 }

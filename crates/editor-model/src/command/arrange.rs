@@ -203,13 +203,13 @@ impl Arrange {
                     Lens::Perspective { fov_y_deg, .. } => Some(*fov_y_deg),
                     Lens::Orthographic { .. } => None,
                 };
-                let is_new = fov_of(&scene.camera.lens) != fov_of(lens);
+                let depths_alone = *lens != scene.camera.lens && fov_of(&scene.camera.lens) == fov_of(lens);
                 scene.camera.lens = lens.clone();
                 // A field of view in a key would hide the one that was just set.
-                for key in scene.camera.keys.iter_mut().filter(|_| is_new) {
+                for key in scene.camera.keys.iter_mut().filter(|_| !depths_alone) {
                     key.fov_y_deg = None;
                 }
-                Ok(Done::new("Set field of view"))
+                Ok(Done::new(if depths_alone { "Set near and far" } else { "Set field of view" }))
             }
             Self::SetCamera { frame, pose } => {
                 set_camera(scene, *frame, pose)?;

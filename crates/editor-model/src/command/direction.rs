@@ -1,7 +1,7 @@
 //! Commands on directions: guides that gestures leave, base directions of regions, references.
 
 use impasto_scene::document::{
-    Direction, Falloff, Guide, GuidePoint, GuideView, Reference, Region, Scene, Selector, Sense,
+    Direction, Falloff, Guide, GuideMode, GuidePoint, GuideView, Reference, Region, Scene, Selector, Sense,
 };
 use impasto_scene::motion;
 
@@ -294,7 +294,7 @@ fn simplify(region: &mut Region, tolerance: f64) -> Result<Done, Refusal> {
     let covers = |later: &Guide, earlier: &Guide| {
         later.strength >= 1.0
             && later.object == earlier.object
-            && (later.mode, later.falloff) == (earlier.mode, earlier.falloff)
+            && (later.mode, later.falloff) == (GuideMode::Comb, Falloff::Flat)
             && earlier.points.iter().all(|point| {
                 later.points.iter().any(|over| {
                     let apart = glam::DVec3::from(point.at).distance(glam::DVec3::from(over.at));

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use impasto_scene::document::{CameraKey, Ease, Lens};
 use impasto_scene::load::LoadOptions;
 
 use super::*;
@@ -263,4 +264,41 @@ fn a_shot_that_was_exported_again_is_no_edit_and_what_was_edited_stays_one() {
     export("1");
     document.read_files_again().expect("read");
     assert!(document.is_edited() && document.scene().seed == 9);
+}
+
+#[test]
+fn merged_steps_that_cancel_each_other_leave_no_entry_and_join_none() {
+    let files = Folder::with(&scene("leaf.obj", ""));
+    let mut document = files.open();
+    let first = document.scene().seed;
+    document.apply(&seed(first + 7)).unwrap();
+    let count = document.undo_count();
+    let nudge = |document: &mut Document, to: u32, at_secs: f64| {
+        document.apply_merged(&seed(to), "nudge", at_secs).unwrap();
+    };
+    nudge(&mut document, first + 8, 10.0);
+    nudge(&mut document, first + 7, 10.1);
+    assert_eq!(document.undo_count(), count, "to and back is nothing");
+    nudge(&mut document, first + 9, 10.2);
+    assert_eq!(document.undo_count(), count + 1, "and joins no older entry");
+}
+
+#[test]
+fn near_and_far_leave_keyed_fields_of_view_and_a_field_of_view_clears_them() {
+    let files = Folder::with(&scene("leaf.obj", ""));
+    let document = files.open();
+    let mut scene = document.scene().clone();
+    let (eye, target) = ([0.0, 0.0, 4.0], [0.0; 3]);
+    let key = CameraKey { frame: 0.0, eye, target, roll_deg: 0.0, fov_y_deg: Some(50.0), ease: Ease::Linear };
+    scene.camera.keys = vec![key];
+    let lens = |fov_y_deg: f64, near: f64| Lens::Perspective { fov_y_deg, near, far: 100.0 };
+    scene.camera.lens = lens(35.0, 0.1);
+    let keyed = |lens: Lens, scene: &Scene| {
+        let mut edited = scene.clone();
+        Command::Arrange(Arrange::SetLens(lens)).edit(&mut edited, document.loaded()).unwrap();
+        edited.camera.keys[0].fov_y_deg
+    };
+    assert_eq!(keyed(lens(35.0, 0.2), &scene), Some(50.0));
+    assert_eq!(keyed(lens(35.0, 0.1), &scene), None, "the field of view was stated, if as it is");
+    assert_eq!(keyed(lens(40.0, 0.1), &scene), None);
 }

@@ -205,10 +205,11 @@ impl Editor {
                 return true;
             }
             // The tool may take a point of a guide; else the selection is deleted.
-            Action::Delete if self.session.mode == Mode::Paint => {
-                let (was_busy, revision) = (self.hand.is_busy(), self.document.revision());
-                self.tool(ToolEvent::Key(action), view);
-                return was_busy || self.document.revision() != revision;
+            Action::Delete
+                if self.session.mode == Mode::Paint && (self.hand.is_busy() || self.pointer_px.is_some()) =>
+            {
+                let was_busy = self.hand.is_busy();
+                return self.tool(ToolEvent::Key(action), view) || was_busy;
             }
             _ => return false,
         };

@@ -325,8 +325,8 @@ impl Editor {
         self.picker.pick(&view.ray(at_px), &self.poses(), visible)
     }
 
-    /// Passes an event to the tool of Paint and carries out its result.
-    pub(super) fn tool(&mut self, event: ToolEvent, view: &View) {
+    /// Passes an event to the tool of Paint and carries out its result. Whether the tool had a command to carry out.
+    pub(super) fn tool(&mut self, event: ToolEvent, view: &View) -> bool {
         let poses = self.poses();
         let loaded = std::sync::Arc::clone(self.document.loaded());
         let painted =
@@ -349,6 +349,7 @@ impl Editor {
         if let Some(refusal) = self.output.refusal.clone() {
             self.refuse(&refusal);
         }
+        let has_command = self.output.commit.is_some();
         if let Some((command, words)) = self.output.ask.take() {
             self.requests.push(Request::TakeFaces(Box::new(command), words));
         } else if let Some(command) = self.output.commit.take() {
@@ -361,6 +362,7 @@ impl Editor {
         if let Some(item) = self.output.select.clone() {
             self.document.select(Selection::only(item));
         }
+        has_command
     }
 
     /// Cancels the interaction under way.

@@ -77,6 +77,16 @@ fn files_that_are_there_are_counted_and_the_scenes_own_refused() {
     loaded.path = folder.path().join("f_03.png");
     own.loaded = Arc::new(loaded);
     assert!(own.ready().unwrap_err().to_string().contains("f_03.png"));
+    let capitals = RenderSettings { output: "f_##.PNG".to_owned(), ..settings.clone() };
+    assert_eq!(capitals.plan(&document, 0.0).unwrap().existing_count(), 2, "files end in small letters");
+    #[cfg(unix)]
+    {
+        // A frame's name that is a link to what the scene is read from.
+        std::os::unix::fs::symlink(folder.path().join("s.ron"), folder.path().join("f_05.png")).unwrap();
+        let words = settings.plan(&document, 0.0).unwrap().ready().unwrap_err().to_string();
+        assert!(words.contains("s.ron"), "{words}");
+        std::fs::remove_file(folder.path().join("f_05.png")).unwrap();
+    }
     let blocked = RenderSettings { output: "f_3.png/f_##.png".to_owned(), ..settings };
     let words = blocked.plan(&document, 0.0).unwrap().ready().unwrap_err().to_string();
     assert!(words.contains("cannot write into") && words.contains("f_3.png"), "{words}");

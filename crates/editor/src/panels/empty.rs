@@ -13,7 +13,7 @@ pub fn empty(ui: &mut egui::Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     if !shown.document.scene().objects.is_empty() {
         return;
     }
-    let words = "Drop a model here, or open a scene";
+    let words = "Drop a mesh here, or open a scene";
     let verbs = [
         ("Open a mesh\u{2026}", "Open a mesh", Action::ImportMesh),
         ("Open a scene\u{2026}", "Open a scene", Action::OpenScene),

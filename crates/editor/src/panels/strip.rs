@@ -23,6 +23,7 @@ pub fn strip(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     if shown.session.shows_lanes() {
         return timeline::lanes(ui, shown, asks);
     }
+    timeline::leave_curves(ui, asks);
     let frame = egui::Frame::new().fill(Tokens::of(ui).alt);
     Panel::bottom("strip").exact_size(measure::STRIP).resizable(false).frame(frame).show(ui, |ui| {
         let whole = ui.max_rect();

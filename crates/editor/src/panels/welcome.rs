@@ -86,7 +86,7 @@ fn cards(ui: &mut Ui, keymap: &Keymap) {
         (
             "Open a mesh",
             icons::OBJECT,
-            "Drop a model anywhere. It is framed, lit and covered with strokes at once.",
+            "Drop a mesh anywhere. It is framed, lit and covered with strokes at once.",
             &[(&open, "")],
         ),
         (

@@ -150,8 +150,8 @@ fn a_new_scene_is_seen_unpainted_before_its_strokes_are_prepared() {
     assert!(pictures(&told).iter().all(|picture| picture.strokes > 0));
 }
 
-/// A viewport that is taller than the shot shows the shot in its middle as a file would have it, but for what lies near
-/// the shot's border.
+/// A viewport that is taller than the shot shows the shot in its middle as a file would have it, but for a hundredth of
+/// its bytes.
 #[test]
 fn a_taller_picture_holds_the_shot() {
     let loaded = scene();

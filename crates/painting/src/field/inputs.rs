@@ -80,13 +80,12 @@ impl FieldInputs {
     }
 
     /// The samples, each with what is stated there.
-    pub(super) fn points(&self) -> Vec<SamplePoint> {
+    pub(super) fn points(&self, symmetry: Symmetry) -> Vec<SamplePoint> {
         let stated = DirectionRules {
             rules: &self.rules,
             automatic: self.parts.directions(self.references.own()),
             extent: self.extent,
         };
-        let symmetry = self.symmetry();
         let samples = self.samples.particles.par_iter().with_min_len(256);
         samples.map(|sample| self.point(sample, &stated, symmetry)).collect()
     }
@@ -97,7 +96,11 @@ impl FieldInputs {
         let has_arrows = |sample: &Particle| {
             symmetry(&self.rules[usize::from(self.regions.of(sample))]) == Symmetry::Arrows
         };
-        if !samples.is_empty() && samples.iter().all(has_arrows) { Symmetry::Arrows } else { Symmetry::Lines }
+        if !samples.is_empty() && samples.par_iter().all(has_arrows) {
+            Symmetry::Arrows
+        } else {
+            Symmetry::Lines
+        }
     }
 
     fn point(&self, sample: &Particle, stated: &DirectionRules<'_>, symmetry: Symmetry) -> SamplePoint {

@@ -51,8 +51,10 @@ pub(super) fn check(
         if let Some((object, file)) = region.on.object().and_then(mesh_of) {
             let field_path = format!("regions[{index}].on");
             for patch in region.on.patches() {
-                let covered = covered.entry(Arc::as_ptr(file)).or_insert_with(|| Covered::of(file));
-                covered.check(&field_path, patch, findings);
+                if matches!(patch, PatchRef::Group(_) | PatchRef::Material(_)) {
+                    let covered = covered.entry(Arc::as_ptr(file)).or_insert_with(|| Covered::of(file));
+                    covered.check(&field_path, patch, findings);
+                }
                 if let PatchRef::Dabs(dabs) = patch
                     && !known.dabs.contains(&index)
                 {

@@ -37,6 +37,9 @@ pub struct Light {
 }
 
 impl Light {
+    /// The `cone_deg` of a `Spot` that states none, degrees.
+    pub const USUAL_CONE_DEG: [f64; 2] = [0.0, 45.0];
+
     /// How much of the light from above comes from below where an `Ambient` light states no `ground`, by linear channel:
     /// as if bounced off a warm floor.
     pub const OFF_THE_FLOOR: [f32; 3] = [0.5, 0.42, 0.34];

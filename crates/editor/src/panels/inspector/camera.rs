@@ -93,6 +93,8 @@ fn lens(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
         _ => {}
     }
     let [near_now, far_now] = depths(&camera.lens);
+    // Without the field of view that a key states here.
+    let base = asker.stored().camera.lens.clone();
     let number = Number {
         range: 0.01..=10.0,
         limits: Some(MIN_LENGTH..=f64::INFINITY),
@@ -100,7 +102,7 @@ fn lens(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
         default: Some(0.05),
         ..Number::new("Near", "The nearest depth that shows, in units of the world.")
     };
-    asker.number(ui, &number, [near_now, near], |to| set(with_depths(&was.lens, to.unwrap_or(0.05), far)));
+    asker.number(ui, &number, [near_now, near], |to| set(with_depths(&base, to.unwrap_or(0.05), far)));
     let number = Number {
         range: 1.0..=1000.0,
         limits: Some(MIN_LENGTH..=f64::INFINITY),
@@ -108,7 +110,7 @@ fn lens(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
         default: Some(100.0),
         ..Number::new("Far", "The farthest depth that shows, in units of the world.")
     };
-    asker.number(ui, &number, [far_now, far], |to| set(with_depths(&was.lens, near, to.unwrap_or(100.0))));
+    asker.number(ui, &number, [far_now, far], |to| set(with_depths(&base, near, to.unwrap_or(100.0))));
 }
 
 fn with_depths(lens: &Lens, near: f64, far: f64) -> Lens {

@@ -90,7 +90,8 @@ fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [light, kept]: [&Light; 2]) {
         });
     }
     if light.kind == LightKind::Spot {
-        let cone = |light: &Light| light.cone_deg.unwrap_or([0.0, 45.0]);
+        let usual = Light::USUAL_CONE_DEG;
+        let cone = |light: &Light| light.cone_deg.unwrap_or(usual);
         let ([inner, outer], [inner_was, outer_was]) = (cone(&light), cone(&stored));
         let angle = |name, effect, least: f64, most: f64, default: f64| Number {
             range: least..=most,
@@ -100,14 +101,15 @@ fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [light, kept]: [&Light; 2]) {
             default: Some(default),
             ..Number::new(name, effect)
         };
-        let ends = angle("Cone", "From the axis of the spot to where its light ends.", 1.0, 90.0, 45.0);
+        let ends = angle("Cone", "From the axis of the spot to where its light ends.", 1.0, 90.0, usual[1]);
         asker.number(ui, &ends, [outer, outer_was], |to| {
-            let outer = to.unwrap_or(45.0);
+            let outer = to.unwrap_or(usual[1]);
             set(Light { cone_deg: Some([inner_was.min(outer), outer]), ..kept.clone() }, "cone")
         });
-        let fades = angle("Fades from", "From the axis to where its light begins to fade.", 0.0, outer, 0.0);
+        let fades =
+            angle("Fades from", "From the axis to where its light begins to fade.", 0.0, outer, usual[0]);
         asker.number(ui, &fades, [inner, inner_was], |to| {
-            set(Light { cone_deg: Some([to.unwrap_or(0.0), outer_was]), ..kept.clone() }, "soft edge")
+            set(Light { cone_deg: Some([to.unwrap_or(usual[0]), outer_was]), ..kept.clone() }, "soft edge")
         });
     }
     if light.kind == LightKind::Ambient {

@@ -72,10 +72,6 @@ fn with_handle(ease: Ease, index: usize, handle: [f64; 2]) -> Ease {
         Ease::Curve(first, second) => [first, second],
         named => named.handles().map(kept),
     };
-    if handles[index] == kept(handle) {
-        // A press without a move leaves a named ease what it is.
-        return ease;
-    }
     handles[index] = kept(handle);
     if handles == Ease::Linear.handles().map(kept) {
         Ease::Linear
@@ -120,8 +116,8 @@ impl Segment {
 }
 
 /// The id of the curves, under which their memory is kept.
-fn memory_id(ui: &Ui) -> Id {
-    ui.scope_id().with("curves")
+fn memory_id() -> Id {
+    Id::unique("curves of the timeline")
 }
 
 /// The id of the menu of the curves with this id.
@@ -150,13 +146,13 @@ pub(super) fn curves(ui: &mut Ui, layout: &LaneLayout<'_>, shown: &PanelInput<'_
     let area = layout.area;
     let all = lanes(&shown.document.shown().scene);
     let Some(lane) = shown_lane(ui, &all, shown) else { return };
-    let id = memory_id(ui);
+    let id = memory_id();
     let mut memory = ui.data_mut(|data| data.get_temp::<Memory>(id)).unwrap_or_default();
     let whole = ui.interact(area, id, Sense::click());
     let label = format!("{} curves", lane.of.name());
     whole.widget_info(|| WidgetInfo::labeled(Role::List, true, &label));
     if whole.clicked() || whole.secondary_clicked() {
-        choose(&whole, layout, lane, &mut memory);
+        choose(&whole, layout, lane, None, &mut memory);
     }
     let segment = chosen_segment(lane, memory.chosen.as_ref(), shown.session.frame);
     let shares = memory.drag.as_ref().map_or_else(|| reach(lane, segment), |drag| drag.shares);
@@ -175,7 +171,7 @@ pub(super) fn curves(ui: &mut Ui, layout: &LaneLayout<'_>, shown: &PanelInput<'_
             for index in 0..HANDLES.len() {
                 let on_handle = Handle { plot, segment, lane, index }.show(ui, &mut memory, asks);
                 if on_handle.is_some_and(|response| response.secondary_clicked()) {
-                    choose(&whole, layout, lane, &mut memory);
+                    choose(&whole, layout, lane, Some(segment.left.frame), &mut memory);
                 }
             }
         }
@@ -193,7 +189,7 @@ pub(super) fn curves(ui: &mut Ui, layout: &LaneLayout<'_>, shown: &PanelInput<'_
 
 /// Called while keys show instead of curves: takes back the drag of a handle during which a shortcut hid the curves.
 pub(super) fn leave(ui: &Ui, asks: &mut Vec<Ask>) {
-    let id = memory_id(ui);
+    let id = memory_id();
     let memory = ui.data(|data| data.get_temp::<Memory>(id)).filter(|memory| memory.drag.is_some());
     if let Some(memory) = memory {
         ui.data_mut(|data| data.insert_temp(id, Memory { drag: None, ..memory }));
@@ -201,13 +197,14 @@ pub(super) fn leave(ui: &Ui, asks: &mut Vec<Ask>) {
     }
 }
 
-/// Chooses the segment that was clicked; a right click also opens its menu.
-fn choose(whole: &Response, layout: &LaneLayout<'_>, lane: &Lane, memory: &mut Memory) {
+/// Chooses the segment that begins at the key in frame `left`, or else the one under the pointer; a right click also
+/// opens its menu.
+fn choose(whole: &Response, layout: &LaneLayout<'_>, lane: &Lane, left: Option<f64>, memory: &mut Memory) {
     let (at, opens_menu) =
         whole.ctx.input(|input| (input.pointer.interact_pos(), input.pointer.secondary_released()));
     let Some(at) = at else { return };
     let frame = layout.across.place(at.x);
-    let Some(left) = lane.left_of(frame) else { return };
+    let Some(left) = lane.left_of(left.unwrap_or(frame)) else { return };
     let key = (lane.of.clone(), left.frame);
     memory.chosen = Some(key.clone());
     if opens_menu {
@@ -410,7 +407,9 @@ impl Handle<'_> {
         }
         let to = response.interact_pointer_pos().map(|at| {
             let handle = self.plot.handle(self.segment.frames(), at + drag.off);
-            with_handle(drag.before, self.index, handle)
+            // A press without a move leaves the ease what it is.
+            let is_moved = handle != kept(drag.before.handles()[self.index]);
+            if is_moved { with_handle(drag.before, self.index, handle) } else { drag.before }
         });
         if response.dragged_by(PointerButton::Primary) {
             asks.extend(to.map(|ease| Ask::Preview(self.set(ease))));

@@ -34,6 +34,11 @@ pub fn height(session: &Session, window_width: f32) -> f32 {
     if session.shows_lanes() { measures(window_width).0 } else { measure::STRIP }
 }
 
+/// Takes back the drag of a curve's handle during which the curves were hidden.
+pub(super) fn leave_curves(ui: &Ui, asks: &mut Vec<Ask>) {
+    curves::leave(ui, asks);
+}
+
 /// The timeline with its lanes; takes the lowest part of `ui`.
 pub(super) fn lanes(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let (height, lane_height, names) = measures(ui.ctx().content_rect().width());

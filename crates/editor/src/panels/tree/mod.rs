@@ -225,7 +225,7 @@ fn rename_row(ui: &mut Ui, row: &TreeLine, mut typed: String, asks: &mut Vec<Ask
 fn words_below(ui: &mut Ui, rows: &[TreeLine], state: &ColumnState, empty: bool) {
     let words = match &state.search {
         Some(text) if rows.is_empty() => format!("Nothing is named \u{201c}{}\u{201d}.", text.trim()),
-        _ if empty => "No objects yet. Drop a model anywhere, or press +".to_owned(),
+        _ if empty => "No objects yet. Drop a mesh anywhere, or press +".to_owned(),
         _ => return,
     };
     let weak = Tokens::of(ui).weak;

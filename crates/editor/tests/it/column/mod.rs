@@ -1,5 +1,6 @@
 //! The editor's right column (tree and inspector) with a document, for tests that find its controls by name.
 
+mod all_values;
 mod guides;
 mod ink;
 mod inspector;

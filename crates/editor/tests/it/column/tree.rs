@@ -177,6 +177,6 @@ fn lights_and_regions_are_added_from_the_menu() {
 fn an_empty_tree_says_so() {
     let column = Column::of(Document::empty(Path::new(".")));
     let harness = harness_of(column, Theme::Dark, SIZE);
-    assert!(harness.query_by_label("No objects yet. Drop a model anywhere, or press +").is_some());
+    assert!(harness.query_by_label("No objects yet. Drop a mesh anywhere, or press +").is_some());
     assert!(harness.query_by_label("Select something to see its settings.").is_some());
 }

@@ -15,7 +15,7 @@ use impasto_editor_model::timeline::{TimeHand, TimelineEvent, lanes};
 use impasto_editor_model::{Command, Document, Session};
 
 pub const COMBING: &str = "[Drag] comb  [Shift] smooth  [Ctrl] against  [F] radius  [Middle] orbit";
-pub const DROP: &str = "Drop a model or a scene anywhere in the window";
+pub const DROP: &str = "Drop a mesh or a scene anywhere in the window";
 
 /// What is shown over the bars.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
