@@ -44,7 +44,7 @@ pub enum Command {
     Regions(Regions),
     /// Keys and the timeline.
     Time(Time),
-    /// Size, seed, background, exposure and style.
+    /// Size, seed, ground, background, exposure and style.
     Scene(SceneEdit),
     /// Several commands as one entry of the history, with one text; if one is refused, all are.
     Several(String, Vec<Command>),
@@ -88,7 +88,7 @@ impl Command {
             Self::Touches(command) => command.edit(scene),
             Self::Regions(command) => command.edit(scene),
             Self::Time(command) => command.edit(scene),
-            Self::Scene(command) => command.edit(scene),
+            Self::Scene(command) => command.edit(scene, before),
             Self::Several(text, commands) => {
                 let mut all = Done::new(text.clone());
                 for command in commands {

@@ -163,6 +163,18 @@ impl Document {
         self.edited(command).err()
     }
 
+    /// The scene as it would be after a command, without carrying it out. Files may also come from the folder `also`.
+    ///
+    /// # Errors
+    /// Why the command would be refused.
+    pub fn seen_with(&self, command: &Command, also: Option<&Path>) -> Result<LoadedScene, Refusal> {
+        let mut folders = self.options.folders.clone();
+        folders.extra.extend(also.map(Path::to_owned));
+        let mut scene = self.loaded.scene.clone();
+        command.edit(&mut scene, &self.loaded)?;
+        self.loaded.with_scene(scene, &folders).map_err(|report| Refusal::of(&report))
+    }
+
     /// Ends a preview.
     pub fn end_preview(&mut self) {
         self.preview = None;

@@ -6,6 +6,7 @@ mod frame_reading;
 pub mod icons;
 mod options;
 pub mod panels;
+mod preset_pictures;
 pub mod rendering;
 pub mod theme;
 pub mod viewport;

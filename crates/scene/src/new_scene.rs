@@ -77,14 +77,14 @@ pub fn for_mesh(path: &Path, mesh: &MeshFile, placing: Placing) -> NewScene {
     }
     let taken: Vec<&str> = objects.iter().map(|object| object.name.as_str()).collect();
     // A floor would hide a model that is seen from below.
-    let ground = if view.axes.back.y > 0.0 { placing.ground } else { Ground::Plain };
-    let laid = ground.lay(&view, &scheme, &taken, name_hash);
+    let ground = if view.footing.axes.back.y > 0.0 { placing.ground } else { Ground::Plain };
+    let laid = ground.lay(&view.footing, &scheme, &taken, name_hash);
     objects.extend(laid.object);
     let scene = Scene {
         seed: name_hash % 1000,
         background: laid.background,
         camera: view.camera(),
-        lights: scheme.lights(view.axes, view.light_goes),
+        lights: scheme.lights(view.footing.axes, view.footing.light_goes),
         objects,
         // Smaller strokes than usual: an unknown model may have much fine detail.
         strokes: StrokeSettings { scale: Some(0.7), ..Default::default() },

@@ -113,7 +113,8 @@ fn delete(scene: &mut Scene, items: &[Item]) -> Result<Done, Refusal> {
     Ok(Done::new(text).selecting(Selection::default()))
 }
 
-fn delete_object(scene: &mut Scene, name: &str) -> Result<(), Refusal> {
+/// Deletes an object with what lies on it; refuses if it is locked.
+pub(super) fn delete_object(scene: &mut Scene, name: &str) -> Result<(), Refusal> {
     let parent = unlocked_object(scene, name)?.parent.clone();
     let frame = motion::referred_to(scene, &scene.reference).1;
     let children: Vec<String> = scene

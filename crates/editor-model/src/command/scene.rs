@@ -1,12 +1,15 @@
-//! Commands on the scene as a whole: size, seed, background, exposure and style.
+//! Commands on the scene as a whole: size, seed, ground, background, exposure and style.
 
-use impasto_scene::document::{Color, Scene, Style};
+use impasto_scene::document::{Color, Object, Scene, Style};
+use impasto_scene::loaded::LoadedScene;
+use impasto_scene::new_scene::Ground;
 
 use super::Done;
+use super::edit::delete_object;
 use super::region::in_file;
 use crate::refusal::Refusal;
 
-/// Size, seed, background, exposure and style.
+/// Size, seed, ground, background, exposure and style.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "edits are made one at a time")]
 pub enum SceneEdit {
@@ -14,6 +17,9 @@ pub enum SceneEdit {
     SetSize(u32, u32),
     /// Sets the seed of all random choices.
     SetSeed(u32),
+    /// Sets what the objects stand on. The old ground goes, with its regions and what is painted on it; the new one has
+    /// its colour.
+    SetGround(Ground),
     /// Sets the background: what shows where nothing is painted.
     SetBackground(Color),
     /// Sets the stops by which all lights are brightened.
@@ -23,7 +29,7 @@ pub enum SceneEdit {
 }
 
 impl SceneEdit {
-    pub(super) fn edit(&self, scene: &mut Scene) -> Result<Done, Refusal> {
+    pub(super) fn edit(&self, scene: &mut Scene, before: &LoadedScene) -> Result<Done, Refusal> {
         match self {
             Self::SetSize(width, height) => {
                 scene.size = (*width, *height);
@@ -33,6 +39,7 @@ impl SceneEdit {
                 scene.seed = *seed;
                 Ok(Done::new(format!("Seed {seed}")))
             }
+            Self::SetGround(ground) => set_ground(scene, before, *ground),
             Self::SetBackground(color) => {
                 scene.background = in_file(*color);
                 Ok(Done::new("Background"))
@@ -47,4 +54,18 @@ impl SceneEdit {
             }
         }
     }
+}
+
+fn set_ground(scene: &mut Scene, before: &LoadedScene, ground: Ground) -> Result<Done, Refusal> {
+    let is_ground = |object: &&Object| Ground::of_object(object).is_some();
+    let old: Vec<Object> = scene.objects.iter().filter(is_ground).cloned().collect();
+    for object in &old {
+        delete_object(scene, &object.name)?;
+    }
+    let color = old.iter().find_map(|object| object.material.as_ref()?.color);
+    if !ground.lay_under(scene, &before.meshes, color) {
+        return Err(Refusal::new("The camera looks from below: a floor would hide everything"));
+    }
+    let word = Ground::ALL.iter().find(|(_, other)| *other == ground).map_or("", |(word, _)| word);
+    Ok(Done::new(format!("Ground: {word}")))
 }

@@ -1,12 +1,13 @@
-//! Tests that touches on an object stay in place on its surface when an edit changes the object's own space.
+//! Tests of edits that move what lies on an object: touches when its own space changes, and the ground.
 
 use std::path::Path;
 
 use glam::DVec3;
-use impasto_editor_model::Document;
-use impasto_editor_model::command::{Arrange, Command, Touches};
-use impasto_scene::document::{Touch, TouchPoint};
+use impasto_editor_model::command::{Arrange, Command, Edit, SceneEdit, Touches};
+use impasto_editor_model::{Document, Item};
+use impasto_scene::document::{Object, Scene, Touch, TouchPoint};
 use impasto_scene::load::LoadOptions;
+use impasto_scene::new_scene::Ground;
 
 const AT: [f64; 3] = [0.4, 0.3, -0.2];
 
@@ -49,4 +50,33 @@ fn touches_go_with_an_object_that_is_stretched_scaled_or_turned_upright() {
         assert!((found - place).length() < 1e-5, "{edit:?}: at {found}, not {place}");
         assert!((turned - normal).length() < 1e-5, "{edit:?}: normal {turned}, not {normal}");
     }
+}
+
+#[test]
+fn a_ground_that_is_chosen_takes_the_place_of_the_old_one_and_keeps_its_color() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/zoom.ron");
+    let mut document = Document::open(&path, &LoadOptions::default()).expect("a shipped scene opens");
+    let before = document.scene().clone();
+    let ground = |scene: &Scene| {
+        let of_scene = |object: &&Object| Ground::of_object(object).is_some();
+        scene.objects.iter().find(of_scene).cloned()
+    };
+    let old = ground(&before).expect("a backdrop");
+    let set = |ground| Command::Scene(SceneEdit::SetGround(ground));
+
+    document.apply(&set(Ground::Vignette)).expect("it fits");
+    let laid = ground(document.scene()).expect("a patch of floor");
+    assert_eq!(Ground::of_scene(document.scene()), Ground::Vignette);
+    assert_eq!(laid.material.unwrap().color, old.material.as_ref().unwrap().color);
+    let on_old = |scene: &Scene| scene.regions.iter().filter(|r| r.on.object() == Some(&old.name)).count();
+    assert_eq!((on_old(&before), on_old(document.scene())), (2, 0), "its regions go with it");
+    document.apply(&set(Ground::Plain)).expect("it fits");
+    assert_eq!(document.scene().objects.len(), before.objects.len() - 1);
+    document.undo();
+    document.undo();
+    assert_eq!(*document.scene(), before);
+
+    let lock = Edit::SetLocked(vec![Item::Object(old.name.clone())], true);
+    document.apply(&Command::Edit(lock)).expect("it can be locked");
+    assert!(document.apply(&set(Ground::Plain)).is_err(), "a locked ground stays");
 }

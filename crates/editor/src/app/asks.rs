@@ -71,6 +71,7 @@ impl EditorApp {
             }
             Ask::StopWork(WorkKind::Rendering) => {}
             Ask::ListPresets => self.list_presets(),
+            Ask::PicturePresets(of) => self.picture_presets(of),
             Ask::SavePreset(of) => self.ask_for_preset(FileAsk::SavePreset, of, ctx),
             Ask::LoadPreset(of) => self.ask_for_preset(FileAsk::LoadPreset, of, ctx),
             Ask::UsePreset(of, path) => self.use_preset(of, &path),

@@ -132,13 +132,11 @@ impl EditorApp {
     ) -> Self {
         let preferences = loaded.preferences;
         let here = std::env::current_dir().unwrap_or_else(|_| PathBuf::from("."));
+        let driver = options.driver.unwrap_or(preferences.driver);
         let mut app = Self {
             ctx: opened.ctx.clone(),
             editor: Editor::new(Document::empty(&here)),
-            picture_flow: PictureFlow::new(
-                options.driver.unwrap_or(preferences.driver),
-                opened.waker.clone(),
-            ),
+            picture_flow: PictureFlow::new(driver, opened.waker.clone()),
             marks: MarkCache::default(),
             files: FileFlow::new(FileDialogs::new(options.dialogs)),
             safe: SafeKeeping::new(),
@@ -161,7 +159,7 @@ impl EditorApp {
             telling: Telling::new(options.tell),
             troubles: Vec::new(),
             likely_meshes: LikelyMeshes::default(),
-            presets: PresetFlow::default(),
+            presets: PresetFlow::new(picture::driver_of(driver), opened.waker.clone()),
         };
         app.keymap();
         app.use_shaders(shaders);
@@ -292,6 +290,7 @@ impl EditorApp {
             troubles: &self.troubles,
             likely_meshes: &self.likely_meshes.found,
             presets: &self.presets.own,
+            preset_pictures: self.presets.pictures(),
         };
         if !self.folds.everything {
             area(ui, Area::TopBar, |ui| panels::top_bar::top_bar(ui, &shown, &mut asks));
@@ -377,6 +376,7 @@ impl window::App for EditorApp {
         self.editor.tick(ui.input(|input| input.time));
         self.follow_reading(&ctx);
         self.follow();
+        self.presets.follow(&ctx);
         let news = self.picture_flow.poll(&ctx, &mut self.editor);
         if news == Some(News::NextOfFilm) {
             self.tell_played();

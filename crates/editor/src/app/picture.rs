@@ -63,12 +63,7 @@ pub(super) struct PictureFlow {
 
 impl PictureFlow {
     pub(super) fn new(driver: DriverChoice, waker: Waker) -> Self {
-        let driver = match driver {
-            DriverChoice::Auto => Driver::Auto,
-            DriverChoice::Egl => Driver::Egl,
-            DriverChoice::Osmesa | DriverChoice::Software => Driver::Osmesa,
-        };
-        let (worker, trouble) = match Worker::new(driver, move || waker.wake()) {
+        let (worker, trouble) = match Worker::new(driver_of(driver), move || waker.wake()) {
             Ok(worker) => (Some(worker), None),
             Err(error) => (None, Some(format!("No thread to draw with: {error}"))),
         };
@@ -295,6 +290,15 @@ impl PictureFlow {
             moving,
         };
         self.layout.framings().iter().zip(seen).map(view).collect()
+    }
+}
+
+/// The driver of pictures that are drawn beside the window's own OpenGL.
+pub(super) fn driver_of(choice: DriverChoice) -> Driver {
+    match choice {
+        DriverChoice::Auto => Driver::Auto,
+        DriverChoice::Egl => Driver::Egl,
+        DriverChoice::Osmesa | DriverChoice::Software => Driver::Osmesa,
     }
 }
 

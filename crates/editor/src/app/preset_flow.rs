@@ -1,32 +1,114 @@
-//! Presets of the user's own: saves them, lists them, and applies them.
+//! Presets: saves, lists and applies those of the user's own, and has pictures painted of all.
 
+use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
-use egui::Context;
-use impasto_editor_model::command::StrokesOf;
+use egui::{Context, TextureHandle, TextureOptions};
+use impasto_editor_model::command::{Command, Regions, StrokeChange, StrokesOf};
 use impasto_editor_model::editor::Offer;
+use impasto_gl_render::ShaderTexts;
+use impasto_gl_render::context::Driver;
 use impasto_scene::load::strokes_file::{self, ENDING};
+use impasto_scene::presets;
 use impasto_scene::strokes_file::StrokesFile;
 use impasto_scene::whole_file::failure_in_words;
 
 use super::EditorApp;
 use crate::files::file_ask::FileAsk;
-use crate::files::own_presets::{OwnPreset, preset_command, presets_folder, presets_in, save_preset};
+use crate::files::own_presets::{
+    OwnPreset, preset_command, presets_folder, presets_in, save_preset, seen_with_preset,
+};
 use crate::panels::problems::TroubleOf;
+use crate::preset_pictures::{PresetPictures, Wanted};
+use crate::window::Waker;
 
-/// The user's presets.
-#[derive(Default)]
+/// At most so many presets get a picture; further ones are chosen by their names.
+const MOST_PICTURES: usize = 40;
+
+/// The user's presets, and the pictures of all.
 pub(super) struct PresetFlow {
     /// The presets in the user's folder.
     pub(super) own: Vec<OwnPreset>,
     /// Whose settings are to be saved or replaced, while a file is chosen.
     of: Option<StrokesOf>,
+    driver: Driver,
+    waker: Waker,
+    /// What paints the pictures, from the first that is wanted on.
+    painter: Option<PresetPictures>,
+    pictures: BTreeMap<String, TextureHandle>,
+    /// What the pictures show: the version of the scene, and whose strokes.
+    shows: Option<(u64, StrokesOf)>,
+    /// Whether the list was open in the last pass.
+    is_listed: bool,
+}
+
+impl PresetFlow {
+    pub(super) fn new(driver: Driver, waker: Waker) -> Self {
+        Self {
+            own: Vec::new(),
+            of: None,
+            driver,
+            waker,
+            painter: None,
+            pictures: BTreeMap::new(),
+            shows: None,
+            is_listed: false,
+        }
+    }
+
+    /// The pictures that are painted, by preset.
+    pub(super) fn pictures(&self) -> &BTreeMap<String, TextureHandle> {
+        &self.pictures
+    }
+
+    /// Begins a pass: takes the pictures that came, and stops painting others once the list is closed.
+    pub(super) fn follow(&mut self, ctx: &Context) {
+        let Some(painter) = &self.painter else { return };
+        for (name, image) in painter.take() {
+            let picture = ctx.load_texture(format!("preset {name}"), image, TextureOptions::LINEAR);
+            self.pictures.insert(name, picture);
+        }
+        if !std::mem::take(&mut self.is_listed) && self.shows.take().is_some() {
+            painter.want(Vec::new(), ShaderTexts::default());
+        }
+    }
 }
 
 impl EditorApp {
     /// Looks which presets are in the user's folder.
     pub(super) fn list_presets(&mut self) {
         self.presets.own = presets_folder().map_or_else(Vec::new, |folder| presets_in(&folder));
+    }
+
+    /// Has pictures of all presets painted for these strokes, unless that was asked for already.
+    pub(super) fn picture_presets(&mut self, of: StrokesOf) {
+        self.presets.is_listed = true;
+        let shows = Some((self.editor.shown().1, of.clone()));
+        if self.presets.shows == shows {
+            return;
+        }
+        self.presets.shows = shows;
+        self.presets.pictures.clear();
+        if self.presets.painter.is_none() {
+            let waker = self.presets.waker.clone();
+            self.presets.painter = PresetPictures::start(self.presets.driver, move || waker.wake()).ok();
+        }
+        let document = self.editor.document();
+        let built_in = presets::names().filter_map(|name| {
+            let change = StrokeChange::Preset(Some(name.to_owned()));
+            let command = Command::Regions(Regions::SetStroke(of.clone(), change));
+            Some((name.to_owned(), document.seen_with(&command, None).ok()?))
+        });
+        let own = self.presets.own.iter();
+        let own = own.filter_map(|own| Some((own.key(), seen_with_preset(document, &of, &own.path)?)));
+        let wanted = built_in.chain(own);
+        let frame = self.editor.session.frame.round();
+        let wanted = wanted.take(MOST_PICTURES);
+        let wanted = wanted.map(|(name, loaded)| Wanted { name, loaded: Arc::new(loaded), frame }).collect();
+        if let Some(painter) = &self.presets.painter {
+            painter.want(wanted, self.shaders.texts());
+        }
     }
 
     /// Lets the user choose a file for the settings of the scene or of a region.

@@ -6,6 +6,7 @@ use impasto_editor_model::Document;
 use impasto_editor_model::command::{Command, Regions, StrokesOf};
 use impasto_scene::assets::{AssetFolders, AssetRequest};
 use impasto_scene::load::strokes_file::{self, is_preset, name_of};
+use impasto_scene::loaded::LoadedScene;
 use impasto_scene::problem::Report;
 use impasto_scene::save;
 use impasto_scene::strokes_file::StrokesFile;
@@ -24,6 +25,13 @@ pub struct OwnPreset {
     pub name: String,
     /// Its file.
     pub path: PathBuf,
+}
+
+impl OwnPreset {
+    /// The name of its picture among those of all presets.
+    pub fn key(&self) -> String {
+        self.path.to_string_lossy().into_owned()
+    }
 }
 
 /// The folder of the user's presets; none if the user has no home.
@@ -85,6 +93,14 @@ pub fn preset_command(document: &Document, of: &StrokesOf, path: &Path) -> Resul
     };
     take_brushes_along(&mut preset, file_of, document.folder())?;
     Ok(command(&preset))
+}
+
+/// The document's scene with the preset in the file `path`, whose pictures stay where they are; `None` if it cannot be
+/// applied.
+pub fn seen_with_preset(document: &Document, of: &StrokesOf, path: &Path) -> Option<LoadedScene> {
+    let preset = Box::new(strokes_file::load(path).ok()?);
+    let command = Command::Regions(Regions::ApplyPreset { of: of.clone(), preset, name: name_of(path) });
+    document.seen_with(&command, path.parent()).ok()
 }
 
 /// The first problems of a preset.

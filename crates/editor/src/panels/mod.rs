@@ -26,6 +26,7 @@ pub mod top_bar;
 pub mod welcome;
 pub mod work;
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 pub mod brush_thumbnails;
@@ -34,6 +35,7 @@ mod column_state;
 mod inspector;
 mod tree;
 
+use egui::TextureHandle;
 use impasto_editor_model::command::{Command, StrokesOf};
 use impasto_editor_model::editor::Mend;
 use impasto_editor_model::keymap::{Action, Keymap, OwnKeys};
@@ -78,6 +80,9 @@ pub struct PanelInput<'a> {
     pub likely_meshes: &'a [(String, String)],
     /// Presets of the user's own.
     pub presets: &'a [OwnPreset],
+    /// Pictures of the scene with each preset, by the name of a built-in one or the file of the user's own; some may
+    /// not be painted yet.
+    pub preset_pictures: &'a BTreeMap<String, TextureHandle>,
 }
 
 impl<'a> PanelInput<'a> {
@@ -95,6 +100,7 @@ impl<'a> PanelInput<'a> {
             troubles: &[],
             likely_meshes: &[],
             presets: &[],
+            preset_pictures: const { &BTreeMap::new() },
         }
     }
 
@@ -210,6 +216,8 @@ pub enum Ask {
     StopWork(work::WorkKind),
     /// Look which presets the user has.
     ListPresets,
+    /// The list of presets is open, for the strokes of the scene or of a region; asked in each pass while it is.
+    PicturePresets(StrokesOf),
     /// Let the user choose a file, and save these settings as a preset there.
     SavePreset(StrokesOf),
     /// Let the user choose a preset, and replace these settings by it.

@@ -34,11 +34,19 @@ pub(super) struct View {
     target: DVec3,
     near: f64,
     far: f64,
+    pub footing: Footing,
+}
+
+/// Where a ground lies, and how it is turned.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Footing {
+    /// The camera's axes.
     pub axes: Axes,
-    /// The middle of the mesh's underside, world space.
-    foot: DVec3,
-    /// The diagonal of the mesh's bounds.
-    size: f64,
+    /// The middle of the model's underside, world space.
+    pub foot: DVec3,
+    /// The diagonal of the model's bounds.
+    pub size: f64,
+    /// 1 if the sun's light goes to the right of the picture, −1 if it goes to the left.
     pub light_goes: f64,
 }
 
@@ -52,9 +60,7 @@ impl View {
         let high = points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
         let (low, high) = if points.is_empty() { (DVec3::ZERO, DVec3::ZERO) } else { (low, high) };
         let center = (low + high) / 2.0;
-        // A mesh that is one point still gets a camera.
-        let size = (high - low).length();
-        let size = if size > 0.0 && size.is_finite() { size } else { 1.0 };
+        let size = diagonal(low, high);
         let axes = Axes::looking_from(if may_turn { facing(mesh, turn, stance.view) } else { stance.view });
         let along_floor = (axes.right - DVec3::Y * axes.right.y).normalize_or_zero();
         let shadow = |point: &DVec3| {
@@ -74,10 +80,7 @@ impl View {
             target: round(axes.to_world(target_in_camera)),
             near: significant(nearest * size * 0.5),
             far: significant((framing.farthest + BACKDROP_SCALE) * size * 2.0),
-            axes,
-            foot: DVec3::new(center.x, low.y, center.z),
-            size,
-            light_goes: stance.light_goes,
+            footing: Footing::of_bounds(low, high, axes, stance.light_goes),
         }
     }
 
@@ -94,6 +97,14 @@ impl View {
                 ease: Ease::default(),
             }],
         }
+    }
+}
+
+impl Footing {
+    /// Under a model with these bounds, world space.
+    pub fn of_bounds(low: DVec3, high: DVec3, axes: Axes, light_goes: f64) -> Self {
+        let center = (low + high) / 2.0;
+        Self { axes, foot: center.with_y(low.y), size: diagonal(low, high), light_goes }
     }
 
     /// A floor under the mesh and a wall behind it, turned to the eye.
@@ -123,6 +134,12 @@ impl View {
             ..object
         }
     }
+}
+
+/// The diagonal of a box; 1 for a mesh that is one point, which gets a camera and a ground all the same.
+fn diagonal(low: DVec3, high: DVec3) -> f64 {
+    let size = (high - low).length();
+    if size > 0.0 && size.is_finite() { size } else { 1.0 }
 }
 
 /// The depth at which the lower border of the picture meets the floor, for an eye at this height over the floor;

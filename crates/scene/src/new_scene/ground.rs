@@ -1,12 +1,22 @@
-//! What a model stands on in its new scene.
+//! What a model stands on: laid in its new scene, or chosen later.
 
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::axes::Axes;
+use super::framing::Footing;
+use super::object_name;
+use super::scheme::{self, Scheme};
 use crate::built_in_mesh;
 use crate::document::{
-    Color, Direction, Edges, LayerSettings, MaterialOverride, Object, Region, Selector, StrokeSettings,
+    Color, Direction, Edges, LayerSettings, LightKind, MaterialOverride, Object, Region, Scene, Selector,
+    StrokeSettings,
 };
-
-use super::framing::View;
-use super::scheme::Scheme;
+use crate::mesh_file::MeshFile;
+use crate::motion;
 
 /// The wall's strokes lean by one of these angles, degrees.
 const WALL_DEG: [f64; 6] = [-38.0, -24.0, -14.0, 16.0, 27.0, 40.0];
@@ -37,7 +47,7 @@ impl Ground {
         [("backdrop", Self::Backdrop), ("vignette", Self::Vignette), ("plain", Self::Plain)];
 
     /// Lays the ground. `taken` are the names of other objects; `seed` chooses how the wall's strokes lean.
-    pub(super) fn lay(self, view: &View, scheme: &Scheme, taken: &[&str], seed: u32) -> Laid {
+    pub(super) fn lay(self, footing: &Footing, scheme: &Scheme, taken: &[&str], seed: u32) -> Laid {
         let names = match self {
             Self::Backdrop => ["backdrop", "wall", "the backdrop"],
             Self::Vignette => ["floor", "patch", "the floor"],
@@ -49,9 +59,9 @@ impl Ground {
         let (object, parts) = if self == Self::Backdrop {
             let wall_deg = WALL_DEG[(seed >> 8) as usize % WALL_DEG.len()];
             let parts = vec![(built_in_mesh::WALL, wall_deg, 5.0), (built_in_mesh::FLOOR, 0.0, 3.0)];
-            (view.backdrop(name), parts)
+            (footing.backdrop(name), parts)
         } else {
-            (view.patch(name), vec![(built_in_mesh::FLOOR, 0.0, 4.0)])
+            (footing.patch(name), vec![(built_in_mesh::FLOOR, 0.0, 4.0)])
         };
         let material = Some(MaterialOverride { color: Some(scheme.ground), ..Default::default() });
         let region = |(group, angle_deg, jitter_deg): (&str, f64, f64)| Region {
@@ -64,9 +74,98 @@ impl Ground {
             ..Region::new(format!("{name} {group}"), Selector::Group(name.to_owned(), group.to_owned()))
         };
         let regions = parts.into_iter().map(region).collect();
-        let background = if self == Self::Backdrop { scheme.background() } else { scheme.plain_ground() };
-        Laid { object: Some(Object { material, ..object }), regions, background }
+        Laid { object: Some(Object { material, ..object }), regions, background: self.background(scheme) }
     }
+
+    fn background(self, scheme: &Scheme) -> Color {
+        if self == Self::Backdrop { scheme.background() } else { scheme.plain_ground() }
+    }
+
+    /// The ground that an object is; `None` for any other object.
+    pub fn of_object(object: &Object) -> Option<Self> {
+        match object.mesh.as_str() {
+            built_in_mesh::BACKDROP => Some(Self::Backdrop),
+            built_in_mesh::PATCH => Some(Self::Vignette),
+            _ => None,
+        }
+    }
+
+    /// The ground of a scene: that of its first backdrop or patch of floor.
+    pub fn of_scene(scene: &Scene) -> Self {
+        scene.objects.iter().find_map(Self::of_object).unwrap_or(Self::Plain)
+    }
+
+    /// Lays this ground under the objects of a scene without a ground, as [`for_mesh`](super::for_mesh) lays it under a
+    /// new model: turned to the camera, at the reference frame. `color` is that of the ground; `None` chooses one. A
+    /// background that no ground has given to the scene stays. Returns false, and lays nothing, where the camera looks
+    /// up: a floor would hide the objects.
+    pub fn lay_under(
+        self,
+        scene: &mut Scene,
+        meshes: &BTreeMap<String, Arc<MeshFile>>,
+        color: Option<Color>,
+    ) -> bool {
+        let Some(footing) = footing_in(scene, meshes) else { return self == Self::Plain };
+        if self != Self::Plain && footing.axes.back.y <= 0.0 {
+            return false;
+        }
+        let models = || scene.objects.iter().filter(|object| !is_built_in(object));
+        let files: Vec<&MeshFile> =
+            models().filter_map(|object| Some(&**meshes.get(&object.mesh)?)).collect();
+        let name_hash =
+            models().next().map_or(0, |first| scheme::name_hash(&object_name(Path::new(&first.mesh))));
+        let chosen = Scheme::of(&files, name_hash);
+        let mut scheme = chosen.clone();
+        scheme.ground = color.unwrap_or(chosen.ground);
+        let given = [&chosen, &scheme]
+            .into_iter()
+            .flat_map(|scheme| Self::ALL.map(|(_, ground)| ground.background(scheme)));
+        let keeps_background =
+            scene.background != Color::default() && given.into_iter().all(|color| color != scene.background);
+        let taken: Vec<&str> = scene.objects.iter().map(|object| object.name.as_str()).collect();
+        let laid = self.lay(&footing, &scheme, &taken, name_hash);
+        scene.objects.extend(laid.object);
+        scene.regions.extend(laid.regions);
+        if !keeps_background {
+            scene.background = laid.background;
+        }
+        true
+    }
+}
+
+fn is_built_in(object: &Object) -> bool {
+    object.mesh.starts_with(built_in_mesh::PREFIX)
+}
+
+/// The footing of a scene's objects at its reference frame, without hidden ones and built-in meshes; `None` if there is
+/// nothing to stand on a ground.
+fn footing_in(scene: &Scene, meshes: &BTreeMap<String, Arc<MeshFile>>) -> Option<Footing> {
+    let frame = motion::referred_to(scene, &scene.reference).1;
+    let mut bounds: Option<[DVec3; 2]> = None;
+    for (object, pose) in scene.objects.iter().zip(motion::poses_at(scene, frame)) {
+        let Some(mesh) = meshes.get(&object.mesh).filter(|_| !object.hidden && !is_built_in(object)) else {
+            continue;
+        };
+        let group =
+            object.group.as_ref().and_then(|group| mesh.groups.iter().position(|other| other == group));
+        let world_from_file = pose.matrix3 * object.model_from_file();
+        for (triangle, corners) in mesh.mesh.triangles.iter().enumerate() {
+            let of_group = mesh.mesh.group_of_triangle.get(triangle);
+            if group.is_some_and(|group| of_group.is_some_and(|&other| other as usize != group)) {
+                continue;
+            }
+            for &corner in corners {
+                let at = world_from_file * mesh.mesh.positions[corner as usize].as_dvec3() + pose.translation;
+                bounds = Some(bounds.map_or([at; 2], |[low, high]| [low.min(at), high.max(at)]));
+            }
+        }
+    }
+    let [low, high] = bounds?;
+    let camera = motion::camera_at(scene, frame);
+    let axes = Axes::looking_from(camera.eye - camera.target);
+    let sun = scene.lights.iter().find(|light| light.kind == LightKind::Sun);
+    let light = sun.and_then(|sun| sun.direction).map_or(1.0, |goes| DVec3::from(goes).dot(axes.right));
+    Some(Footing::of_bounds(low, high, axes, if light < 0.0 { -1.0 } else { 1.0 }))
 }
 
 /// Settings for a ground that does not draw the eye: large strokes that lie one way.

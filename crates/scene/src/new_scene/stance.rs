@@ -1,7 +1,9 @@
 //! How a model of unknown make stands: which of its axes points up, and from which side it is best seen.
 
+mod upright;
+
 use glam::{DMat3, DVec3};
-use impasto_core::sampling::{self, Surface};
+use impasto_core::sampling::{self, Particle, Surface};
 
 use super::axes::Axes;
 use super::scheme;
@@ -10,12 +12,6 @@ use crate::mesh_file::MeshFile;
 
 /// Number of samples of a model's surface by which its stance is judged.
 const SAMPLES: usize = 1500;
-
-/// The lowest part of a model that may carry it, as a share of its height.
-const FOOT: f64 = 0.025;
-
-/// A model would topple if the area that it stands on is less than the square of this share of its height.
-const LEAST_SUPPORT: f64 = 0.06;
 
 /// A sample has a mirror image if another sample lies this close to the mirrored place, in spacings.
 const MIRRORED_WITHIN: f64 = 1.3;
@@ -35,8 +31,8 @@ const RISES: [f64; 2] = [0.38, 0.18];
 /// lights more.
 const LEAST_LIT: f64 = 0.36;
 
-/// An axis is surely up when its score is this much above the next best.
-const SURE: f64 = 0.25;
+/// What the back of a triangle counts in a view, where its front counts 1.
+const BACK: f64 = 0.25;
 
 /// How a model stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,6 +71,10 @@ pub enum ViewFrom {
 pub(super) struct Samples {
     points: Vec<DVec3>,
     normals: Vec<DVec3>,
+    /// Of the triangles that the samples lie on: a box with smooth normals has flat sides all the same.
+    face_normals: Vec<DVec3>,
+    /// Whether each lies on the back of its triangle.
+    flipped: Vec<bool>,
     spacing: f64,
 }
 
@@ -85,13 +85,21 @@ impl Samples {
         Self {
             points: particles.iter().map(|particle| particle.position.as_dvec3()).collect(),
             normals: particles.iter().map(|particle| particle.normal.as_dvec3()).collect(),
+            face_normals: particles.iter().map(|particle| face_normal(mesh, particle)).collect(),
+            flipped: particles.iter().map(|particle| particle.flipped).collect(),
             spacing: sampling::hexagonal_spacing(surface.area(), particles.len().max(1)),
         }
     }
 
     fn turned(&self, turn: DMat3) -> Self {
         let turned = |vectors: &[DVec3]| vectors.iter().map(|&vector| turn * vector).collect();
-        Self { points: turned(&self.points), normals: turned(&self.normals), spacing: self.spacing }
+        Self {
+            points: turned(&self.points),
+            normals: turned(&self.normals),
+            face_normals: turned(&self.face_normals),
+            flipped: self.flipped.clone(),
+            spacing: self.spacing,
+        }
     }
 
     /// The stance: `up` and `view` as the user states them, and what is left open as the samples suggest.
@@ -137,46 +145,6 @@ impl Samples {
         self.points.is_empty() || size.min_element() < 0.02 * size.max_element()
     }
 
-    /// The axis that most likely points up, and whether another is almost as likely.
-    fn upright(&self) -> (Up, bool) {
-        // Most files have Y up, then Z. The others need a clear reason.
-        let habits =
-            [(Up::Y, 0.6), (Up::Z, 0.1), (Up::X, -0.5), (Up::NegX, -0.5), (Up::NegY, -0.7), (Up::NegZ, -0.7)];
-        let mirrors = self.mirrors();
-        let mut scores = habits.map(|(up, habit)| {
-            let turn = up.y_up_from_file();
-            let stands = self.turned(turn).stands();
-            // A plane that mirrors a living thing or a vehicle is upright.
-            let in_file = turn.transpose() * DVec3::Y;
-            let lies_in_mirror =
-                |axis: usize| mirrors[axis] > MIRRORED && in_file.to_array()[axis].abs() < 0.5;
-            let mirrored = if (0..3).any(lies_in_mirror) { 0.5 } else { 0.0 };
-            (up, habit + stands + mirrored)
-        });
-        scores.sort_by(|a, b| b.1.total_cmp(&a.1));
-        (scores[0].0, scores[0].1 - scores[1].1 < SURE)
-    }
-
-    /// How well the model stands on its lowest part, as a score from −0.5 to 1.1. Flat feet, a wide support and a
-    /// middle above that support raise the score, standing on a point lowers it.
-    fn stands(&self) -> f64 {
-        let low = self.points.iter().map(|point| point.y).fold(f64::INFINITY, f64::min);
-        let high = self.points.iter().map(|point| point.y).fold(f64::NEG_INFINITY, f64::max);
-        let foot = low + FOOT * (high - low) + 0.3 * self.spacing;
-        let on_floor = |point: &DVec3| [point.x, point.z];
-        let standing = self.points.iter().zip(&self.normals).filter(|(point, _)| point.y <= foot);
-        let flat = standing.clone().filter(|(_, normal)| normal.y < -0.9).count() as f64;
-        let support = hull(standing.map(|(point, _)| on_floor(point)).collect());
-        let shadow = hull(self.points.iter().map(on_floor).collect());
-        let middle = self.points.iter().sum::<DVec3>() / self.points.len().max(1) as f64;
-        let stable = if inside(&support, on_floor(&middle)) { 0.3 } else { 0.0 };
-        let share = area(&support) / area(&shadow).max(f64::MIN_POSITIVE);
-        let flat = (20.0 * flat / self.points.len().max(1) as f64).min(1.0);
-        let finite = |value: f64| if value.is_finite() { value } else { 0.0 };
-        let topples = area(&support).sqrt() < LEAST_SUPPORT * (high - low) && flat < 0.1;
-        0.5 * flat + 0.3 * finite(share).min(1.0) + stable - if topples { 0.5 } else { 0.0 }
-    }
-
     /// For each axis, the share of samples whose mirror image across the middle plane lies on the surface too.
     fn mirrors(&self) -> [f64; 3] {
         let [low, high] = self.bounds();
@@ -207,6 +175,7 @@ impl Samples {
         let front = if along_x || along_z { 1.06 } else { 1.3 };
         let tall = (size.y / size.x.max(size.z).max(f64::MIN_POSITIVE) - 0.6).clamp(0.0, 1.0);
         let rise = RISES[0] + (RISES[1] - RISES[0]) * tall;
+        let head = 0.35 * ramp(size.y / size.x.max(size.z).max(f64::MIN_POSITIVE), [0.25, 0.4]);
         let mut best = (f64::NEG_INFINITY, USUAL_VIEW);
         for forward in [DVec3::Z, DVec3::NEG_Z, DVec3::X, DVec3::NEG_X] {
             if (along_z && forward.x != 0.0) || (along_x && forward.z != 0.0) {
@@ -220,8 +189,8 @@ impl Samples {
                 let level = forward * yaw.cos() + right * (side * yaw.sin());
                 let view = level + DVec3::Y * rise;
                 let seen = self.form_seen(view.normalize(), &bent);
-                // Heads are carried high and forward. Of equal views the usual one: +Z is the front of most files.
-                let ahead = 1.0 + 0.35 * lean.dot(forward).clamp(-1.0, 1.0);
+                // Heads are carried high and forward, but of flat things the tail is high. Of equal views the usual one: +Z is the front of most files.
+                let ahead = 1.0 + head * lean.dot(forward).clamp(-1.0, 1.0);
                 let usual = ahead
                     * if forward == DVec3::Z { front } else { 1.0 }
                     * if side > 0.0 { 1.03 } else { 1.0 };
@@ -253,15 +222,20 @@ impl Samples {
         if lean.is_finite() { lean } else { DVec3::ZERO }
     }
 
-    /// How much the surface bends at each sample: the mean of 1 − n·n' over the samples near it.
+    /// How much the surface bends at each sample: the mean of 1 − n·n' over the samples near it. The other side of a
+    /// sheet without thickness does not count.
     fn bent(&self) -> Vec<f64> {
+        let behind = |at: &DVec3, normal: &DVec3, (other_at, other): (&DVec3, &DVec3)| {
+            normal.dot(*other) < -0.9 && normal.dot(*other_at - *at).abs() < 0.1 * self.spacing
+        };
         let reach_sq = (2.5 * self.spacing).powi(2);
         let of = |(at, normal): (&DVec3, &DVec3)| {
             let near = self
                 .points
                 .iter()
                 .zip(&self.normals)
-                .filter(|(other, _)| at.distance_squared(**other) < reach_sq);
+                .filter(|(other, _)| at.distance_squared(**other) < reach_sq)
+                .filter(|other| !behind(at, normal, *other));
             let (mut sum, mut count) = (0.0, 0.0);
             for (_, other) in near {
                 sum += 1.0 - normal.dot(*other);
@@ -272,7 +246,8 @@ impl Samples {
         self.points.iter().zip(&self.normals).map(of).collect()
     }
 
-    /// How much bent surface an eye in this direction sees. In each cell of the picture, samples behind the foremost
+    /// How much bent surface an eye in this direction sees; backs of triangles, as of a room seen from outside, count
+    /// little. In each cell of the picture, samples behind the foremost
     /// are hidden.
     fn form_seen(&self, towards_eye: DVec3, bent: &[f64]) -> f64 {
         let right = DVec3::Y.cross(towards_eye).normalize_or(DVec3::X);
@@ -294,7 +269,8 @@ impl Samples {
             .iter()
             .zip(&self.normals)
             .zip(bent)
-            .map(|(sample, bent)| seen(sample) * (0.05 + bent))
+            .zip(&self.flipped)
+            .map(|((sample, bent), &is_back)| seen(sample) * (0.05 + bent) * if is_back { BACK } else { 1.0 })
             .sum()
     }
 }
@@ -325,43 +301,18 @@ impl ViewFrom {
     }
 }
 
-/// The convex hull, counter-clockwise (Andrew's monotone chain).
-fn hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
-    points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    points.dedup();
-    if points.len() < 3 {
-        return points;
-    }
-    let mut chain: Vec<[f64; 2]> = Vec::new();
-    let half = |chain: &mut Vec<[f64; 2]>, from: usize, point: [f64; 2]| {
-        while chain.len() >= from + 2 && turn(chain[chain.len() - 2], chain[chain.len() - 1], point) <= 0.0 {
-            chain.pop();
-        }
-        chain.push(point);
-    };
-    for &point in &points {
-        half(&mut chain, 0, point);
-    }
-    let lower = chain.len() - 1;
-    for &point in points.iter().rev().skip(1) {
-        half(&mut chain, lower, point);
-    }
-    chain.pop();
-    chain
+/// The normal of the triangle that a sample lies on, on the side of the sample's own.
+fn face_normal(mesh: &MeshFile, sample: &Particle) -> DVec3 {
+    let own = sample.normal.as_dvec3();
+    let [a, b, c] = mesh.mesh.corners(sample.triangle as usize).map(|corner| corner.as_dvec3());
+    let normal = (b - a).cross(c - a).normalize_or(own);
+    if normal.dot(own) < 0.0 { -normal } else { normal }
 }
 
-fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+/// 0 up to the first bound, 1 from the second on.
+fn ramp(value: f64, [from, to]: [f64; 2]) -> f64 {
+    ((value - from) / (to - from)).clamp(0.0, 1.0)
 }
 
-fn edges(hull: &[[f64; 2]]) -> impl Iterator<Item = ([f64; 2], [f64; 2])> {
-    hull.iter().zip(hull.iter().cycle().skip(1)).map(|(&from, &to)| (from, to))
-}
-
-fn area(hull: &[[f64; 2]]) -> f64 {
-    edges(hull).map(|(a, b)| a[0] * b[1] - b[0] * a[1]).sum::<f64>() / 2.0
-}
-
-fn inside(hull: &[[f64; 2]], point: [f64; 2]) -> bool {
-    hull.len() >= 3 && edges(hull).all(|(a, b)| turn(a, b, point) >= 0.0)
-}
+#[cfg(test)]
+mod tests;

@@ -1,5 +1,8 @@
 //! Tests of new scenes: framing, backdrop, light, names and regions.
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
 use glam::{DMat4, DVec4, Quat, Vec3};
 use impasto_core::TriangleMesh;
 
@@ -288,6 +291,40 @@ fn a_model_stands_on_the_ground_that_is_asked_for() {
     for scene in [backdrop, vignette, plain] {
         assert_eq!(crate::check::check(&scene), vec![], "{:?}", scene.objects[0].name);
     }
+}
+
+#[test]
+fn a_ground_that_is_chosen_later_is_the_one_of_a_new_scene() {
+    let mesh = box_between(Vec3::new(3.0, -1.0, 7.0), Vec3::new(5.0, 1.0, 8.0), false);
+    let on = |ground| for_mesh(Path::new("x.obj"), &mesh, Placing { ground, ..Placing::default() }).scene;
+    let meshes = BTreeMap::from([("x.obj".to_owned(), Arc::new(mesh.clone()))]);
+    for (_, ground) in Ground::ALL {
+        let wanted = on(ground);
+        let mut scene = on(Ground::Plain);
+        assert!(ground.lay_under(&mut scene, &meshes, None));
+        // The camera is stated in rounded numbers, so the ground may differ by as much.
+        for (object, other) in scene.objects.iter_mut().zip(&wanted.objects) {
+            for (key, other) in object.keys.iter_mut().zip(&other.keys) {
+                let apart = DVec3::from(key.translation).distance(DVec3::from(other.translation));
+                assert!(apart < 2e-3, "{ground:?}: {apart}");
+                assert!((key.rotation_deg[1] - other.rotation_deg[1]).abs() < 0.15, "{ground:?}");
+                *key = other.clone();
+            }
+        }
+        assert_eq!(scene, wanted, "{ground:?}");
+        assert_eq!(Ground::of_scene(&scene), ground);
+    }
+
+    let mut scene = on(Ground::Plain);
+    scene.background = Color([0.9, 0.1, 0.1]);
+    assert!(Ground::Vignette.lay_under(&mut scene, &meshes, Some(Color([0.1, 0.7, 0.2]))));
+    assert_eq!(scene.background, Color([0.9, 0.1, 0.1]), "a background that somebody chose stays");
+    let material = scene.objects[1].material.as_ref().unwrap();
+    assert_eq!(material.color, Some(Color([0.1, 0.7, 0.2])));
+
+    let mut from_below = on(Ground::Plain);
+    from_below.camera.keys[0].eye[1] = -50.0;
+    assert!(!Ground::Backdrop.lay_under(&mut from_below, &meshes, None), "a floor would hide the box");
 }
 
 #[test]

@@ -12,6 +12,7 @@ use impasto_scene::document::{
     TouchPoint,
 };
 use impasto_scene::motion;
+use impasto_scene::new_scene::Ground;
 use impasto_scene::presets::LayerKind;
 
 /// The random numbers that one command is made from.
@@ -214,6 +215,7 @@ pub fn command(scene: &Scene, (kind, which, other, x, y): Dice) -> Command {
             },
         )),
         37 => Command::Scene(match other % 4 {
+            0 if other % 8 == 4 => SceneEdit::SetGround(Ground::ALL[usize::from(which % 3)].1),
             0 => SceneEdit::SetSize(640 + u32::from(which), 360),
             1 if other % 8 == 1 => SceneEdit::SetExposure(f64::from(which) * 0.25),
             1 => SceneEdit::SetBackground(Color([0.2, 0.301, 0.4])),

@@ -13,9 +13,11 @@ use crate::widgets::{self, MenuRow, Tip};
 /// What the control shows for a region without a preset of its own.
 const AS_SCENE: &str = "As the scene";
 
-/// Width of the menu, and the most height of the list of presets in it, points.
-const MENU: f32 = 168.0;
-const LIST: f32 = 320.0;
+/// Cards in a row.
+const CARDS: usize = 2;
+/// The gap between cards, and the most height of the list of presets in the menu, points.
+const GAP: f32 = 4.0;
+const LIST: f32 = 420.0;
 
 pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
     let is_region = place.index.is_some();
@@ -27,7 +29,11 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes
         if face.clicked() {
             asker.asks.push(Ask::ListPresets);
         }
-        Popup::menu(&face).width(MENU).show(|ui| menu(ui, asker, place, shown));
+        let wide = CARDS as f32 * (widgets::PRESET_CARD.x + GAP) + 8.0;
+        Popup::menu(&face).width(wide).show(|ui| {
+            asker.asks.push(Ask::PicturePresets(place.of.clone()));
+            menu(ui, asker, place, shown);
+        });
         let effect = "The set of values that everything begins with.";
         Tip { name: "Preset", effect, ..Tip::default() }.on(face);
         if own.is_some_and(|own| is_region || own != usual) && reset(ui, "Preset") {
@@ -47,8 +53,9 @@ fn menu(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, chose
         }
     }
     ui.add_space(4.0);
-    // There may be many presets.
-    let area = ScrollArea::vertical().max_height(LIST).min_scrolled_height(LIST).auto_shrink([false, true]);
+    // There may be many presets, and the window may be low.
+    let most = LIST.min(ui.ctx().content_rect().height() * 0.6);
+    let area = ScrollArea::vertical().max_height(most).min_scrolled_height(most).auto_shrink([false, true]);
     area.show(ui, |ui| list(ui, asker, place, chosen));
 }
 
@@ -57,21 +64,36 @@ fn list(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, chose
     if is_region && widgets::choice_row(ui, AS_SCENE, chosen == AS_SCENE).clicked() {
         asker.ask(place.set(StrokeChange::Preset(None)));
     }
+    let shown = asker.shown;
+    let picture =
+        |key: &str| shown.preset_pictures.get(key).map(|picture| (picture.id(), picture.size_vec2()));
     // The rule of the published paper holds only for a whole scene.
-    for name in presets::names().filter(|name| !is_region || *name != presets::PAPER_PRESET) {
-        if widgets::choice_row(ui, name, chosen == name).clicked() && chosen != name {
+    let built_in = presets::names().filter(|name| !is_region || *name != presets::PAPER_PRESET);
+    cards(ui, built_in, |ui, name| {
+        if widgets::preset_card(ui, name, picture(name), chosen == name).clicked() && chosen != name {
             asker.ask(place.set(StrokeChange::Preset(Some(name.to_owned()))));
         }
-    }
-    if !asker.shown.presets.is_empty() {
+    });
+    if !shown.presets.is_empty() {
         ui.add_space(4.0);
         note(ui, "Your own");
     }
-    for preset in asker.shown.presets {
-        let row = MenuRow { words: &preset.name, ..MenuRow::default() }.show(ui);
+    cards(ui, shown.presets, |ui, preset| {
+        let card = widgets::preset_card(ui, &preset.name, picture(&preset.key()), false);
         let effect = "Replaces all stroke settings here, in one step.";
-        if (Tip { name: &preset.name, effect, ..Tip::default() }).on(row).clicked() {
+        if (Tip { name: &preset.name, effect, ..Tip::default() }).on(card).clicked() {
             asker.asks.push(Ask::UsePreset(place.of.clone(), preset.path.clone()));
         }
+    });
+}
+
+/// Lays cards out in rows.
+fn cards<T>(ui: &mut Ui, all: impl IntoIterator<Item = T>, mut card: impl FnMut(&mut Ui, T)) {
+    let mut rest = all.into_iter().peekable();
+    while rest.peek().is_some() {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = GAP;
+            rest.by_ref().take(CARDS).for_each(|item| card(ui, item));
+        });
     }
 }

@@ -166,7 +166,7 @@ impl Column {
             | Ask::TakeUp(_)
             | Ask::Prefer(_)
             | Ask::StopWork(_) => "of another panel".to_owned(),
-            Ask::ListPresets => return,
+            Ask::ListPresets | Ask::PicturePresets(_) => return,
             Ask::SavePreset(of) => self.asked(format!("save for {}", name_of(&of))),
             Ask::LoadPreset(of) => self.asked(format!("load for {}", name_of(&of))),
             Ask::UsePreset(of, path) => self.asked(format!("use {} for {}", path.display(), name_of(&of))),

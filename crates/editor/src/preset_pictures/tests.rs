@@ -1,0 +1,50 @@
+//! Tests of the pictures of presets: every one is another, and a new list drops the old one.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::mpsc;
+use std::time::Duration;
+
+use impasto_editor_model::Document;
+use impasto_editor_model::command::{Command, Regions, StrokeChange, StrokesOf};
+use impasto_scene::load::LoadOptions;
+
+use super::*;
+
+/// The apple with each of these presets.
+fn apples(presets: &[&str]) -> Vec<Wanted> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/apple.ron");
+    let document = Document::open(&path, &LoadOptions::default()).expect("a shipped scene opens");
+    let with = |preset: &&str| {
+        let change = StrokeChange::Preset(Some((*preset).to_owned()));
+        let command = Command::Regions(Regions::SetStroke(StrokesOf::Scene, change));
+        let loaded = document.seen_with(&command, None).expect("it fits");
+        Wanted { name: (*preset).to_owned(), loaded: Arc::new(loaded), frame: 0.0 }
+    };
+    presets.iter().map(with).collect()
+}
+
+#[test]
+fn each_preset_gets_a_picture_of_its_own_and_a_new_list_ends_the_old_one() {
+    let (woken, wakes) = mpsc::channel();
+    let pictures = PresetPictures::start(Driver::Auto, move || drop(woken.send(()))).expect("a thread");
+    pictures.want(apples(&["oil study", "paper"]), ShaderTexts::default());
+    pictures.want(apples(&["gouache", "impressionist"]), ShaderTexts::default());
+    let mut seen: BTreeMap<String, ColorImage> = BTreeMap::new();
+    while seen.len() < 2 {
+        wakes.recv_timeout(Duration::from_secs(120)).expect("a picture");
+        seen.extend(pictures.take());
+    }
+    assert_eq!(seen.keys().collect::<Vec<_>>(), ["gouache", "impressionist"]);
+    let [one, other] = ["gouache", "impressionist"].map(|name| &seen[name]);
+    assert_eq!((one.size, other.size), ([288, 162], [288, 162]));
+    let apart = one.pixels.iter().zip(&other.pixels).filter(|(a, b)| a.r().abs_diff(b.r()) > 24).count();
+    assert!(apart > one.pixels.len() / 20, "{apart} pixels differ");
+}
+
+#[test]
+fn small_pictures_have_the_shape_of_the_scene() {
+    assert_eq!(small_size([1280, 720]), [288, 162]);
+    assert_eq!(small_size([720, 1280]), [91, 162]);
+    assert_eq!(small_size([4000, 1]), [288, 1]);
+}
