@@ -21,7 +21,7 @@ mod tests;
 const MOST_PX: [u32; 2] = [288, 162];
 
 /// Strokes are this much larger than in the scene's picture, so that they can be told apart in a small one.
-const LARGER: u32 = 2;
+const LARGER: u32 = 3;
 
 /// A scene to paint, as it is with a preset.
 #[derive(Clone)]

@@ -5,6 +5,7 @@ mod brushes;
 mod camera;
 mod controls;
 mod edited_strokes;
+mod ground;
 mod guides;
 mod ink;
 mod layer_numbers;

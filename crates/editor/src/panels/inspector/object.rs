@@ -5,13 +5,14 @@ use impasto_editor_model::command::{Arrange, Command, Edit};
 use impasto_editor_model::{Item, PictureFor, Selection};
 use impasto_scene::document::{Color, MaterialOverride, Object, Scene};
 use impasto_scene::limits::MAX_PARTICLES_OF_OBJECT;
+use impasto_scene::new_scene::Ground;
 
 use super::number::Number;
 use super::parts::{
     FieldStyle, at_end, body, head, head_icon, head_note, note, pick, reset, row, section, seen, text,
 };
 use super::picture::Picture;
-use super::{Asker, noise, pose};
+use super::{Asker, ground, noise, pose};
 use crate::icons;
 use crate::panels::Ask;
 use crate::panels::status_line::grouped;
@@ -48,6 +49,9 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, name: &str) {
         body(ui, |ui| note(ui, &format!("{name} is locked.")));
     }
     ui.add_enabled_ui(!object.locked, |ui| {
+        if Ground::of_object(object).is_some() {
+            body(ui, |ui| ground::choice(ui, asker));
+        }
         pose::of_object(ui, asker, [object, stored]);
         if mesh.is_some() {
             section(ui, "Mesh", "", false, |ui| mesh_rows(ui, asker, [object, stored]));

@@ -14,10 +14,10 @@ use crate::widgets::{self, MenuRow, Tip};
 const AS_SCENE: &str = "As the scene";
 
 /// Cards in a row.
-const CARDS: usize = 2;
+const CARDS: usize = 3;
 /// The gap between cards, and the most height of the list of presets in the menu, points.
 const GAP: f32 = 4.0;
-const LIST: f32 = 420.0;
+const LIST: f32 = 480.0;
 
 pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
     let is_region = place.index.is_some();
@@ -54,7 +54,7 @@ fn menu(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, chose
     }
     ui.add_space(4.0);
     // There may be many presets, and the window may be low.
-    let most = LIST.min(ui.ctx().content_rect().height() * 0.6);
+    let most = LIST.min(ui.ctx().content_rect().height() * 0.65);
     let area = ScrollArea::vertical().max_height(most).min_scrolled_height(most).auto_shrink([false, true]);
     area.show(ui, |ui| list(ui, asker, place, chosen));
 }

@@ -6,11 +6,10 @@ use impasto_editor_model::command::{Command, KeyedValue, SceneEdit, StrokesOf, T
 use impasto_scene::document::{Reference, Style};
 use impasto_scene::limits::MAX_SIDE_PX;
 use impasto_scene::motion;
-use impasto_scene::new_scene::Ground;
 
 use super::number::Number;
 use super::parts::{head, note, row, section, seen};
-use super::{Asker, ink, over_time, paint_layers, rotating_strokes, strokes};
+use super::{Asker, ground, ink, over_time, paint_layers, rotating_strokes, strokes};
 use crate::panels::Ask;
 use crate::theme::type_face;
 use crate::widgets::{self, Button, Tip};
@@ -52,14 +51,7 @@ fn picture(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
     asker.number(ui, &number("Height px"), [height, was_height].map(f64::from), |to| {
         set(f64::from(was_width), to.unwrap_or(720.0))
     });
-    row(ui, "Ground", |ui| {
-        let labels = ["Backdrop", "Vignette", "Plain"];
-        let now = Ground::of_scene(asker.scene());
-        let mut chosen = Ground::ALL.iter().position(|(_, ground)| *ground == now).unwrap_or(0);
-        if widgets::segmented_of(ui, "Ground", &labels, &mut chosen).changed() {
-            asker.ask(Command::Scene(SceneEdit::SetGround(Ground::ALL[chosen].1)));
-        }
-    });
+    ground::choice(ui, asker);
     row(ui, "Background", |ui| {
         let (frame, scene) = (asker.shown.session.frame, asker.scene());
         let is_keyed = !scene.background_keys.is_empty();
