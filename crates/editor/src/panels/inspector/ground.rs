@@ -12,7 +12,7 @@ pub(super) fn choice(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
     row(ui, "Ground", |ui| {
         let now = Ground::of_scene(asker.scene());
         let mut chosen = Ground::ALL.iter().position(|(_, ground)| *ground == now).unwrap_or(0);
-        if widgets::segmented_of(ui, "Ground", &["Backdrop", "Vignette", "Plain"], &mut chosen).changed() {
+        if widgets::combo(ui, "Ground", None, &["Backdrop", "Vignette", "Plain"], &mut chosen).changed() {
             asker.ask(Command::Scene(SceneEdit::SetGround(Ground::ALL[chosen].1)));
         }
     });
