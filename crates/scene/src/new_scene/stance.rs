@@ -181,21 +181,24 @@ impl Samples {
             if (along_z && forward.x != 0.0) || (along_x && forward.z != 0.0) {
                 continue;
             }
-            for side in [1.0, -1.0] {
-                let right = DVec3::Y.cross(forward);
-                // A long thing is seen more from its side.
-                let length = forward.abs().dot(size) / right.abs().dot(size).max(f64::MIN_POSITIVE);
-                let yaw = (29.0 + (60.0 * (length - 1.0)).clamp(0.0, 34.0)).to_radians();
-                let level = forward * yaw.cos() + right * (side * yaw.sin());
-                let view = level + DVec3::Y * rise;
-                let seen = self.form_seen(view.normalize(), &bent);
-                // Heads are carried high and forward, but of flat things the tail is high. Of equal views the usual one: +Z is the front of most files.
-                let ahead = 1.0 + head * lean.dot(forward).clamp(-1.0, 1.0);
-                let usual = ahead
-                    * if forward == DVec3::Z { front } else { 1.0 }
-                    * if side > 0.0 { 1.03 } else { 1.0 };
-                if seen * usual > best.0 {
-                    best = (seen * usual, view);
+            let right = DVec3::Y.cross(forward);
+            // A long thing is seen more from its side.
+            let length = forward.abs().dot(size) / right.abs().dot(size).max(f64::MIN_POSITIVE);
+            let yaw = (29.0 + (60.0 * (length - 1.0)).clamp(0.0, 34.0)).to_radians();
+            let views =
+                [1.0, -1.0].map(|side| forward * yaw.cos() + right * (side * yaw.sin()) + DVec3::Y * rise);
+            let mut seen = views.map(|view| self.form_seen(view.normalize(), &bent));
+            if along_z || along_x {
+                // Both sides show the same: what differs is by chance of the samples.
+                seen = [(seen[0] + seen[1]) / 2.0; 2];
+            }
+            // Heads are carried high and forward, but of flat things the tail is high. Of equal views the usual one:
+            // +Z is the front of most files.
+            let ahead = 1.0 + head * lean.dot(forward).clamp(-1.0, 1.0);
+            let usual = ahead * if forward == DVec3::Z { front } else { 1.0 };
+            for (view, worth) in views.into_iter().zip([seen[0] * usual * 1.03, seen[1] * usual]) {
+                if worth > best.0 {
+                    best = (worth, view);
                 }
             }
         }
