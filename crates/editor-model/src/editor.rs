@@ -389,8 +389,12 @@ impl Editor {
         self.pointer_px = None;
     }
 
-    /// The words of the status line, keys in brackets.
+    /// The words of the status line, the keys in use in brackets.
     pub fn status(&self) -> String {
+        self.keymap.in_own_keys(&self.status_in_usual_keys())
+    }
+
+    fn status_in_usual_keys(&self) -> String {
         if let Busy::Transforming(drag) = &self.busy {
             return drag.machine.status();
         }

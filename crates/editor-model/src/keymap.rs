@@ -2,6 +2,7 @@
 //! A modal tool takes every key. In the other scopes, keys without a binding there do what they do everywhere; while
 //! text is typed, only keys that text fields have no use for.
 
+mod hints;
 mod own;
 mod table;
 #[cfg(test)]

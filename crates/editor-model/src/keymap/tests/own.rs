@@ -169,3 +169,16 @@ fn a_key_on_a_lane_hides_what_it_does_elsewhere() {
     assert_eq!(BLENDER.hidden(delete, &[chord("V")]), [], "Guide curve has this key in Paint only");
     assert_eq!(BLENDER.hidden(id("Along X"), &[chord("K")]), []);
 }
+
+#[test]
+fn hints_name_the_keys_in_use() {
+    let hints = "[Drag] comb  [F] radius  [Middle] orbit";
+    assert_eq!(BLENDER.in_own_keys(hints), hints);
+    assert_eq!(MAYA.in_own_keys(hints), "[Drag] comb  [B] radius  [Alt Drag] orbit");
+    let maya = MAYA.in_own_keys("Move a[b  [G R S] move, turn, scale  [I] key");
+    assert_eq!(maya, "Move a[b  [W E R] move, turn, scale  [S] key");
+    let own = with(&BLENDER, "Brush radius", &["Alt B"]);
+    assert_eq!(own.in_own_keys(hints), "[Drag] comb  [Alt B] radius  [Middle] orbit");
+    let none = with(&BLENDER, "Brush radius", &[]);
+    assert_eq!(none.in_own_keys(hints), "[Drag] comb  [Middle] orbit");
+}
