@@ -22,6 +22,7 @@ use impasto_scene::motion::CameraPose;
 mod ahead;
 mod draft;
 mod film;
+mod film_file;
 mod mailbox;
 mod paint_worker;
 #[cfg(test)]

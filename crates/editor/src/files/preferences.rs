@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use crate::theme::Theme;
 
 pub use own_keys::OwnKeysText;
-pub use store::{Loaded, PreferencesError, config_folder, load, recovery_folder, save};
+pub use store::{Loaded, PreferencesError, config_folder, film_folder, load, recovery_folder, save};
 
 /// The newest layout that this build reads.
 pub const VERSION: u32 = 1;

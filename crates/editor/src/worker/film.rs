@@ -1,15 +1,18 @@
-//! Exact pictures of a shot's frames, kept in memory, so that playing again shows them at the full rate.
+//! Exact pictures of a shot's frames, kept in memory and on the disk, so that playing again shows them at the full rate.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use egui::ColorImage;
 
 use super::ViewJob;
+use super::film_file::FilmFile;
+use crate::files::preferences::film_folder;
 
-/// Kept pictures take no more than this, bytes: 260 frames of a window of 1280x800.
+/// Pictures in memory take no more than this, bytes: 260 frames of a window of 1280x800.
 const MOST_BYTES: usize = 1 << 30;
 
-/// Kept pictures also take no more than the available memory divided by this.
+/// They also take no more than the available memory divided by this.
 const SHARE: u64 = 4;
 
 /// The exact picture of one frame.
@@ -24,66 +27,115 @@ pub(super) struct Finished {
     pub(super) strokes: (usize, Vec<usize>),
 }
 
-impl Finished {
-    fn bytes(&self) -> usize {
-        bytes_of(&self.view)
-    }
-}
-
 /// What the picture of a view takes, bytes.
 fn bytes_of(view: &ViewJob) -> usize {
     view.size_px.iter().map(|&side| side as usize).product::<usize>() * 4
+}
+
+/// A kept picture, in memory or in the file.
+struct Kept {
+    view: ViewJob,
+    serial: u64,
+    strokes: (usize, Vec<usize>),
+    place: Place,
+}
+
+enum Place {
+    Memory(Arc<ColorImage>),
+    /// At this byte of the file.
+    File(u64),
 }
 
 /// The kept pictures, all of one version of the scene.
 #[derive(Default)]
 pub(super) struct Film {
     /// The oldest first.
-    kept: Vec<Finished>,
+    kept: Vec<Kept>,
+    /// For what memory has no room for; made when it is needed.
+    file: Option<FilmFile>,
 }
 
 impl Film {
     /// The picture of a view, if it is kept.
-    pub(super) fn of(&self, view: &ViewJob, serial: u64) -> Option<&Finished> {
+    pub(super) fn of(&self, view: &ViewJob, serial: u64) -> Option<Finished> {
+        let Kept { view, strokes, place, .. } = self.find(view, serial)?;
+        let image = match place {
+            Place::Memory(image) => Arc::clone(image),
+            Place::File(at) => {
+                Arc::new(self.file.as_ref()?.get(*at, view.size_px.map(|side| side as usize))?)
+            }
+        };
+        Some(Finished { view: view.clone(), serial, image, strokes: strokes.clone() })
+    }
+
+    /// Whether the picture of a view is kept.
+    pub(super) fn has(&self, view: &ViewJob, serial: u64) -> bool {
+        self.find(view, serial).is_some()
+    }
+
+    fn find(&self, view: &ViewJob, serial: u64) -> Option<&Kept> {
         self.kept.iter().find(|kept| kept.serial == serial && kept.view.looks_like(view))
     }
 
     /// The frames of these views whose pictures are kept, in order.
     pub(super) fn frames(&self, views: &[ViewJob], serial: u64) -> Vec<i64> {
-        let kept = views.iter().filter(|view| self.of(view, serial).is_some());
+        let kept = views.iter().filter(|view| self.has(view, serial));
         let mut frames: Vec<i64> = kept.map(|view| view.frame as i64).collect();
         frames.sort_unstable();
         frames
     }
 
-    /// Keeps a picture. If there is no room, pictures that are not `wanted` make way. If there is still no room, it
-    /// is not kept, and false is returned.
+    /// Keeps a picture: in memory, where pictures that are not `wanted` make way, or else on the disk. If there is no
+    /// room at all, it is not kept, and false is returned.
     pub(super) fn keep(&mut self, finished: Finished, wanted: &[ViewJob]) -> bool {
-        self.keep_within(finished, wanted, most_bytes())
+        self.keep_within(finished, wanted, most_bytes(), film_folder().as_deref())
     }
 
-    fn keep_within(&mut self, finished: Finished, wanted: &[ViewJob], most_bytes: usize) -> bool {
+    fn keep_within(
+        &mut self,
+        finished: Finished,
+        wanted: &[ViewJob],
+        most_bytes: usize,
+        folder: Option<&Path>,
+    ) -> bool {
         self.kept.retain(|kept| kept.serial == finished.serial);
-        if self.of(&finished.view, finished.serial).is_some() {
+        if self.kept.is_empty()
+            && let Some(file) = &mut self.file
+        {
+            file.clear();
+        }
+        if self.has(&finished.view, finished.serial) {
             return true;
         }
-        let mut bytes: usize = self.kept.iter().map(Finished::bytes).sum();
-        let is_wanted = |kept: &Finished| wanted.iter().any(|view| kept.view.looks_like(view));
+        let in_memory = |kept: &Kept| matches!(kept.place, Place::Memory(_));
+        let mut bytes: usize =
+            self.kept.iter().filter(|kept| in_memory(kept)).map(|kept| bytes_of(&kept.view)).sum();
+        let is_wanted = |kept: &Kept| wanted.iter().any(|view| kept.view.looks_like(view));
+        let own = bytes_of(&finished.view);
         self.kept.retain(|kept| {
-            let goes = bytes + finished.bytes() > most_bytes && !is_wanted(kept);
-            bytes -= if goes { kept.bytes() } else { 0 };
+            let goes = bytes + own > most_bytes && in_memory(kept) && !is_wanted(kept);
+            bytes -= if goes { bytes_of(&kept.view) } else { 0 };
             !goes
         });
-        let fits = bytes + finished.bytes() <= most_bytes;
-        if fits {
-            self.kept.push(finished);
+        let Finished { view, serial, image, strokes } = finished;
+        let place =
+            if bytes + own <= most_bytes { Some(Place::Memory(image)) } else { self.file(&image, folder) };
+        let Some(place) = place else { return false };
+        self.kept.push(Kept { view, serial, strokes, place });
+        true
+    }
+
+    /// Puts a picture into the file.
+    fn file(&mut self, image: &ColorImage, folder: Option<&Path>) -> Option<Place> {
+        if self.file.is_none() {
+            self.file = FilmFile::new(folder?);
         }
-        fits
+        self.file.as_mut()?.put(image).map(Place::File)
     }
 
     /// Drops all pictures, because the renderer would draw them differently now.
     pub(super) fn clear(&mut self) {
-        self.kept.clear();
+        *self = Self::default();
     }
 }
 
@@ -122,21 +174,46 @@ mod tests {
         let wanted = [1.0, 2.0, 3.0].map(view);
         let room = 3 * 400;
         for frame in [7.0, 1.0, 2.0] {
-            assert!(film.keep_within(finished(&view(frame), 1), &wanted, room));
+            assert!(film.keep_within(finished(&view(frame), 1), &wanted, room, None));
         }
         assert_eq!(film.frames(&wanted, 1), [1, 2]);
         assert!(film.of(&view(7.0), 1).is_some(), "there was room for all");
-        assert!(film.keep_within(finished(&wanted[2], 1), &wanted, room));
+        assert!(film.keep_within(finished(&wanted[2], 1), &wanted, room, None));
         assert!(film.of(&view(7.0), 1).is_none());
         assert_eq!(film.frames(&wanted, 1), [1, 2, 3]);
         // Nothing that is wanted makes way.
-        assert!(!film.keep_within(finished(&view(4.0), 1), &wanted, room));
-        assert!(film.keep_within(finished(&wanted[0], 1), &wanted, room), "it is kept already");
+        assert!(!film.keep_within(finished(&view(4.0), 1), &wanted, room, None));
+        assert!(film.keep_within(finished(&wanted[0], 1), &wanted, room, None), "it is kept already");
         // Another look, another version of the scene.
         let shaded = ViewJob { shading: Shading::Shaded, ..view(1.0) };
         assert!(film.of(&shaded, 1).is_none() && film.of(&view(1.0), 2).is_none());
         assert!(film.of(&ViewJob { moving: true, ..view(1.0) }, 1).is_some(), "playing is the same look");
-        assert!(film.keep_within(finished(&wanted[0], 2), &wanted, room));
+        assert!(film.keep_within(finished(&wanted[0], 2), &wanted, room, None));
         assert_eq!((film.frames(&wanted, 1), film.frames(&wanted, 2)), (Vec::new(), vec![1]));
+    }
+
+    #[test]
+    fn what_memory_has_no_room_for_goes_to_the_disk_and_comes_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let place = Some(folder.path());
+        let mut film = Film::default();
+        let wanted = [1.0, 2.0, 3.0, 4.0].map(view);
+        let picture = |frame: u8| {
+            let pixels = (0..100).map(|pixel| egui::Color32::from_rgb(frame, pixel, 7)).collect();
+            Arc::new(ColorImage::new([10, 10], pixels))
+        };
+        for (frame, view) in (1..).zip(&wanted) {
+            let finished = Finished { image: picture(frame), ..finished(view, 1) };
+            assert!(film.keep_within(finished, &wanted, 400, place), "frame {frame}");
+        }
+        assert_eq!(film.frames(&wanted, 1), [1, 2, 3, 4]);
+        for (frame, view) in (1..).zip(&wanted) {
+            assert_eq!(film.of(view, 1).unwrap().image, picture(frame), "frame {frame}");
+        }
+        // Nobody else sees the file, and none is left.
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+        assert!(film.keep_within(finished(&wanted[0], 2), &wanted, 0, place));
+        assert_eq!(film.frames(&wanted, 2), [1]);
+        assert!(film.of(&wanted[1], 1).is_none());
     }
 }

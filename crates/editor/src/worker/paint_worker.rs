@@ -180,10 +180,10 @@ impl PaintWorker {
     /// Shows the kept exact picture of a view, if there is one and the view is not shown exactly already.
     fn show_finished(&mut self, order: &Order, index: usize, tell: Tell<'_>) {
         let (view, serial) = (&order.job.views[index], order.job.serial);
-        let Some(Finished { image, strokes, .. }) = self.film.of(view, serial).cloned() else { return };
         if self.shows_exactly(order, index) {
             return;
         }
+        let Some(Finished { image, strokes, .. }) = self.film.of(view, serial) else { return };
         // Drafts go on recalling the last picture that was drawn.
         let recall = self.drawn[index].take().and_then(|drawn| drawn.recall);
         self.drawn[index] =
@@ -214,7 +214,7 @@ impl PaintWorker {
         }
         let give_up = || mailbox.is_stale(order);
         for view in views {
-            if self.film.of(view, serial).is_some() {
+            if self.film.has(view, serial) {
                 continue;
             }
             let Some(renderer) = &mut self.renderer else { return };

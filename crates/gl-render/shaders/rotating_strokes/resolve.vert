@@ -163,6 +163,15 @@ vec2 peak_px(float id) {
     return at_px;
 }
 
+// Whether the depth leaps between the stroke's centre and a place on its body, 0..1. Along a plane the inverse of the
+// depth changes evenly, however flat the gaze meets it: ground that recedes has no line.
+float broken(float own, vec2 halfway, vec2 there) {
+    if (halfway.y != there.y) return 1.0;
+    vec3 depths = vec3(own, halfway.x, there.x);
+    vec3 even = mix(own / depths, depths / own, orthographic);
+    return smoothstep(0.5 * LEAP.x, LEAP.y, abs(even.x - 2.0 * even.y + even.z));
+}
+
 // Where the body ends nearby. xy: towards the end. z: the share of the surroundings that lies past the end, 0..1. w:
 // the share that something in front hides, which is no end of the body, 0..1.
 vec4 outline_near(vec2 own) {
@@ -171,7 +180,9 @@ vec4 outline_near(vec2 own) {
     for (int index = 0; index < 24; index++) {
         float angle = 0.78539816 * (float(index & 7) + 0.5 * float((index >> 3) & 1));
         vec2 offset = vec2(cos(angle), sin(angle));
-        vec2 at = place.xy + offset * (OUTLINE_PX * px_scale * (0.4 + 0.3 * float(index >> 3))) - 0.5;
+        vec2 away_px = offset * (OUTLINE_PX * px_scale * (0.4 + 0.3 * float(index >> 3)));
+        vec2 halfway = surface_at(place.xy + 0.5 * away_px);
+        vec2 at = place.xy + away_px - 0.5;
         vec2 part = fract(at);
         float past = 0.0;
         float hidden = 0.0;
@@ -179,11 +190,13 @@ vec4 outline_near(vec2 own) {
             ivec2 step = ivec2(corner & 1, corner >> 1);
             vec2 near = mix(1.0 - part, part, vec2(step));
             vec2 there = surface_at(floor(at) + vec2(step) + 0.5);
-            float farther = there.y == 0.0 ? 1.0 : smoothstep(-bias, bias, there.x - own.x);
+            // Not where bodies touch: a floor has no line at the foot of what stands on it.
+            float farther = there.y == 0.0 ? 1.0 : smoothstep(0.5 * bias, 2.5 * bias, there.x - own.x);
             // One part of the body may stand in front of another.
             vec2 offset_px = floor(at) + vec2(step) + 0.5 - place.xy;
             float leap = (there.x - max(plane_depth(offset_px), own.x)) / own.x;
-            past += near.x * near.y * (there.y == own.y ? smoothstep(LEAP.x, LEAP.y, leap) : farther);
+            float leaps = smoothstep(LEAP.x, LEAP.y, leap) * broken(own.x, halfway, there);
+            past += near.x * near.y * (there.y == own.y ? leaps : farther);
             hidden += near.x * near.y * smoothstep(bias, 3.0 * bias, there.y == 0.0 ? 0.0 : own.x - there.x);
         }
         sum += vec4(vec3(offset, 1.0) * past, hidden);
@@ -246,9 +259,6 @@ void main() {
         there = without_last(there * wanted(detail_at(place.xy + to_peak, own.y)));
     } else if (small && there > LEAST) there = without_last(there * wanted(detail_at(place.xy, own.y)));
     if (kind == CONTOUR && there > LEAST) {
-        // No hard threshold: lines would flash where a block of `detail` is now this body's, now another's.
-        there *= smoothstep(0.002, 0.05, detail_at(place.xy, own.y).g);
-        if (there <= LEAST) return;
         outline = outline_near(own);
         if (outline.z <= 0.03) return;
         turned = turn_along(outline);
@@ -263,6 +273,8 @@ void main() {
     mat2 blur_px = mat2(clamp(0.16 * size.x, across_px, 2.5 * across_px), 0.0, 0.0, across_px);
     if (kind == TOUCHES) blur_px = mat2(across_px, 0.0, 0.0, across_px);
     float free = kind == LIGHTS ? 0.0 : freedom(own.y);
+    // What covers a stroke, as leaves do, changes as the view moves: its colour is taken from a wider surrounding.
+    blur_px *= kind == LIGHTS ? 1.0 : 1.0 + 1.5 * (1.0 - free);
     vec4 found = own_color(kind == LIGHTS ? place.xy + moved : place.xy, own.y, turn * blur_px, free);
     // Only the picture has highlights, not the stroke's own lit albedo.
     float known = kind == LIGHTS ? 1.0 : found.w * (1.0 - smoothstep(THIN.x, THIN.y, thinness(place.xy, own, free)));

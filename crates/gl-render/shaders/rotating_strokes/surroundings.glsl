@@ -6,7 +6,8 @@ uniform sampler2D normal;        // of the surface, world space, towards the eye
 uniform sampler2D detail;        // in blocks: change of colour, outline, highlight, body id and half its share
 uniform float block_px;          // side of a block
 
-// How far from the stroke's centre ends of its face are looked for, to tell how thin it is; pixels of the picture.
+// How far from the stroke's centre ends of its face are looked for, to tell how thin it is; pixels of a picture of half the
+// scene's size or less, and more in larger ones.
 const float AROUND_PX = 8.0;
 
 // Cosine of the angle between a pixel's normal and the stroke's: below the first the pixel shows another face of the
@@ -34,22 +35,37 @@ float plane_depth(vec2 offset_px) {
 // How far the stroke's centre is free of other parts of its own body, 0..1. Where it is free, only pixels of its own
 // face count, so that a narrow face takes no colour from the wide one beside it, nor a leaf from the leaf behind it.
 // Where it is covered, the stroke has the colour of what covers it.
+//
+// A leaf that passes before the centre would switch the colour: what counts is the share of seven places that is
+// covered, the centre and a ring half a stroke's width from it.
 float freedom(float id) {
-    vec2 at = place.xy - 0.5;
-    ivec2 corner = ivec2(floor(at));
     ivec2 last = textureSize(depth_and_id, 0) - 1;
-    vec2 part = at - vec2(corner);
     vec2 covers_px = COVERS_PX * min(2.0 * px_scale, 1.0);
+#ifdef DRAFT
+    const int PLACES = 1;
+#else
+    const int PLACES = 7;
+#endif
+    float ring_px = 0.5 * size.y;
+    float facing = max(abs((mat3(view_from_world) * normal_and_bow.xyz).z), 0.05);
     float covered = 0.0;
-    for (int index = 0; index < 4; index++) {
-        ivec2 offset = ivec2(index & 1, index >> 1);
+    for (int index = 0; index < 4 * PLACES; index++) {
+        float angle = 1.0471976 * float(index / 4);
+        vec2 away_px = index < 4 ? vec2(0.0) : vec2(cos(angle), sin(angle)) * ring_px;
+        vec2 at = place.xy + away_px - 0.5;
+        ivec2 corner = ivec2(floor(at));
+        vec2 part = at - vec2(corner);
+        ivec2 offset = ivec2(index & 1, (index >> 1) & 1);
         vec2 there = texelFetch(depth_and_id, clamp(corner + offset, ivec2(0), last), 0).xy;
         if (there.y != id) continue;
-        float before_px = (plane_depth(vec2(offset) - part) - there.x) / units_per_px(place.z);
+        vec2 offset_px = away_px + vec2(offset) - part;
+        float before_px = (plane_depth(offset_px) - there.x) / units_per_px(place.z);
+        // The flatter the gaze, the less the stroke's normal says of the depth on the ring.
+        if (index >= 4) before_px -= 0.5 * ring_px / facing;
         vec2 near = mix(1.0 - part, part, vec2(offset));
         covered += near.x * near.y * smoothstep(covers_px.x, covers_px.y, before_px);
     }
-    return 1.0 - covered;
+    return 1.0 - covered / float(PLACES);
 }
 
 // How far a pixel of the stroke's own body shows another face than that of the stroke, 0..1. A body that noise colours has no
@@ -101,10 +117,11 @@ float is_past(vec2 at_px, vec2 own, float free) {
 
 // How thin the stroke's own face is, 0..1: in how many directions it ends nearby on both sides.
 float thinness(vec2 center_px, vec2 own, float free) {
+    float around_px = AROUND_PX * max(2.0 * px_scale, 1.0);
     float sum = 0.0;
     for (int index = 0; index < 12; index++) {
         float angle = 0.52359878 * float(index % 6);
-        vec2 offset_px = vec2(cos(angle), sin(angle)) * (index < 6 ? AROUND_PX : 0.55 * AROUND_PX);
+        vec2 offset_px = vec2(cos(angle), sin(angle)) * (index < 6 ? around_px : 0.55 * around_px);
         sum += is_past(center_px + offset_px, own, free) * is_past(center_px - offset_px, own, free);
     }
     return sum / 12.0;

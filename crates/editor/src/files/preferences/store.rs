@@ -37,6 +37,15 @@ pub fn recovery_folder() -> Option<PathBuf> {
     Some(folder.join("recovery"))
 }
 
+/// The folder for pictures that a window keeps while it is open: `impasto` in the user's cache folder, or `cache` in
+/// `$IMPASTO_CONFIG_DIR`. None if the user has no home.
+pub fn film_folder() -> Option<PathBuf> {
+    match std::env::var_os("IMPASTO_CONFIG_DIR").filter(|folder| !folder.is_empty()) {
+        Some(folder) => Some(PathBuf::from(folder).join("cache")),
+        None => Some(etcetera::choose_base_strategy().ok()?.cache_dir().join("impasto")),
+    }
+}
+
 /// Preferences as they were read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loaded {

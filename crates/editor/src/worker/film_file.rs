@@ -1,0 +1,70 @@
+//! Pictures for which memory has no room, in a file without a name: the system deletes it when it is closed, however
+//! the program ends.
+
+use std::fs::File;
+use std::io::{Read as _, Seek as _, SeekFrom, Write as _};
+use std::path::Path;
+
+use egui::ColorImage;
+
+/// The file grows no larger than this, bytes: 3,000 frames of a window of 1280x800.
+const MOST_BYTES: u64 = 8 << 30;
+
+/// What stays free on its disk, bytes.
+const LEFT_FREE: u64 = 2 << 30;
+
+/// Pictures one after the other, as their bytes.
+pub(super) struct FilmFile {
+    file: File,
+    used: u64,
+}
+
+impl FilmFile {
+    /// An empty file in `folder`, which is made if it is not there; `None` if that cannot be.
+    pub(super) fn new(folder: &Path) -> Option<Self> {
+        std::fs::create_dir_all(folder).ok()?;
+        Some(Self { file: tempfile::tempfile_in(folder).ok()?, used: 0 })
+    }
+
+    /// Appends a picture. Returns where it lies; `None` if the disk has no room for it.
+    pub(super) fn put(&mut self, image: &ColorImage) -> Option<u64> {
+        let bytes = image.as_raw();
+        let (at, size) = (self.used, bytes.len() as u64);
+        let fits = at + size <= MOST_BYTES && self.free_bytes().is_none_or(|free| free >= size + LEFT_FREE);
+        if !fits {
+            return None;
+        }
+        self.file.seek(SeekFrom::Start(at)).ok()?;
+        self.file.write_all(bytes).ok()?;
+        self.used = at + size;
+        Some(at)
+    }
+
+    /// The picture of this size, in pixels, that lies at `at`; `None` if it cannot be read.
+    pub(super) fn get(&self, at: u64, size_px: [usize; 2]) -> Option<ColorImage> {
+        let mut bytes = vec![0; size_px[0] * size_px[1] * 4];
+        let mut file = &self.file;
+        file.seek(SeekFrom::Start(at)).ok()?;
+        file.read_exact(&mut bytes).ok()?;
+        Some(ColorImage::from_rgba_premultiplied(size_px, &bytes))
+    }
+
+    /// Drops all pictures.
+    pub(super) fn clear(&mut self) {
+        self.used = 0;
+        // If the file stays long, it is written over from its beginning.
+        let _ = self.file.set_len(0);
+    }
+
+    /// `None` where the system does not say.
+    #[cfg(unix)]
+    fn free_bytes(&self) -> Option<u64> {
+        let disk = rustix::fs::fstatvfs(&self.file).ok()?;
+        Some(disk.f_bavail.saturating_mul(disk.f_frsize))
+    }
+
+    #[cfg(not(unix))]
+    fn free_bytes(&self) -> Option<u64> {
+        None
+    }
+}
