@@ -9,6 +9,7 @@ mod tests;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use impasto_scene::assets::AssetFolders;
 use impasto_scene::document::{Region, Scene};
 use impasto_scene::load::{self, LoadOptions};
 use impasto_scene::loaded::LoadedScene;
@@ -55,6 +56,27 @@ pub struct Step {
 
 /// The last frame of a new scene: five seconds at 24 frames per second.
 const LAST_FRAME: i64 = 119;
+
+/// A version of a document, to see what a command would make of it.
+#[derive(Clone, Debug)]
+pub struct Trial {
+    loaded: Arc<LoadedScene>,
+    folders: AssetFolders,
+}
+
+impl Trial {
+    /// The scene as it would be after a command. Files may also come from the folder `also`.
+    ///
+    /// # Errors
+    /// Why the command would be refused.
+    pub fn with(&self, command: &Command, also: Option<&Path>) -> Result<LoadedScene, Refusal> {
+        let mut folders = self.folders.clone();
+        folders.extra.extend(also.map(Path::to_owned));
+        let mut scene = self.loaded.scene.clone();
+        command.edit(&mut scene, &self.loaded)?;
+        self.loaded.with_scene(scene, &folders).map_err(|report| Refusal::of(&report))
+    }
+}
 
 impl Document {
     /// An empty document; paths of its files are relative to `folder`.
@@ -163,16 +185,13 @@ impl Document {
         self.edited(command).err()
     }
 
-    /// The scene as it would be after a command, without carrying it out. Files may also come from the folder `also`.
-    ///
-    /// # Errors
-    /// Why the command would be refused.
-    pub fn seen_with(&self, command: &Command, also: Option<&Path>) -> Result<LoadedScene, Refusal> {
-        let mut folders = self.options.folders.clone();
-        folders.extra.extend(also.map(Path::to_owned));
-        let mut scene = self.loaded.scene.clone();
-        command.edit(&mut scene, &self.loaded)?;
-        self.loaded.with_scene(scene, &folders).map_err(|report| Refusal::of(&report))
+    /// The scene as it is now, to try commands on, on any thread.
+    pub fn trial(&self) -> Trial {
+        let held = self.source.as_ref().map(|source| Arc::new(source.held(&self.loaded)));
+        Trial {
+            loaded: held.unwrap_or_else(|| Arc::clone(&self.loaded)),
+            folders: self.options.folders.clone(),
+        }
     }
 
     /// Ends a preview.

@@ -6,6 +6,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 use egui::ColorImage;
 use impasto_gl_render::context::{self, Driver, OpenOptions};
@@ -21,20 +22,26 @@ mod tests;
 const MOST_PX: [u32; 2] = [288, 162];
 
 /// Strokes are this much larger than in the scene's picture, so that they can be told apart in a small one.
-const LARGER: u32 = 3;
+const LARGER: f32 = 3.0;
 
-/// A scene to paint, as it is with a preset.
+/// Preparing a picture is given the available memory divided by this: the scene is in memory once already.
+const SHARE: u64 = 4;
+
+/// How long dropping waits for the thread.
+const CLOSING: Duration = Duration::from_millis(1500);
+
+/// A picture to paint.
 #[derive(Clone)]
 pub struct Wanted {
-    /// The name of the picture.
+    /// Its name.
     pub name: String,
-    /// The scene.
-    pub loaded: Arc<LoadedScene>,
+    /// Makes the scene with the preset; none if the scene does not take it. Called on the thread.
+    pub scene: Arc<dyn Fn() -> Option<LoadedScene> + Send + Sync>,
     /// The frame, seen by the shot's camera.
     pub frame: f64,
 }
 
-/// Paints the pictures. Dropping this ends its thread.
+/// Paints the pictures. Dropping this gives up what is under way.
 pub struct PresetPictures {
     shared: Arc<Shared>,
 }
@@ -53,6 +60,9 @@ struct Board {
     /// They replace the program's own.
     shaders: ShaderTexts,
     painted: Vec<(String, ColorImage)>,
+    /// How many pictures were begun.
+    begun: u64,
+    closes: bool,
     ended: bool,
 }
 
@@ -64,11 +74,18 @@ impl PresetPictures {
     pub fn start(driver: Driver, wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
         let shared = Arc::new(Shared { board: Mutex::default(), changed: Condvar::new() });
         let theirs = Arc::clone(&shared);
-        let run = move || {
-            // Without pictures, presets are chosen by their names: what goes wrong here is of no matter.
-            let _ = catch_unwind(AssertUnwindSafe(|| theirs.run(driver, &wake)));
-        };
-        std::thread::Builder::new().name("preset pictures".to_owned()).spawn(run)?;
+        std::thread::Builder::new().name("preset pictures".to_owned()).spawn(move || {
+            while let Some(list) = theirs.wait() {
+                // Without pictures, presets are chosen by their names: what goes wrong here is of no matter. A broken
+                // driver may panic; the rest of the list is tried with a new one.
+                let painted = catch_unwind(AssertUnwindSafe(|| theirs.paint_list(list, driver, &wake)));
+                if !matches!(painted, Ok(Some(()))) {
+                    theirs.put(list, None);
+                }
+            }
+            theirs.board().ended = true;
+            theirs.changed.notify_all();
+        })?;
         Ok(Self { shared })
     }
 
@@ -93,10 +110,13 @@ impl PresetPictures {
 impl Drop for PresetPictures {
     fn drop(&mut self) {
         let mut board = self.shared.board();
-        board.ended = true;
-        board.wanted.clear();
+        board.closes = true;
+        board.list += 1;
         drop(board);
         self.shared.changed.notify_all();
+        // The program must not end while the thread is inside the driver.
+        let runs = |board: &mut Board| !board.ended;
+        drop(self.shared.changed.wait_timeout_while(self.shared.board(), CLOSING, runs));
     }
 }
 
@@ -106,14 +126,49 @@ impl Shared {
         self.board.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Waits until something is wanted; false once the window is gone.
-    fn waits(&self) -> bool {
-        let idle = |board: &mut Board| board.wanted.is_empty() && !board.ended;
-        let waited = self.changed.wait_while(self.board(), idle);
-        !waited.unwrap_or_else(PoisonError::into_inner).ended
+    /// Waits until something is wanted. Returns the number of the list; none once the window closes.
+    fn wait(&self) -> Option<u64> {
+        let idle = |board: &mut Board| board.wanted.is_empty() && !board.closes;
+        let board = self.changed.wait_while(self.board(), idle).unwrap_or_else(PoisonError::into_inner);
+        (!board.closes).then_some(board.list)
     }
 
-    /// The renderer for the list that is wanted.
+    /// What is to be painted next of the list with this number.
+    fn next(&self, list: u64) -> Option<Wanted> {
+        let mut board = self.board();
+        let next = board.wanted.first().filter(|_| board.list == list)?.clone();
+        board.begun += 1;
+        Some(next)
+    }
+
+    /// Takes the picture that was next in the list with this number, or the word that there is none. Returns whether
+    /// the list is wanted still.
+    fn put(&self, list: u64, image: Option<ColorImage>) -> bool {
+        let mut board = self.board();
+        if board.list != list || board.wanted.is_empty() {
+            return false;
+        }
+        let name = board.wanted.remove(0).name;
+        board.painted.extend(image.map(|image| (name, image)));
+        true
+    }
+
+    /// Paints a list. The driver is opened for it and closed after it: a second scene in memory is not kept for nothing.
+    /// None if there is no driver.
+    fn paint_list(&self, list: u64, driver: Driver, wake: &dyn Fn()) -> Option<()> {
+        let mut renderer = self.renderer(driver)?;
+        let mut preparer = Preparer::default();
+        while let Some(wanted) = self.next(list) {
+            let give_up = || self.board().list != list;
+            let image = paint(&mut preparer, &mut renderer, &wanted, &give_up);
+            if self.put(list, image) {
+                wake();
+            }
+        }
+        Some(())
+    }
+
+    /// A renderer with the shaders that are wanted.
     fn renderer(&self, driver: Driver) -> Option<Renderer> {
         let shaders = self.board().shaders.clone();
         let mut renderer = Renderer::new(context::open(driver, &OpenOptions::default()).ok()?).ok()?;
@@ -121,41 +176,6 @@ impl Shared {
             renderer.replace_shaders(&shaders).ok()?;
         }
         Some(renderer)
-    }
-
-    /// What is wanted next, and the number of its list.
-    fn next(&self) -> Option<(u64, Wanted)> {
-        let board = self.board();
-        Some((board.list, board.wanted.first()?.clone()))
-    }
-
-    /// Takes a picture of the list with this number, or the word that there is none. Returns whether it is wanted still.
-    fn put(&self, list: u64, name: String, image: Option<ColorImage>) -> bool {
-        let mut board = self.board();
-        let is_wanted = board.list == list && !board.wanted.is_empty();
-        if is_wanted {
-            board.wanted.remove(0);
-            board.painted.extend(image.map(|image| (name, image)));
-        }
-        is_wanted
-    }
-
-    fn run(&self, driver: Driver, wake: &dyn Fn()) {
-        while self.waits() {
-            // Opened for each list and closed after it: a second scene in memory is not kept for nothing.
-            let Some(mut renderer) = self.renderer(driver) else {
-                self.board().wanted.clear();
-                continue;
-            };
-            let mut preparer = Preparer::default();
-            while let Some((list, wanted)) = self.next() {
-                let give_up = || self.board().list != list;
-                let image = paint(&mut preparer, &mut renderer, &wanted, &give_up);
-                if self.put(list, wanted.name, image) {
-                    wake();
-                }
-            }
-        }
     }
 }
 
@@ -166,17 +186,17 @@ fn paint(
     wanted: &Wanted,
     give_up: &(dyn Fn() -> bool + Sync),
 ) -> Option<ColorImage> {
-    let mut loaded = (*wanted.loaded).clone();
-    let (width, height) = loaded.scene.size;
-    loaded.scene.size = ((width / LARGER).max(1), (height / LARGER).max(1));
     let options = PrepareOptions {
         give_up,
-        memory_bytes: impasto_scene::memory::available_bytes(),
+        memory_bytes: impasto_scene::memory::available_bytes().map(|bytes| bytes / SHARE),
         ..PrepareOptions::default()
     };
-    let painting = preparer.prepare_with(Arc::new(loaded), &options).ok()?;
-    let camera = motion::camera_at(painting.scene(), wanted.frame);
-    let options = FrameOptions::new(small_size([width, height]));
+    let painting = preparer.prepare_with(Arc::new((wanted.scene)()?), &options).ok()?;
+    let scene = painting.scene();
+    let camera = motion::camera_at(scene, wanted.frame);
+    let size_px = small_size([scene.size.0, scene.size.1]);
+    let options =
+        FrameOptions { shot_height_px: Some(LARGER * size_px[1] as f32), ..FrameOptions::new(size_px) };
     let mut frame = painting.bare(&camera, wanted.frame, &options);
     frame.lay(painting.strokes(&camera, wanted.frame, &options, None));
     let picture = renderer.render_unless(&frame, &mut || give_up()).ok()??;

@@ -17,6 +17,7 @@ use crate::document::{
     Camera, CameraKey, Color, Ease, Lens, Light, LightKind, MaterialOverride, Object, Reference, Scene,
     StrokeSettings, Timeline, Up,
 };
+use crate::gltf;
 use crate::mesh_file::MeshFile;
 use axes::Axes;
 use framing::View;
@@ -24,7 +25,7 @@ use scheme::Scheme;
 use stance::Samples;
 
 pub use add::{REGION_COLORS, add_mesh, regions_of};
-pub use ground::Ground;
+pub use ground::{Ground, NoGround};
 pub use of_shot::for_shot;
 pub use stance::ViewFrom;
 
@@ -67,7 +68,9 @@ pub struct NewScene {
 pub fn for_mesh(path: &Path, mesh: &MeshFile, placing: Placing) -> NewScene {
     let name = object_name(path);
     let name_hash = scheme::name_hash(&name);
-    let stance = Samples::of(mesh).stance(placing.up, placing.view);
+    // glTF states that Y is up.
+    let up = placing.up.or_else(|| gltf::is_gltf(path).then_some(Up::Y));
+    let stance = Samples::of(mesh).stance(up, placing.view);
     let view = View::of(mesh, stance, placing.view == ViewFrom::Auto);
     let scheme = Scheme::of(&[mesh], name_hash);
     let mesh_name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();

@@ -17,8 +17,8 @@ pub enum SceneEdit {
     SetSize(u32, u32),
     /// Sets the seed of all random choices.
     SetSeed(u32),
-    /// Sets what the objects stand on. The old ground goes, with its regions and what is painted on it; the new one has
-    /// its colour.
+    /// Sets what the objects stand on. The first ground of the scene goes, with its regions and what is painted on it;
+    /// the new one has its colour. Children of the old one move to its parent.
     SetGround(Ground),
     /// Sets the background: what shows where nothing is painted.
     SetBackground(Color),
@@ -58,14 +58,12 @@ impl SceneEdit {
 
 fn set_ground(scene: &mut Scene, before: &LoadedScene, ground: Ground) -> Result<Done, Refusal> {
     let is_ground = |object: &&Object| Ground::of_object(object).is_some();
-    let old: Vec<Object> = scene.objects.iter().filter(is_ground).cloned().collect();
-    for object in &old {
+    let old = scene.objects.iter().find(is_ground).cloned();
+    if let Some(object) = &old {
         delete_object(scene, &object.name)?;
     }
-    let color = old.iter().find_map(|object| object.material.as_ref()?.color);
-    if !ground.lay_under(scene, &before.meshes, color) {
-        return Err(Refusal::new("The camera looks from below: a floor would hide everything"));
-    }
+    let color = old.and_then(|object| object.material?.color);
+    ground.lay_under(scene, &before.meshes, color).map_err(|why| Refusal::new(why.to_string()))?;
     let word = Ground::ALL.iter().find(|(_, other)| *other == ground).map_or("", |(word, _)| word);
     Ok(Done::new(format!("Ground: {word}")))
 }

@@ -3,14 +3,13 @@
 use super::{Action, Keymap, Preset};
 
 /// The usual keys, as hints are written, and what they do.
-const USUAL: [(&str, &[Action]); 7] = [
+const USUAL: [(&str, &[Action]); 6] = [
     ("F", &[Action::SizeRadius]),
     ("G R S", &[Action::Move, Action::Turn, Action::Scale]),
     ("Shift A", &[Action::Add]),
     ("I", &[Action::SetKey]),
     ("Space", &[Action::Play]),
     ("NumPad 0", &[Action::LookThrough]),
-    ("Delete", &[Action::Delete]),
 ];
 
 impl Keymap {

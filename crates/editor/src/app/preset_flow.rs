@@ -10,6 +10,7 @@ use impasto_editor_model::editor::Offer;
 use impasto_gl_render::ShaderTexts;
 use impasto_gl_render::context::Driver;
 use impasto_scene::load::strokes_file::{self, ENDING};
+use impasto_scene::loaded::LoadedScene;
 use impasto_scene::presets;
 use impasto_scene::strokes_file::StrokesFile;
 use impasto_scene::whole_file::failure_in_words;
@@ -26,6 +27,8 @@ use crate::window::Waker;
 /// At most so many presets get a picture; further ones are chosen by their names.
 const MOST_PICTURES: usize = 40;
 
+type SceneOf = Arc<dyn Fn() -> Option<LoadedScene> + Send + Sync>;
+
 /// The user's presets, and the pictures of all.
 pub(super) struct PresetFlow {
     /// The presets in the user's folder.
@@ -41,6 +44,8 @@ pub(super) struct PresetFlow {
     shows: Option<(u64, StrokesOf)>,
     /// Whether the list was open in the last pass.
     is_listed: bool,
+    /// Whether the pictures are being painted, or are there.
+    paints: bool,
 }
 
 impl PresetFlow {
@@ -54,6 +59,7 @@ impl PresetFlow {
             pictures: BTreeMap::new(),
             shows: None,
             is_listed: false,
+            paints: false,
         }
     }
 
@@ -69,7 +75,7 @@ impl PresetFlow {
             let picture = ctx.load_texture(format!("preset {name}"), image, TextureOptions::LINEAR);
             self.pictures.insert(name, picture);
         }
-        if !std::mem::take(&mut self.is_listed) && self.shows.take().is_some() {
+        if !std::mem::take(&mut self.is_listed) && std::mem::take(&mut self.paints) {
             painter.want(Vec::new(), ShaderTexts::default());
         }
     }
@@ -81,31 +87,40 @@ impl EditorApp {
         self.presets.own = presets_folder().map_or_else(Vec::new, |folder| presets_in(&folder));
     }
 
-    /// Has pictures of all presets painted for these strokes, unless that was asked for already.
+    /// Has pictures of all presets painted for these strokes, unless they are there or under way already.
     pub(super) fn picture_presets(&mut self, of: StrokesOf) {
         self.presets.is_listed = true;
         let shows = Some((self.editor.shown().1, of.clone()));
-        if self.presets.shows == shows {
+        if self.presets.shows != shows {
+            self.presets.pictures.clear();
+            (self.presets.shows, self.presets.paints) = (shows, false);
+        }
+        // The picture of the window comes first.
+        if self.presets.paints || self.picture_flow.at_rest().is_none() {
             return;
         }
-        self.presets.shows = shows;
-        self.presets.pictures.clear();
+        self.presets.paints = true;
         if self.presets.painter.is_none() {
             let waker = self.presets.waker.clone();
             self.presets.painter = PresetPictures::start(self.presets.driver, move || waker.wake()).ok();
         }
-        let document = self.editor.document();
-        let built_in = presets::names().filter_map(|name| {
+        let trial = self.editor.document().trial();
+        let built_in = presets::names().map(|name| {
             let change = StrokeChange::Preset(Some(name.to_owned()));
             let command = Command::Regions(Regions::SetStroke(of.clone(), change));
-            Some((name.to_owned(), document.seen_with(&command, None).ok()?))
+            let trial = trial.clone();
+            let scene: SceneOf = Arc::new(move || trial.with(&command, None).ok());
+            (name.to_owned(), scene)
         });
-        let own = self.presets.own.iter();
-        let own = own.filter_map(|own| Some((own.key(), seen_with_preset(document, &of, &own.path)?)));
-        let wanted = built_in.chain(own);
+        let own = self.presets.own.iter().map(|own| {
+            let (trial, of, path) = (trial.clone(), of.clone(), own.path.clone());
+            let scene: SceneOf = Arc::new(move || seen_with_preset(&trial, &of, &path));
+            (own.key(), scene)
+        });
         let frame = self.editor.session.frame.round();
-        let wanted = wanted.take(MOST_PICTURES);
-        let wanted = wanted.map(|(name, loaded)| Wanted { name, loaded: Arc::new(loaded), frame }).collect();
+        let wanted = built_in.chain(own).take(MOST_PICTURES);
+        let wanted = wanted.filter(|(name, _)| !self.presets.pictures.contains_key(name));
+        let wanted = wanted.map(|(name, scene)| Wanted { name, scene, frame }).collect();
         if let Some(painter) = &self.presets.painter {
             painter.want(wanted, self.shaders.texts());
         }

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use impasto_editor_model::Document;
 use impasto_editor_model::command::{Command, Regions, StrokesOf};
+use impasto_editor_model::document::Trial;
 use impasto_scene::assets::{AssetFolders, AssetRequest};
 use impasto_scene::load::strokes_file::{self, is_preset, name_of};
 use impasto_scene::loaded::LoadedScene;
@@ -95,12 +96,12 @@ pub fn preset_command(document: &Document, of: &StrokesOf, path: &Path) -> Resul
     Ok(command(&preset))
 }
 
-/// The document's scene with the preset in the file `path`, whose pictures stay where they are; `None` if it cannot be
+/// The scene of `trial` with the preset in the file `path`, whose pictures stay where they are; `None` if it cannot be
 /// applied.
-pub fn seen_with_preset(document: &Document, of: &StrokesOf, path: &Path) -> Option<LoadedScene> {
+pub fn seen_with_preset(trial: &Trial, of: &StrokesOf, path: &Path) -> Option<LoadedScene> {
     let preset = Box::new(strokes_file::load(path).ok()?);
     let command = Command::Regions(Regions::ApplyPreset { of: of.clone(), preset, name: name_of(path) });
-    document.seen_with(&command, path.parent()).ok()
+    trial.with(&command, path.parent()).ok()
 }
 
 /// The first problems of a preset.

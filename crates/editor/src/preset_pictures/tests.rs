@@ -1,4 +1,4 @@
-//! Tests of the pictures of presets: every one is another, and a new list drops the old one.
+//! Tests of the pictures of presets: every one is another, and a new list ends the old one.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -15,11 +15,13 @@ use super::*;
 fn apples(presets: &[&str]) -> Vec<Wanted> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/apple.ron");
     let document = Document::open(&path, &LoadOptions::default()).expect("a shipped scene opens");
+    let trial = document.trial();
     let with = |preset: &&str| {
         let change = StrokeChange::Preset(Some((*preset).to_owned()));
         let command = Command::Regions(Regions::SetStroke(StrokesOf::Scene, change));
-        let loaded = document.seen_with(&command, None).expect("it fits");
-        Wanted { name: (*preset).to_owned(), loaded: Arc::new(loaded), frame: 0.0 }
+        let trial = trial.clone();
+        let scene = Arc::new(move || trial.with(&command, None).ok());
+        Wanted { name: (*preset).to_owned(), scene, frame: 0.0 }
     };
     presets.iter().map(with).collect()
 }
@@ -27,18 +29,20 @@ fn apples(presets: &[&str]) -> Vec<Wanted> {
 #[test]
 fn each_preset_gets_a_picture_of_its_own_and_a_new_list_ends_the_old_one() {
     let (woken, wakes) = mpsc::channel();
-    let pictures = PresetPictures::start(Driver::Auto, move || {
+    let wake = move || {
         let _ = woken.send(());
-    })
-    .expect("a thread");
-    pictures.want(apples(&["oil study", "paper"]), ShaderTexts::default());
-    pictures.want(apples(&["gouache", "impressionist"]), ShaderTexts::default());
+    };
+    let pictures = PresetPictures::start(Driver::Auto, wake).expect("a thread");
+    pictures.want(apples(&["oil study", "paper", "dry brush"]), ShaderTexts::default());
+    pictures.want(apples(&["gouache", "no such preset", "impressionist"]), ShaderTexts::default());
     let mut seen: BTreeMap<String, ColorImage> = BTreeMap::new();
     while seen.len() < 2 {
         wakes.recv_timeout(Duration::from_secs(120)).expect("a picture");
         seen.extend(pictures.take());
     }
     assert_eq!(seen.keys().collect::<Vec<_>>(), ["gouache", "impressionist"]);
+    let begun = pictures.shared.board().begun;
+    assert!(begun <= 4, "{begun} pictures were begun: the old list was not given up");
     let [one, other] = ["gouache", "impressionist"].map(|name| &seen[name]);
     assert_eq!((one.size, other.size), ([288, 162], [288, 162]));
     let apart = one.pixels.iter().zip(&other.pixels).filter(|(a, b)| a.r().abs_diff(b.r()) > 12).count();

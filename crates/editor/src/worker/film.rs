@@ -56,16 +56,32 @@ pub(super) struct Film {
 }
 
 impl Film {
-    /// The picture of a view, if it is kept.
-    pub(super) fn of(&self, view: &ViewJob, serial: u64) -> Option<Finished> {
-        let Kept { view, strokes, place, .. } = self.find(view, serial)?;
+    /// The picture of a view, if it is kept. One that cannot be read any more is forgotten.
+    pub(super) fn of(&mut self, view: &ViewJob, serial: u64) -> Option<Finished> {
+        let Kept { view: kept, strokes, place, .. } = self.find(view, serial)?;
         let image = match place {
-            Place::Memory(image) => Arc::clone(image),
+            Place::Memory(image) => Some(Arc::clone(image)),
             Place::File(at) => {
-                Arc::new(self.file.as_ref()?.get(*at, view.size_px.map(|side| side as usize))?)
+                let file = self.file.as_ref();
+                file.and_then(|file| file.get(*at, kept.size_px.map(|side| side as usize))).map(Arc::new)
             }
         };
-        Some(Finished { view: view.clone(), serial, image, strokes: strokes.clone() })
+        let finished =
+            image.map(|image| Finished { view: kept.clone(), serial, image, strokes: strokes.clone() });
+        if finished.is_none() {
+            self.kept.retain(|kept| kept.serial != serial || !kept.view.looks_like(view));
+        }
+        finished
+    }
+
+    /// Drops the pictures of other versions of the scene.
+    pub(super) fn follow(&mut self, serial: u64) {
+        self.kept.retain(|kept| kept.serial == serial);
+        if self.kept.is_empty()
+            && let Some(file) = &mut self.file
+        {
+            file.clear();
+        }
     }
 
     /// Whether the picture of a view is kept.
@@ -98,12 +114,7 @@ impl Film {
         most_bytes: usize,
         folder: Option<&Path>,
     ) -> bool {
-        self.kept.retain(|kept| kept.serial == finished.serial);
-        if self.kept.is_empty()
-            && let Some(file) = &mut self.file
-        {
-            file.clear();
-        }
+        self.follow(finished.serial);
         if self.has(&finished.view, finished.serial) {
             return true;
         }
@@ -118,8 +129,19 @@ impl Film {
             !goes
         });
         let Finished { view, serial, image, strokes } = finished;
-        let place =
-            if bytes + own <= most_bytes { Some(Place::Memory(image)) } else { self.file(&image, folder) };
+        let mut place = if bytes + own <= most_bytes {
+            Some(Place::Memory(Arc::clone(&image)))
+        } else {
+            self.file(&image, folder)
+        };
+        // The file only grows: once nothing in it is wanted any more, it begins anew.
+        if place.is_none() && !self.kept.iter().any(|kept| !in_memory(kept) && is_wanted(kept)) {
+            self.kept.retain(in_memory);
+            if let Some(file) = &mut self.file {
+                file.clear();
+                place = self.file(&image, folder);
+            }
+        }
         let Some(place) = place else { return false };
         self.kept.push(Kept { view, serial, strokes, place });
         true
@@ -196,7 +218,8 @@ mod tests {
     fn what_memory_has_no_room_for_goes_to_the_disk_and_comes_back() {
         let folder = tempfile::tempdir().unwrap();
         let place = Some(folder.path());
-        let mut film = Film::default();
+        let file = Some(FilmFile::on_small_disk(folder.path()));
+        let mut film = Film { file, ..Film::default() };
         let wanted = [1.0, 2.0, 3.0, 4.0].map(view);
         let picture = |frame: u8| {
             let pixels = (0..100).map(|pixel| egui::Color32::from_rgb(frame, pixel, 7)).collect();
@@ -212,8 +235,14 @@ mod tests {
         }
         // Nobody else sees the file, and none is left.
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+        assert_eq!(film.file.as_ref().unwrap().used_bytes(), 3 * 400);
+        film.follow(2);
+        assert_eq!(film.file.as_ref().unwrap().used_bytes(), 0, "another version of the scene drops all");
         assert!(film.keep_within(finished(&wanted[0], 2), &wanted, 0, place));
         assert_eq!(film.frames(&wanted, 2), [1]);
         assert!(film.of(&wanted[1], 1).is_none());
+        // A picture that cannot be read is not kept any more.
+        film.file = Some(FilmFile::on_small_disk(folder.path()));
+        assert!(film.of(&wanted[0], 2).is_none() && film.frames(&wanted, 2).is_empty());
     }
 }

@@ -17,20 +17,23 @@ const LEFT_FREE: u64 = 2 << 30;
 pub(super) struct FilmFile {
     file: File,
     used: u64,
+    /// What stays free on its disk, bytes.
+    left_free: u64,
 }
 
 impl FilmFile {
     /// An empty file in `folder`, which is made if it is not there; `None` if that cannot be.
     pub(super) fn new(folder: &Path) -> Option<Self> {
         std::fs::create_dir_all(folder).ok()?;
-        Some(Self { file: tempfile::tempfile_in(folder).ok()?, used: 0 })
+        Some(Self { file: tempfile::tempfile_in(folder).ok()?, used: 0, left_free: LEFT_FREE })
     }
 
     /// Appends a picture. Returns where it lies; `None` if the disk has no room for it.
     pub(super) fn put(&mut self, image: &ColorImage) -> Option<u64> {
         let bytes = image.as_raw();
         let (at, size) = (self.used, bytes.len() as u64);
-        let fits = at + size <= MOST_BYTES && self.free_bytes().is_none_or(|free| free >= size + LEFT_FREE);
+        let fits =
+            at + size <= MOST_BYTES && self.free_bytes().is_some_and(|free| free >= size + self.left_free);
         if !fits {
             return None;
         }
@@ -49,6 +52,18 @@ impl FilmFile {
         Some(ColorImage::from_rgba_premultiplied(size_px, &bytes))
     }
 
+    /// How many bytes of pictures it holds.
+    #[cfg(test)]
+    pub(super) fn used_bytes(&self) -> u64 {
+        self.used
+    }
+
+    /// As [`Self::new`], for a disk of any size.
+    #[cfg(test)]
+    pub(super) fn on_small_disk(folder: &Path) -> Self {
+        Self { left_free: 0, ..Self::new(folder).unwrap() }
+    }
+
     /// Drops all pictures.
     pub(super) fn clear(&mut self) {
         self.used = 0;
@@ -56,7 +71,7 @@ impl FilmFile {
         let _ = self.file.set_len(0);
     }
 
-    /// `None` where the system does not say.
+    /// `None` where the system does not say: then nothing is put into the file.
     #[cfg(unix)]
     fn free_bytes(&self) -> Option<u64> {
         let disk = rustix::fs::fstatvfs(&self.file).ok()?;

@@ -136,6 +136,7 @@ impl PaintWorker {
     fn work(&mut self, order: &Order, mailbox: &Mailbox, tell: Tell<'_>) {
         self.take_shaders(mailbox, tell);
         let views = &order.job.views;
+        self.film.follow(order.job.serial);
         self.drawn.resize_with(views.len(), || None);
         if self.is_new(order) {
             self.show_unpainted(order, tell);

@@ -49,6 +49,10 @@ const float GATHER_PX = 34.0;
 // How far from itself a contour stroke looks for the end of its body, pixels of the scene's own size.
 const float OUTLINE_PX = 20.0;
 
+// How far behind the stroke another body lies to be past the end of its own: in part from the first depth on, wholly from
+// the second.
+const vec2 BEHIND_PX = vec2(10.0, 50.0);
+
 // A stroke that other bodies hide in part is there as a whole while more than this share of it is to be seen.
 const float WHOLE = 0.75;
 
@@ -166,7 +170,8 @@ vec2 peak_px(float id) {
 // Whether the depth leaps between the stroke's centre and a place on its body, 0..1. Along a plane the inverse of the
 // depth changes evenly, however flat the gaze meets it: ground that recedes has no line.
 float broken(float own, vec2 halfway, vec2 there) {
-    if (halfway.y != there.y) return 1.0;
+    // Something in front says nothing; something behind is past the end.
+    if (halfway.y != there.y) return halfway.y != 0.0 && halfway.x < own ? 0.0 : 1.0;
     vec3 depths = vec3(own, halfway.x, there.x);
     vec3 even = mix(own / depths, depths / own, orthographic);
     return smoothstep(0.5 * LEAP.x, LEAP.y, abs(even.x - 2.0 * even.y + even.z));
@@ -191,7 +196,8 @@ vec4 outline_near(vec2 own) {
             vec2 near = mix(1.0 - part, part, vec2(step));
             vec2 there = surface_at(floor(at) + vec2(step) + 0.5);
             // Not where bodies touch: a floor has no line at the foot of what stands on it.
-            float farther = there.y == 0.0 ? 1.0 : smoothstep(0.5 * bias, 2.5 * bias, there.x - own.x);
+            float behind_px = (there.x - own.x) / (units_per_px(own.x) * px_scale);
+            float farther = there.y == 0.0 ? 1.0 : smoothstep(BEHIND_PX.x, BEHIND_PX.y, behind_px);
             // One part of the body may stand in front of another.
             vec2 offset_px = floor(at) + vec2(step) + 0.5 - place.xy;
             float leap = (there.x - max(plane_depth(offset_px), own.x)) / own.x;
@@ -259,6 +265,9 @@ void main() {
         there = without_last(there * wanted(detail_at(place.xy + to_peak, own.y)));
     } else if (small && there > LEAST) there = without_last(there * wanted(detail_at(place.xy, own.y)));
     if (kind == CONTOUR && there > LEAST) {
+#ifdef DRAFT
+        if (detail_at(place.xy, own.y).g <= 0.002) return;
+#endif
         outline = outline_near(own);
         if (outline.z <= 0.03) return;
         turned = turn_along(outline);

@@ -133,7 +133,7 @@ fn plain(name: &str, else_name: &str) -> String {
 }
 
 /// The name, with the first free number behind it if it is taken.
-fn unique(name: &str, taken: &HashSet<&str>) -> String {
+pub(super) fn unique(name: &str, taken: &HashSet<&str>) -> String {
     let mut numbered = (2..).map(|number: u32| format!("{name} {number}"));
     if !taken.contains(name) {
         return name.to_owned();

@@ -1,6 +1,6 @@
 //! What a model stands on: laid in its new scene, or chosen later.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -8,8 +8,8 @@ use glam::DVec3;
 
 use super::axes::Axes;
 use super::framing::Footing;
-use super::object_name;
 use super::scheme::{self, Scheme};
+use super::{add, object_name};
 use crate::built_in_mesh;
 use crate::document::{
     Color, Direction, Edges, LayerSettings, LightKind, MaterialOverride, Object, Region, Scene, Selector,
@@ -55,7 +55,10 @@ impl Ground {
                 return Laid { object: None, regions: Vec::new(), background: scheme.plain_ground() };
             }
         };
-        let name = names.into_iter().find(|name| !taken.contains(name)).unwrap_or(names[0]);
+        let all_taken = || add::unique(names[0], &taken.iter().copied().collect());
+        let free = names.into_iter().find(|name| !taken.contains(name));
+        let name = free.map_or_else(all_taken, str::to_owned);
+        let name = name.as_str();
         let (object, parts) = if self == Self::Backdrop {
             let wall_deg = WALL_DEG[(seed >> 8) as usize % WALL_DEG.len()];
             let parts = vec![(built_in_mesh::WALL, wall_deg, 5.0), (built_in_mesh::FLOOR, 0.0, 3.0)];
@@ -95,28 +98,35 @@ impl Ground {
         scene.objects.iter().find_map(Self::of_object).unwrap_or(Self::Plain)
     }
 
-    /// Lays this ground under the objects of a scene without a ground, as [`for_mesh`](super::for_mesh) lays it under a
-    /// new model: turned to the camera, at the reference frame. `color` is that of the ground; `None` chooses one. A
-    /// background that no ground has given to the scene stays. Returns false, and lays nothing, where the camera looks
-    /// up: a floor would hide the objects.
+    /// Lays this ground under the objects of a scene, as [`for_mesh`](super::for_mesh) lays it under a new model: turned
+    /// to the camera, under the objects' rest shapes as they stand at the reference frame. `color` is that of the
+    /// ground; `None` chooses one. A background that no ground has given to the scene stays.
+    ///
+    /// # Errors
+    /// Why there can be no floor; nothing is laid then.
     pub fn lay_under(
         self,
         scene: &mut Scene,
         meshes: &BTreeMap<String, Arc<MeshFile>>,
         color: Option<Color>,
-    ) -> bool {
-        let Some(footing) = footing_in(scene, meshes) else { return self == Self::Plain };
-        if self != Self::Plain && footing.axes.back.y <= 0.0 {
-            return false;
+    ) -> Result<(), NoGround> {
+        let Some(footing) = footing_in(scene, meshes) else {
+            return if self == Self::Plain { Ok(()) } else { Err(NoGround::NothingStands) };
+        };
+        let looks_down = footing.axes.back.y > 0.0;
+        if self != Self::Plain && !looks_down {
+            return Err(NoGround::SeenFromBelow);
         }
         let models = || scene.objects.iter().filter(|object| !is_built_in(object));
-        let files: Vec<&MeshFile> =
-            models().filter_map(|object| Some(&**meshes.get(&object.mesh)?)).collect();
+        // Several objects may be groups of one file.
+        let names: BTreeSet<&str> = models().map(|object| object.mesh.as_str()).collect();
+        let files: Vec<&MeshFile> = names.iter().filter_map(|&name| Some(&**meshes.get(name)?)).collect();
         let name_hash =
             models().next().map_or(0, |first| scheme::name_hash(&object_name(Path::new(&first.mesh))));
         let chosen = Scheme::of(&files, name_hash);
         let mut scheme = chosen.clone();
-        scheme.ground = color.unwrap_or(chosen.ground);
+        // The colour of a plain ground is chosen, so that it is known again as one that nobody set.
+        scheme.ground = color.filter(|_| self != Self::Plain).unwrap_or(chosen.ground);
         let given = [&chosen, &scheme]
             .into_iter()
             .flat_map(|scheme| Self::ALL.map(|(_, ground)| ground.background(scheme)));
@@ -125,12 +135,27 @@ impl Ground {
         let taken: Vec<&str> = scene.objects.iter().map(|object| object.name.as_str()).collect();
         let laid = self.lay(&footing, &scheme, &taken, name_hash);
         scene.objects.extend(laid.object);
-        scene.regions.extend(laid.regions);
+        // First, so that the regions that a person has made win.
+        let taken: HashSet<String> = scene.regions.iter().map(|region| region.name.clone()).collect();
+        let taken: HashSet<&str> = taken.iter().map(String::as_str).collect();
+        let named = |region: Region| Region { name: add::unique(&region.name, &taken), ..region };
+        scene.regions.splice(0..0, laid.regions.into_iter().map(named));
         if !keeps_background {
             scene.background = laid.background;
         }
-        true
+        Ok(())
     }
+}
+
+/// Why no floor is laid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NoGround {
+    /// Nothing is seen but built-in meshes.
+    #[error("Nothing is there that could stand on a ground")]
+    NothingStands,
+    /// The camera looks up.
+    #[error("The camera looks from below: a floor would hide everything")]
+    SeenFromBelow,
 }
 
 fn is_built_in(object: &Object) -> bool {
@@ -142,8 +167,9 @@ fn is_built_in(object: &Object) -> bool {
 fn footing_in(scene: &Scene, meshes: &BTreeMap<String, Arc<MeshFile>>) -> Option<Footing> {
     let frame = motion::referred_to(scene, &scene.reference).1;
     let mut bounds: Option<[DVec3; 2]> = None;
-    for (object, pose) in scene.objects.iter().zip(motion::poses_at(scene, frame)) {
-        let Some(mesh) = meshes.get(&object.mesh).filter(|_| !object.hidden && !is_built_in(object)) else {
+    let placed = motion::poses_at(scene, frame).into_iter().zip(motion::hidden_at(scene, frame));
+    for (object, (pose, hidden)) in scene.objects.iter().zip(placed) {
+        let Some(mesh) = meshes.get(&object.mesh).filter(|_| !hidden && !is_built_in(object)) else {
             continue;
         };
         let group =

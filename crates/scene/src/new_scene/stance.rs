@@ -4,6 +4,7 @@ mod upright;
 
 use glam::{DMat3, DVec3};
 use impasto_core::sampling::{self, Particle, Surface};
+use impasto_core::shells::{self, Side};
 
 use super::axes::Axes;
 use super::scheme;
@@ -73,20 +74,24 @@ pub(super) struct Samples {
     normals: Vec<DVec3>,
     /// Of the triangles that the samples lie on: a box with smooth normals has flat sides all the same.
     face_normals: Vec<DVec3>,
-    /// Whether each lies on the back of its triangle.
+    /// Whether each lies on the back of a sheet. A closed shell that is inside out has no backs.
     flipped: Vec<bool>,
     spacing: f64,
 }
 
 impl Samples {
     pub fn of(mesh: &MeshFile) -> Self {
-        let surface = Surface::new(&mesh.mesh, |_| true);
+        let sides = shells::sides(&mesh.mesh);
+        let surface = Surface::with_sides(&mesh.mesh, &sides, |_| true);
         let particles = sampling::progressive(&surface, SAMPLES, 1);
         Self {
             points: particles.iter().map(|particle| particle.position.as_dvec3()).collect(),
             normals: particles.iter().map(|particle| particle.normal.as_dvec3()).collect(),
             face_normals: particles.iter().map(|particle| face_normal(mesh, particle)).collect(),
-            flipped: particles.iter().map(|particle| particle.flipped).collect(),
+            flipped: particles
+                .iter()
+                .map(|particle| particle.flipped && sides[particle.triangle as usize] == Side::Both)
+                .collect(),
             spacing: sampling::hexagonal_spacing(surface.area(), particles.len().max(1)),
         }
     }

@@ -9,7 +9,7 @@ use impasto_core::TriangleMesh;
 use super::framing::used_points;
 use super::*;
 use crate::built_in_mesh;
-use crate::document::{Direction, Selector};
+use crate::document::{Direction, Region, Selector};
 use crate::motion::camera_at;
 
 /// A box between two corners, wound outwards; with `open`, only its face at the lowest z, which faces −Z.
@@ -266,6 +266,9 @@ fn an_animal_is_stood_on_its_feet_and_seen_from_the_side_of_its_head() {
     let z_up = placed(Path::new("x.obj"), &turned(&animal, |at| Vec3::new(at.x, -at.z, at.y)));
     assert_eq!(z_up.objects[0].up, Up::Z);
     assert!(on_screen_turned(&z_up, &animal), "the head of the animal with Z up is not above its feet");
+    // A glTF file says that Y is up, whatever it looks like.
+    let gltf = placed(Path::new("x.glb"), &turned(&animal, |at| Vec3::new(at.x, -at.z, at.y)));
+    assert_eq!(gltf.objects[0].up, Up::Y);
 }
 
 /// Whether the head of an animal that was turned to Z up stands above its feet in the picture.
@@ -301,7 +304,7 @@ fn a_ground_that_is_chosen_later_is_the_one_of_a_new_scene() {
     for (_, ground) in Ground::ALL {
         let wanted = on(ground);
         let mut scene = on(Ground::Plain);
-        assert!(ground.lay_under(&mut scene, &meshes, None));
+        assert_eq!(ground.lay_under(&mut scene, &meshes, None), Ok(()));
         // The camera is stated in rounded numbers, so the ground may differ by as much.
         for (object, other) in scene.objects.iter_mut().zip(&wanted.objects) {
             for (key, other) in object.keys.iter_mut().zip(&other.keys) {
@@ -317,14 +320,30 @@ fn a_ground_that_is_chosen_later_is_the_one_of_a_new_scene() {
 
     let mut scene = on(Ground::Plain);
     scene.background = Color([0.9, 0.1, 0.1]);
-    assert!(Ground::Vignette.lay_under(&mut scene, &meshes, Some(Color([0.1, 0.7, 0.2]))));
+    let green = Some(Color([0.1, 0.7, 0.2]));
+    assert_eq!(Ground::Vignette.lay_under(&mut scene, &meshes, green), Ok(()));
     assert_eq!(scene.background, Color([0.9, 0.1, 0.1]), "a background that somebody chose stays");
     let material = scene.objects[1].material.as_ref().unwrap();
     assert_eq!(material.color, Some(Color([0.1, 0.7, 0.2])));
 
     let mut from_below = on(Ground::Plain);
     from_below.camera.keys[0].eye[1] = -50.0;
-    assert!(!Ground::Backdrop.lay_under(&mut from_below, &meshes, None), "a floor would hide the box");
+    let laid = |scene: &mut Scene| Ground::Backdrop.lay_under(scene, &meshes, None);
+    assert_eq!(laid(&mut from_below), Err(NoGround::SeenFromBelow));
+    let mut hidden = on(Ground::Plain);
+    hidden.objects[0].hidden = true;
+    assert_eq!(laid(&mut hidden), Err(NoGround::NothingStands));
+    // Names that are taken get a number, and the background of a plain ground is known as such.
+    let mut crowded = on(Ground::Plain);
+    for name in ["backdrop", "wall", "the backdrop"] {
+        crowded.objects.push(Object { hidden: true, ..Object::new(name, "x.obj") });
+    }
+    crowded.regions.push(Region::new("backdrop 2 floor", Selector::Everything));
+    assert_eq!(laid(&mut crowded), Ok(()));
+    assert_eq!(crowded.objects.last().unwrap().name, "backdrop 2");
+    assert_eq!(crate::check::check(&crowded), vec![]);
+    assert_eq!(crowded.regions.last().unwrap().name, "backdrop 2 floor", "a person's region wins");
+    assert_ne!(crowded.background, on(Ground::Plain).background);
 }
 
 #[test]

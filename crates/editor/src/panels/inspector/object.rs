@@ -49,7 +49,8 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, name: &str) {
         body(ui, |ui| note(ui, &format!("{name} is locked.")));
     }
     ui.add_enabled_ui(!object.locked, |ui| {
-        if Ground::of_object(object).is_some() {
+        let first = scenes[0].objects.iter().find(|object| Ground::of_object(object).is_some());
+        if first.is_some_and(|first| first.name == name) {
             body(ui, |ui| ground::choice(ui, asker));
         }
         pose::of_object(ui, asker, [object, stored]);
