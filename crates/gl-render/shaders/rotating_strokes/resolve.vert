@@ -167,26 +167,45 @@ vec2 peak_px(float id) {
     return at_px;
 }
 
-// Whether the depth leaps between the stroke's centre and a place on its body, 0..1. Along a plane the inverse of the
-// depth changes evenly, however flat the gaze meets it: ground that recedes has no line.
-float broken(float own, vec2 halfway, vec2 there) {
+// Per pixel, how the stroke's own plane changes `even_depth`. A plane that the gaze meets flatter than `least_facing` is
+// taken to be as steep as that.
+vec2 plane_slope(float least_facing) {
+    vec3 n = mat3(view_from_world) * normal_and_bow.xyz;
+    n *= n.z < 0.0 ? -1.0 : 1.0;
+    float facing = n.z - (1.0 - orthographic) * dot(n.xy, (place.xy - gaze_px) / px_per_unit_at_1);
+    vec2 slope = n.xy / (px_per_unit_at_1 * max(facing, least_facing));
+    return mix(-slope, slope / place.z, orthographic);
+}
+
+// A depth in the form in which it changes evenly along a plane, 1 at the stroke's own.
+float even_depth(float depth) {
+    return mix(place.z / depth, depth / place.z, orthographic);
+}
+
+// Whether the depth leaps between the stroke's centre and a place on its body, 0..1: along a plane, the pixel halfway has
+// the depth halfway, but for where it lies off the middle, `off_px`. Ground that recedes has no line.
+float broken(vec2 halfway, vec2 there, vec2 off_px, vec2 slope) {
     // Something in front says nothing; something behind is past the end.
-    if (halfway.y != there.y) return halfway.y != 0.0 && halfway.x < own ? 0.0 : 1.0;
-    vec3 depths = vec3(own, halfway.x, there.x);
-    vec3 even = mix(own / depths, depths / own, orthographic);
-    return smoothstep(0.5 * LEAP.x, LEAP.y, abs(even.x - 2.0 * even.y + even.z));
+    if (halfway.y != there.y) return halfway.y != 0.0 && halfway.x < place.z ? 0.0 : 1.0;
+    float middle = even_depth(halfway.x) - dot(slope, off_px);
+    return smoothstep(0.5 * LEAP.x, LEAP.y, abs(1.0 - 2.0 * middle + even_depth(there.x)));
 }
 
 // Where the body ends nearby. xy: towards the end. z: the share of the surroundings that lies past the end, 0..1. w:
 // the share that something in front hides, which is no end of the body, 0..1.
 vec4 outline_near(vec2 own) {
     float bias = 0.02 * own.x;
+    vec2 slope = plane_slope(0.03);
+    vec2 steep_slope = plane_slope(0.10);
+    vec2 behind = BEHIND_PX * (units_per_px(own.x) * px_scale / own.x);
+    float deeper = mix(-1.0, 1.0, orthographic);
     vec4 sum = vec4(0.0);
     for (int index = 0; index < 24; index++) {
         float angle = 0.78539816 * (float(index & 7) + 0.5 * float((index >> 3) & 1));
         vec2 offset = vec2(cos(angle), sin(angle));
         vec2 away_px = offset * (OUTLINE_PX * px_scale * (0.4 + 0.3 * float(index >> 3)));
-        vec2 halfway = surface_at(place.xy + 0.5 * away_px);
+        vec2 halfway_px = floor(place.xy + 0.5 * away_px) + 0.5;
+        vec2 halfway = surface_at(halfway_px);
         vec2 at = place.xy + away_px - 0.5;
         vec2 part = fract(at);
         float past = 0.0;
@@ -194,14 +213,19 @@ vec4 outline_near(vec2 own) {
         for (int corner = 0; corner < 4; corner++) {
             ivec2 step = ivec2(corner & 1, corner >> 1);
             vec2 near = mix(1.0 - part, part, vec2(step));
-            vec2 there = surface_at(floor(at) + vec2(step) + 0.5);
+            vec2 there_px = floor(at) + vec2(step) + 0.5;
+            // Nothing is known of what lies outside the picture.
+            if (min(min(there_px.x, halfway_px.x), min(there_px.y, halfway_px.y)) < 0.0) continue;
+            if (any(greaterThan(max(there_px, halfway_px), size_px))) continue;
+            vec2 there = surface_at(there_px);
             // Not where bodies touch: a floor has no line at the foot of what stands on it.
-            float behind_px = (there.x - own.x) / (units_per_px(own.x) * px_scale);
-            float farther = there.y == 0.0 ? 1.0 : smoothstep(BEHIND_PX.x, BEHIND_PX.y, behind_px);
+            vec2 offset_px = there_px - place.xy;
+            float past_plane = deeper * (even_depth(there.x) - 1.0 - dot(steep_slope, offset_px));
+            float past_own = (there.x - own.x) / own.x;
+            float farther = there.y == 0.0 ? 1.0 : smoothstep(behind.x, behind.y, min(past_plane, past_own));
             // One part of the body may stand in front of another.
-            vec2 offset_px = floor(at) + vec2(step) + 0.5 - place.xy;
             float leap = (there.x - max(plane_depth(offset_px), own.x)) / own.x;
-            float leaps = smoothstep(LEAP.x, LEAP.y, leap) * broken(own.x, halfway, there);
+            float leaps = smoothstep(LEAP.x, LEAP.y, leap) * broken(halfway, there, halfway_px - place.xy - 0.5 * offset_px, slope);
             past += near.x * near.y * (there.y == own.y ? leaps : farther);
             hidden += near.x * near.y * smoothstep(bias, 3.0 * bias, there.y == 0.0 ? 0.0 : own.x - there.x);
         }
@@ -281,12 +305,13 @@ void main() {
     float across_px = max(BLUR[kind] * size.y, clamp(1.4 * px_scale, LEAST_BLUR_PX, 1.4));
     mat2 blur_px = mat2(clamp(0.16 * size.x, across_px, 2.5 * across_px), 0.0, 0.0, across_px);
     if (kind == TOUCHES) blur_px = mat2(across_px, 0.0, 0.0, across_px);
-    float free = kind == LIGHTS ? 0.0 : freedom(own.y);
+    vec2 frees = kind == LIGHTS ? vec2(0.0) : freedom(own.y);
+    float free = frees.x;
     // What covers a stroke, as leaves do, changes as the view moves: its colour is taken from a wider surrounding.
     blur_px *= kind == LIGHTS ? 1.0 : 1.0 + 1.5 * (1.0 - free);
     vec4 found = own_color(kind == LIGHTS ? place.xy + moved : place.xy, own.y, turn * blur_px, free);
     // Only the picture has highlights, not the stroke's own lit albedo.
-    float known = kind == LIGHTS ? 1.0 : found.w * (1.0 - smoothstep(THIN.x, THIN.y, thinness(place.xy, own, free)));
+    float known = kind == LIGHTS ? 1.0 : found.w * (1.0 - smoothstep(THIN.x, THIN.y, thinness(place.xy, own, min(frees.x, frees.y))));
     vec3 color = known == 1.0 ? found.rgb : mix(color_of_own(), found.rgb, known);
     vec3 lab = oklab_from_linear(color);
     Mixing mixing = mixing_of(bytes.y);

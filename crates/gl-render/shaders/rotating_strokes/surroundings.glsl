@@ -37,8 +37,9 @@ float plane_depth(vec2 offset_px) {
 // Where it is covered, the stroke has the colour of what covers it.
 //
 // A leaf that passes before the centre would switch the colour: what counts is the share of seven places that is
-// covered, the centre and a ring half a stroke's width from it.
-float freedom(float id) {
+// covered, the centre and a ring half a stroke's width from it, without those where the body is not seen. x: by all
+// seven; y: by the centre alone.
+vec2 freedom(float id) {
     ivec2 last = textureSize(depth_and_id, 0) - 1;
     vec2 covers_px = COVERS_PX * min(2.0 * px_scale, 1.0);
 #ifdef DRAFT
@@ -49,6 +50,9 @@ float freedom(float id) {
     float ring_px = 0.5 * size.y;
     float facing = max(abs((mat3(view_from_world) * normal_and_bow.xyz).z), 0.05);
     float covered = 0.0;
+    float found = 1e-4;
+    float doubt_px = 0.0;
+    float of_center = 0.0;
     for (int index = 0; index < 4 * PLACES; index++) {
         float angle = 1.0471976 * float(index / 4);
         vec2 away_px = index < 4 ? vec2(0.0) : vec2(cos(angle), sin(angle)) * ring_px;
@@ -57,15 +61,24 @@ float freedom(float id) {
         vec2 part = at - vec2(corner);
         ivec2 offset = ivec2(index & 1, (index >> 1) & 1);
         vec2 there = texelFetch(depth_and_id, clamp(corner + offset, ivec2(0), last), 0).xy;
+        if (index == 4) {
+            doubt_px = (1.0 - covered) * 0.5 * ring_px / facing;
+            of_center = covered;
+        }
         if (there.y != id) continue;
         vec2 offset_px = away_px + vec2(offset) - part;
         float before_px = (plane_depth(offset_px) - there.x) / units_per_px(place.z);
-        // The flatter the gaze, the less the stroke's normal says of the depth on the ring.
-        if (index >= 4) before_px -= 0.5 * ring_px / facing;
+        // The flatter the gaze, the less the stroke's normal says of the depth on the ring. `covered` is that of the centre
+        // until the ring begins.
+        before_px -= doubt_px;
         vec2 near = mix(1.0 - part, part, vec2(offset));
+        found += near.x * near.y;
         covered += near.x * near.y * smoothstep(covers_px.x, covers_px.y, before_px);
     }
-    return 1.0 - covered / float(PLACES);
+#ifdef DRAFT
+    of_center = covered;
+#endif
+    return vec2(1.0 - covered / found, 1.0 - of_center);
 }
 
 // How far a pixel of the stroke's own body shows another face than that of the stroke, 0..1. A body that noise colours has no
