@@ -167,13 +167,13 @@ vec2 peak_px(float id) {
     return at_px;
 }
 
-// Per pixel, how the stroke's own plane changes `even_depth`. A plane that the gaze meets flatter than `least_facing` is
-// taken to be as steep as that.
-vec2 plane_slope(float least_facing) {
+// Per pixel, how the stroke's own plane changes `even_depth`. A plane that the gaze meets flatter than by a tenth is taken
+// to be as steep as that.
+vec2 plane_slope() {
     vec3 n = mat3(view_from_world) * normal_and_bow.xyz;
     n *= n.z < 0.0 ? -1.0 : 1.0;
     float facing = n.z - (1.0 - orthographic) * dot(n.xy, (place.xy - gaze_px) / px_per_unit_at_1);
-    vec2 slope = n.xy / (px_per_unit_at_1 * max(facing, least_facing));
+    vec2 slope = n.xy / (px_per_unit_at_1 * max(facing, 0.1));
     return mix(-slope, slope / place.z, orthographic);
 }
 
@@ -182,21 +182,30 @@ float even_depth(float depth) {
     return mix(place.z / depth, depth / place.z, orthographic);
 }
 
-// Whether the depth leaps between the stroke's centre and a place on its body, 0..1: along a plane, the pixel halfway has
-// the depth halfway, but for where it lies off the middle, `off_px`. Ground that recedes has no line.
-float broken(vec2 halfway, vec2 there, vec2 off_px, vec2 slope) {
+// Whether the depth leaps between the stroke's centre and a place on its body with this `even_depth`, 0..1: along a plane,
+// the middle between them has the depth halfway. Ground that recedes has no line.
+float broken(vec2 halfway_px, float there, vec2 own) {
+    vec2 at = halfway_px - 0.5;
+    vec2 part = fract(at);
+    vec2 middle = vec2(0.0);
+    float in_front = 0.0;
+    for (int corner = 0; corner < 4; corner++) {
+        ivec2 step = ivec2(corner & 1, corner >> 1);
+        vec2 near = mix(1.0 - part, part, vec2(step));
+        vec2 surface = surface_at(floor(at) + vec2(step) + 0.5);
+        if (surface.y == own.y) middle += near.x * near.y * vec2(even_depth(surface.x), 1.0);
+        else if (surface.y != 0.0 && surface.x < own.x) in_front += near.x * near.y;
+    }
     // Something in front says nothing; something behind is past the end.
-    if (halfway.y != there.y) return halfway.y != 0.0 && halfway.x < place.z ? 0.0 : 1.0;
-    float middle = even_depth(halfway.x) - dot(slope, off_px);
-    return smoothstep(0.5 * LEAP.x, LEAP.y, abs(1.0 - 2.0 * middle + even_depth(there.x)));
+    if (middle.y < 0.5) return in_front > 0.0 ? 0.0 : 1.0;
+    return smoothstep(0.5 * LEAP.x, LEAP.y, abs(1.0 - 2.0 * middle.x / middle.y + there));
 }
 
 // Where the body ends nearby. xy: towards the end. z: the share of the surroundings that lies past the end, 0..1. w:
 // the share that something in front hides, which is no end of the body, 0..1.
 vec4 outline_near(vec2 own) {
     float bias = 0.02 * own.x;
-    vec2 slope = plane_slope(0.03);
-    vec2 steep_slope = plane_slope(0.10);
+    vec2 slope = plane_slope();
     vec2 behind = BEHIND_PX * (units_per_px(own.x) * px_scale / own.x);
     float deeper = mix(-1.0, 1.0, orthographic);
     vec4 sum = vec4(0.0);
@@ -204,31 +213,36 @@ vec4 outline_near(vec2 own) {
         float angle = 0.78539816 * (float(index & 7) + 0.5 * float((index >> 3) & 1));
         vec2 offset = vec2(cos(angle), sin(angle));
         vec2 away_px = offset * (OUTLINE_PX * px_scale * (0.4 + 0.3 * float(index >> 3)));
-        vec2 halfway_px = floor(place.xy + 0.5 * away_px) + 0.5;
-        vec2 halfway = surface_at(halfway_px);
         vec2 at = place.xy + away_px - 0.5;
         vec2 part = fract(at);
         float past = 0.0;
         float hidden = 0.0;
+        float leaps = 0.0;
+        vec2 on_body = vec2(0.0);
         for (int corner = 0; corner < 4; corner++) {
             ivec2 step = ivec2(corner & 1, corner >> 1);
             vec2 near = mix(1.0 - part, part, vec2(step));
             vec2 there_px = floor(at) + vec2(step) + 0.5;
             // Nothing is known of what lies outside the picture.
-            if (min(min(there_px.x, halfway_px.x), min(there_px.y, halfway_px.y)) < 0.0) continue;
-            if (any(greaterThan(max(there_px, halfway_px), size_px))) continue;
+            if (min(there_px.x, there_px.y) < 0.0 || any(greaterThan(there_px, size_px))) continue;
             vec2 there = surface_at(there_px);
             // Not where bodies touch: a floor has no line at the foot of what stands on it.
             vec2 offset_px = there_px - place.xy;
-            float past_plane = deeper * (even_depth(there.x) - 1.0 - dot(steep_slope, offset_px));
+            float even = even_depth(there.x);
+            float past_plane = deeper * (even - 1.0 - dot(slope, offset_px));
             float past_own = (there.x - own.x) / own.x;
             float farther = there.y == 0.0 ? 1.0 : smoothstep(behind.x, behind.y, min(past_plane, past_own));
             // One part of the body may stand in front of another.
             float leap = (there.x - max(plane_depth(offset_px), own.x)) / own.x;
-            float leaps = smoothstep(LEAP.x, LEAP.y, leap) * broken(halfway, there, halfway_px - place.xy - 0.5 * offset_px, slope);
-            past += near.x * near.y * (there.y == own.y ? leaps : farther);
+            if (there.y == own.y) {
+                leaps += near.x * near.y * smoothstep(LEAP.x, LEAP.y, leap);
+                on_body += near.x * near.y * vec2(even, 1.0);
+            } else {
+                past += near.x * near.y * farther;
+            }
             hidden += near.x * near.y * smoothstep(bias, 3.0 * bias, there.y == 0.0 ? 0.0 : own.x - there.x);
         }
+        if (leaps > 0.0) past += leaps * broken(place.xy + 0.5 * away_px, on_body.x / on_body.y, own);
         sum += vec4(vec3(offset, 1.0) * past, hidden);
     }
     return sum / 24.0;
