@@ -193,12 +193,12 @@ fn grouped(low: Vec3, high: Vec3, groups: &[&str]) -> MeshFile {
 fn added_meshes_stand_beside_each_other_with_a_region_for_each_group() {
     let mut scene = empty();
     assert!(crate::check::check(&scene).is_empty());
-    let mut meshes = std::collections::BTreeMap::new();
+    let mut meshes = BTreeMap::new();
     let mesh = grouped(Vec3::new(-1.0, 0.5, -1.0), Vec3::new(1.0, 2.5, 3.0), &["skin", "stem", "a\nb"]);
     for (count, expected) in ["apple", "apple 2", "apple 3"].into_iter().enumerate() {
         let name = add_mesh(&mut scene, "meshes/apple.obj", &mesh, &meshes);
         assert_eq!((name.as_str(), scene.objects.len()), (expected, count + 1));
-        meshes.insert("meshes/apple.obj".to_owned(), std::sync::Arc::new(mesh.clone()));
+        meshes.insert("meshes/apple.obj".to_owned(), Arc::new(mesh.clone()));
     }
     let names: Vec<&str> = scene.regions.iter().map(|region| region.name.as_str()).collect();
     assert_eq!(names, ["skin", "stem", "a b", "skin 2", "stem 2", "a b 2", "skin 3", "stem 3", "a b 3"]);
