@@ -338,7 +338,7 @@ fn a_ground_that_is_chosen_later_is_the_one_of_a_new_scene() {
     for name in ["backdrop", "wall", "the backdrop"] {
         crowded.objects.push(Object { hidden: true, ..Object::new(name, "x.obj") });
     }
-    crowded.regions.push(Region::new("backdrop 2 floor", Selector::Everything));
+    crowded.regions.push(Region::new("backdrop 2 floor", Selector::Object("wall".to_owned())));
     assert_eq!(laid(&mut crowded), Ok(()));
     assert_eq!(crowded.objects.last().unwrap().name, "backdrop 2");
     assert_eq!(crate::check::check(&crowded), vec![]);
