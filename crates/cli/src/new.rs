@@ -34,7 +34,7 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<(), Failure> {
         shot.clone_from(&mesh);
     }
     // The backdrop needs no file.
-    for object in scene.objects.iter_mut().filter(|object| !object.mesh.starts_with(built_in_mesh::PREFIX)) {
+    for object in scene.objects.iter_mut().filter(|object| !built_in_mesh::is_built_in(&object.mesh)) {
         object.mesh.clone_from(&mesh);
     }
     save::write(&arguments.output, &scene)?;

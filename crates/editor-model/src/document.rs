@@ -72,10 +72,20 @@ impl Trial {
     pub fn with(&self, command: &Command, also: Option<&Path>) -> Result<LoadedScene, Refusal> {
         let mut folders = self.folders.clone();
         folders.extra.extend(also.map(Path::to_owned));
-        let mut scene = self.loaded.scene.clone();
-        command.edit(&mut scene, &self.loaded)?;
-        self.loaded.with_scene(scene, &folders).map_err(|report| Refusal::of(&report))
+        Ok(edited(&self.loaded, &folders, command)?.0)
     }
+}
+
+/// A scene after a command, and what the command did.
+fn edited(
+    loaded: &LoadedScene,
+    folders: &AssetFolders,
+    command: &Command,
+) -> Result<(LoadedScene, Done), Refusal> {
+    let mut scene = loaded.scene.clone();
+    let done = command.edit(&mut scene, loaded)?;
+    let loaded = loaded.with_scene(scene, folders).map_err(|report| Refusal::of(&report))?;
+    Ok((loaded, done))
 }
 
 impl Document {
@@ -187,11 +197,7 @@ impl Document {
 
     /// The scene as it is now, to try commands on, on any thread.
     pub fn trial(&self) -> Trial {
-        let held = self.source.as_ref().map(|source| Arc::new(source.held(&self.loaded)));
-        Trial {
-            loaded: held.unwrap_or_else(|| Arc::clone(&self.loaded)),
-            folders: self.options.folders.clone(),
-        }
+        Trial { loaded: self.held(), folders: self.options.folders.clone() }
     }
 
     /// Ends a preview.
@@ -248,17 +254,18 @@ impl Document {
     }
 
     fn edited(&self, command: &Command) -> Result<(LoadedScene, Done), Refusal> {
-        let mut scene = self.loaded.scene.clone();
-        let done = command.edit(&mut scene, &self.loaded)?;
-        let loaded = self.with_files(scene)?;
-        Ok((loaded, done))
+        edited(&self.held(), &self.options.folders, command)
     }
 
     /// An edited scene with its files; refused if anything is wrong with it.
     fn with_files(&self, scene: Scene) -> Result<LoadedScene, Refusal> {
-        let held = self.source.as_ref().map(|source| source.held(&self.loaded));
-        let held = held.as_ref().unwrap_or(&self.loaded);
-        held.with_scene(scene, &self.options.folders).map_err(|report| Refusal::of(&report))
+        self.held().with_scene(scene, &self.options.folders).map_err(|report| Refusal::of(&report))
+    }
+
+    /// The scene with the boxes that stand in for meshes that cannot be used.
+    fn held(&self) -> Arc<LoadedScene> {
+        let held = self.source.as_ref().map(|source| Arc::new(source.held(&self.loaded)));
+        held.unwrap_or_else(|| Arc::clone(&self.loaded))
     }
 
     /// Keeps a mesh that was already read, by its path relative to the scene's folder, so that it is not read again. If

@@ -9,11 +9,13 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use egui::ColorImage;
-use impasto_gl_render::context::{self, Driver, OpenOptions};
+use impasto_gl_render::context::Driver;
 use impasto_gl_render::{Renderer, ShaderTexts};
 use impasto_painting::{FrameOptions, PrepareOptions, Preparer};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion;
+
+use crate::rendering::open_renderer;
 
 #[cfg(test)]
 mod tests;
@@ -30,13 +32,16 @@ const SHARE: u64 = 4;
 /// How long dropping waits for the thread.
 const CLOSING: Duration = Duration::from_millis(1500);
 
+/// Makes a scene with a preset; none if the scene does not take it.
+pub type SceneOf = Arc<dyn Fn() -> Option<LoadedScene> + Send + Sync>;
+
 /// A picture to paint.
 #[derive(Clone)]
 pub struct Wanted {
     /// Its name.
     pub name: String,
-    /// Makes the scene with the preset; none if the scene does not take it. Called on the thread.
-    pub scene: Arc<dyn Fn() -> Option<LoadedScene> + Send + Sync>,
+    /// Its scene, made on the thread.
+    pub scene: SceneOf,
     /// The frame, seen by the shot's camera.
     pub frame: f64,
 }
@@ -60,8 +65,6 @@ struct Board {
     /// They replace the program's own.
     shaders: ShaderTexts,
     painted: Vec<(String, ColorImage)>,
-    /// How many pictures were begun.
-    begun: u64,
     closes: bool,
     ended: bool,
 }
@@ -76,11 +79,12 @@ impl PresetPictures {
         let theirs = Arc::clone(&shared);
         std::thread::Builder::new().name("preset pictures".to_owned()).spawn(move || {
             while let Some(list) = theirs.wait() {
-                // Without pictures, presets are chosen by their names: what goes wrong here is of no matter. A broken
-                // driver may panic; the rest of the list is tried with a new one.
-                let painted = catch_unwind(AssertUnwindSafe(|| theirs.paint_list(list, driver, &wake)));
-                if !matches!(painted, Ok(Some(()))) {
-                    theirs.put(list, None);
+                // Without pictures, presets are chosen by their names: what goes wrong here is of no matter.
+                match catch_unwind(AssertUnwindSafe(|| theirs.paint_list(list, driver, &wake))) {
+                    Ok(Some(())) => {}
+                    Ok(None) => theirs.give_list_up(list),
+                    // A broken driver may panic; the rest of the list is tried with a new one.
+                    Err(_) => drop(theirs.put(list, None)),
                 }
             }
             theirs.board().ended = true;
@@ -135,10 +139,8 @@ impl Shared {
 
     /// What is to be painted next of the list with this number.
     fn next(&self, list: u64) -> Option<Wanted> {
-        let mut board = self.board();
-        let next = board.wanted.first().filter(|_| board.list == list)?.clone();
-        board.begun += 1;
-        Some(next)
+        let board = self.board();
+        board.wanted.first().filter(|_| board.list == list).cloned()
     }
 
     /// Takes the picture that was next in the list with this number, or the word that there is none. Returns whether
@@ -153,10 +155,19 @@ impl Shared {
         true
     }
 
+    /// Leaves the rest of a list without pictures, if it is wanted still.
+    fn give_list_up(&self, list: u64) {
+        let mut board = self.board();
+        if board.list == list {
+            board.wanted.clear();
+        }
+    }
+
     /// Paints a list. The driver is opened for it and closed after it: a second scene in memory is not kept for nothing.
     /// None if there is no driver.
     fn paint_list(&self, list: u64, driver: Driver, wake: &dyn Fn()) -> Option<()> {
-        let mut renderer = self.renderer(driver)?;
+        let shaders = self.board().shaders.clone();
+        let mut renderer = open_renderer(driver, &shaders).ok()?;
         let mut preparer = Preparer::default();
         while let Some(wanted) = self.next(list) {
             let give_up = || self.board().list != list;
@@ -166,16 +177,6 @@ impl Shared {
             }
         }
         Some(())
-    }
-
-    /// A renderer with the shaders that are wanted.
-    fn renderer(&self, driver: Driver) -> Option<Renderer> {
-        let shaders = self.board().shaders.clone();
-        let mut renderer = Renderer::new(context::open(driver, &OpenOptions::default()).ok()?).ok()?;
-        if !shaders.is_empty() {
-            renderer.replace_shaders(&shaders).ok()?;
-        }
-        Some(renderer)
     }
 }
 

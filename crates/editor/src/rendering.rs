@@ -178,11 +178,7 @@ fn run(
         RenderDriver::Egl => Driver::Egl,
         RenderDriver::Osmesa => Driver::Osmesa,
     };
-    let context = context::open(driver, &OpenOptions::default()).map_err(|error| error.to_string())?;
-    let mut renderer = Renderer::new(context).map_err(|error| error.to_string())?;
-    if !shaders.is_empty() {
-        renderer.replace_shaders(shaders).map_err(|error| error.to_string())?;
-    }
+    let mut renderer = open_renderer(driver, shaders)?;
     let stop = || shared.is_stopped();
     if stop() {
         return Ok(Outcome::Stopped);
@@ -249,6 +245,16 @@ fn run(
         Ending::Done(Some(fault)) => Err(format!("All frames are written, but {fault}")),
         Ending::Stopped => Ok(Outcome::Stopped),
     }
+}
+
+/// A renderer beside the window's own OpenGL. `shaders` replace the program's own.
+pub(crate) fn open_renderer(driver: Driver, shaders: &ShaderTexts) -> Result<Renderer, String> {
+    let context = context::open(driver, &OpenOptions::default()).map_err(|error| error.to_string())?;
+    let mut renderer = Renderer::new(context).map_err(|error| error.to_string())?;
+    if !shaders.is_empty() {
+        renderer.replace_shaders(shaders).map_err(|error| error.to_string())?;
+    }
+    Ok(renderer)
 }
 
 /// How the movie of a plan is encoded; `None` if the plan makes no movie.

@@ -10,6 +10,11 @@ use crate::mesh_file::{Material, MeshFile};
 /// The beginning of the names of built-in meshes.
 pub const PREFIX: &str = "impasto:";
 
+/// Whether a mesh of this name needs no file.
+pub fn is_built_in(name: &str) -> bool {
+    name.starts_with(PREFIX)
+}
+
 /// A photographer's backdrop, a floor that bends up into a wall: 2 wide, the floor at height 0 from z = 1 back to
 /// −0.28, the wall 1.3 high.
 pub const BACKDROP: &str = "impasto:backdrop";

@@ -374,7 +374,7 @@ fn read_mesh(
     folders: &AssetFolders,
     with_points: bool,
 ) -> MeshRead {
-    if name.starts_with(built_in_mesh::PREFIX) {
+    if built_in_mesh::is_built_in(name) {
         let unknown = || {
             let message = format!("there is no mesh {name:?} in the house");
             Report(vec![error_in(

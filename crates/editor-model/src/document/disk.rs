@@ -165,7 +165,7 @@ impl Document {
         let others = textures.keys().chain(brushes.keys()).chain(caches.keys()).chain(&scene.shot);
         let others = others.map(String::as_str);
         let names: BTreeSet<&str> = of_meshes.chain(others).collect();
-        names.into_iter().filter(|name| !name.starts_with(impasto_scene::built_in_mesh::PREFIX))
+        names.into_iter().filter(|name| !impasto_scene::built_in_mesh::is_built_in(name))
     }
 
     /// Reads the scene's file, its meshes and pictures again, as one entry of the history, so that edits can be brought

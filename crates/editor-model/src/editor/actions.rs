@@ -326,7 +326,7 @@ impl Editor {
         let chosen: Vec<usize> = (0..scene.objects.len())
             .filter(|&object| {
                 let object = &scene.objects[object];
-                let is_scenery = object.mesh.starts_with(impasto_scene::built_in_mesh::PREFIX);
+                let is_scenery = impasto_scene::built_in_mesh::is_built_in(&object.mesh);
                 match selected {
                     true => self.document.selection().contains(&Item::Object(object.name.clone())),
                     false => !object.hidden && !is_scenery,

@@ -248,7 +248,7 @@ impl Editor {
     /// Whether an object has a built-in mesh, as the floor and the wall of a new scene.
     fn is_scenery(&self, name: &str) -> bool {
         let object = self.document.scene().objects.iter().find(|object| object.name == name);
-        object.is_some_and(|object| object.mesh.starts_with(impasto_scene::built_in_mesh::PREFIX))
+        object.is_some_and(|object| impasto_scene::built_in_mesh::is_built_in(&object.mesh))
     }
 
     fn released(&mut self, button: Button, event: &PointerEvent, view: &View) {

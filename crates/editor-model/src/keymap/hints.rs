@@ -16,16 +16,20 @@ impl Keymap {
     /// Hints such as `[F] radius  [Middle] orbit`, with the keys in use in place of the usual ones. A hint for what has
     /// no key is left out.
     pub fn in_own_keys(&self, hints: &str) -> String {
-        let mut pieces = hints.split('[');
-        let mut words = pieces.next().unwrap_or_default().to_owned();
+        // Two spaces stand before a hint; a bracket elsewhere belongs to a name.
+        let apart = format!("  {hints}");
+        let mut pieces = apart.split("  [");
+        let mut words = pieces.next().unwrap_or_default().trim_start().to_owned();
         for piece in pieces {
-            let Some((key, explained)) = piece.split_once(']') else {
-                words.push_str(&format!("[{piece}"));
-                continue;
+            let hint = match piece.split_once(']') {
+                Some((key, explained)) => self.own_key(key).map(|key| format!("[{key}]{explained}")),
+                None => Some(format!("[{piece}")),
             };
-            if let Some(key) = self.own_key(key) {
-                words.push_str(&format!("[{key}]{explained}"));
+            let Some(hint) = hint else { continue };
+            if !words.is_empty() {
+                words.push_str("  ");
             }
+            words.push_str(&hint);
         }
         words.trim_end().to_owned()
     }

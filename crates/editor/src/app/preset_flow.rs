@@ -10,7 +10,6 @@ use impasto_editor_model::editor::Offer;
 use impasto_gl_render::ShaderTexts;
 use impasto_gl_render::context::Driver;
 use impasto_scene::load::strokes_file::{self, ENDING};
-use impasto_scene::loaded::LoadedScene;
 use impasto_scene::presets;
 use impasto_scene::strokes_file::StrokesFile;
 use impasto_scene::whole_file::failure_in_words;
@@ -21,13 +20,11 @@ use crate::files::own_presets::{
     OwnPreset, preset_command, presets_folder, presets_in, save_preset, seen_with_preset,
 };
 use crate::panels::problems::TroubleOf;
-use crate::preset_pictures::{PresetPictures, Wanted};
+use crate::preset_pictures::{PresetPictures, SceneOf, Wanted};
 use crate::window::Waker;
 
 /// At most so many presets get a picture; further ones are chosen by their names.
 const MOST_PICTURES: usize = 40;
-
-type SceneOf = Arc<dyn Fn() -> Option<LoadedScene> + Send + Sync>;
 
 /// The user's presets, and the pictures of all.
 pub(super) struct PresetFlow {
@@ -40,8 +37,8 @@ pub(super) struct PresetFlow {
     /// What paints the pictures, from the first that is wanted on.
     painter: Option<PresetPictures>,
     pictures: BTreeMap<String, TextureHandle>,
-    /// What the pictures show: the version of the scene, and whose strokes.
-    shows: Option<(u64, StrokesOf)>,
+    /// What the pictures show: the version of the scene, whose strokes, and the frame at which the list was opened.
+    shows: Option<(u64, StrokesOf, f64)>,
     /// Whether the list was open in the last pass.
     is_listed: bool,
     /// Whether the pictures are being painted, or are there.
@@ -68,6 +65,15 @@ impl PresetFlow {
         &self.pictures
     }
 
+    /// Drops all pictures, and gives up those under way.
+    pub(super) fn forget_pictures(&mut self) {
+        self.pictures.clear();
+        (self.shows, self.paints) = (None, false);
+        if let Some(painter) = &self.painter {
+            painter.want(Vec::new(), ShaderTexts::default());
+        }
+    }
+
     /// Begins a pass: takes the pictures that came, and stops painting others once the list is closed.
     pub(super) fn follow(&mut self, ctx: &Context) {
         let Some(painter) = &self.painter else { return };
@@ -90,10 +96,14 @@ impl EditorApp {
     /// Has pictures of all presets painted for these strokes, unless they are there or under way already.
     pub(super) fn picture_presets(&mut self, of: StrokesOf) {
         self.presets.is_listed = true;
-        let shows = Some((self.editor.shown().1, of.clone()));
+        let (version, now) = (self.editor.shown().1, self.editor.session.frame.round());
+        // While the list is open, the shot may play.
+        let opened_at = self.presets.shows.as_ref().filter(|_| self.presets.paints).map(|(.., frame)| *frame);
+        let frame = opened_at.unwrap_or(now);
+        let shows = Some((version, of.clone(), frame));
         if self.presets.shows != shows {
-            self.presets.pictures.clear();
-            (self.presets.shows, self.presets.paints) = (shows, false);
+            self.presets.forget_pictures();
+            self.presets.shows = shows;
         }
         // The picture of the window comes first.
         if self.presets.paints || self.picture_flow.at_rest().is_none() {
@@ -117,7 +127,6 @@ impl EditorApp {
             let scene: SceneOf = Arc::new(move || seen_with_preset(&trial, &of, &path));
             (own.key(), scene)
         });
-        let frame = self.editor.session.frame.round();
         let wanted = built_in.chain(own).take(MOST_PICTURES);
         let wanted = wanted.filter(|(name, _)| !self.presets.pictures.contains_key(name));
         let wanted = wanted.map(|(name, scene)| Wanted { name, scene, frame }).collect();
@@ -162,6 +171,7 @@ impl EditorApp {
         let preset = StrokesFile::of(scene, index);
         match save_preset(preset, |name| document.file_at_hand(name), path) {
             Ok(()) => {
+                self.presets.forget_pictures();
                 self.toast(format!("Saved the preset {}", strokes_file::name_of(path)), None, false);
                 self.list_presets();
             }

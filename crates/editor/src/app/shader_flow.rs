@@ -52,6 +52,7 @@ impl EditorApp {
                 Some(Ok(texts)) => {
                     flow.texts.clone_from(&texts);
                     self.picture_flow.replace_shaders(texts);
+                    self.presets.forget_pictures();
                 }
                 Some(Err(words)) => self.toast(words, None, true),
             }

@@ -26,6 +26,18 @@ fn apples(presets: &[&str]) -> Vec<Wanted> {
     presets.iter().map(with).collect()
 }
 
+/// Tells that it was begun, and waits until it may go on.
+fn held(begun: mpsc::Sender<()>, may_go_on: mpsc::Receiver<()>) -> Wanted {
+    let channels = Mutex::new((begun, may_go_on));
+    let scene = Arc::new(move || {
+        let (begun, may_go_on) = &*channels.lock().unwrap();
+        let _ = begun.send(());
+        let _ = may_go_on.recv();
+        None
+    });
+    Wanted { name: "held".to_owned(), scene, frame: 0.0 }
+}
+
 #[test]
 fn each_preset_gets_a_picture_of_its_own_and_a_new_list_ends_the_old_one() {
     let (woken, wakes) = mpsc::channel();
@@ -33,16 +45,20 @@ fn each_preset_gets_a_picture_of_its_own_and_a_new_list_ends_the_old_one() {
         let _ = woken.send(());
     };
     let pictures = PresetPictures::start(Driver::Auto, wake).expect("a thread");
-    pictures.want(apples(&["oil study", "paper", "dry brush"]), ShaderTexts::default());
+    // The first of the old list is under way when the new list comes. Its second must never be begun.
+    let [(first, begins), (second, begins_too)] = [mpsc::channel(), mpsc::channel()];
+    let [(go_on, may_go_on), (stay, may_stay)] = [mpsc::channel(), mpsc::channel()];
+    pictures.want(vec![held(first, may_go_on), held(second, may_stay)], ShaderTexts::default());
+    begins.recv_timeout(Duration::from_secs(60)).expect("the first is begun");
     pictures.want(apples(&["gouache", "no such preset", "impressionist"]), ShaderTexts::default());
+    drop((go_on, stay));
     let mut seen: BTreeMap<String, ColorImage> = BTreeMap::new();
     while seen.len() < 2 {
         wakes.recv_timeout(Duration::from_secs(120)).expect("a picture");
         seen.extend(pictures.take());
     }
     assert_eq!(seen.keys().collect::<Vec<_>>(), ["gouache", "impressionist"]);
-    let begun = pictures.shared.board().begun;
-    assert!(begun <= 4, "{begun} pictures were begun: the old list was not given up");
+    assert!(begins_too.try_recv().is_err(), "the old list went on");
     let [one, other] = ["gouache", "impressionist"].map(|name| &seen[name]);
     assert_eq!((one.size, other.size), ([288, 162], [288, 162]));
     let apart = one.pixels.iter().zip(&other.pixels).filter(|(a, b)| a.r().abs_diff(b.r()) > 12).count();

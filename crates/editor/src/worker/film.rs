@@ -218,7 +218,7 @@ mod tests {
     fn what_memory_has_no_room_for_goes_to_the_disk_and_comes_back() {
         let folder = tempfile::tempdir().unwrap();
         let place = Some(folder.path());
-        let file = Some(FilmFile::on_small_disk(folder.path()));
+        let file = Some(FilmFile::within(folder.path(), 4000, 0));
         let mut film = Film { file, ..Film::default() };
         let wanted = [1.0, 2.0, 3.0, 4.0].map(view);
         let picture = |frame: u8| {
@@ -242,7 +242,26 @@ mod tests {
         assert_eq!(film.frames(&wanted, 2), [1]);
         assert!(film.of(&wanted[1], 1).is_none());
         // A picture that cannot be read is not kept any more.
-        film.file = Some(FilmFile::on_small_disk(folder.path()));
+        film.file = Some(FilmFile::within(folder.path(), 4000, 0));
         assert!(film.of(&wanted[0], 2).is_none() && film.frames(&wanted, 2).is_empty());
+    }
+
+    #[test]
+    fn a_full_file_begins_anew_once_nothing_in_it_is_wanted() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut film = Film { file: Some(FilmFile::within(folder.path(), 800, 0)), ..Film::default() };
+        let [old, new] = [[1.0, 2.0, 3.0].map(view), [4.0, 5.0, 6.0].map(view)];
+        let keep = |film: &mut Film, view: &ViewJob, wanted: &[ViewJob]| {
+            film.keep_within(finished(view, 1), wanted, 0, None)
+        };
+        let kept = old.each_ref().map(|view| keep(&mut film, view, &old));
+        assert_eq!(kept, [true, true, false], "the file takes two");
+        let kept = new.each_ref().map(|view| keep(&mut film, view, &new));
+        assert_eq!(kept, [true, true, false]);
+        assert_eq!((film.frames(&old, 1), film.frames(&new, 1)), (Vec::new(), vec![4, 5]));
+        // A disk that would be too full takes nothing.
+        film.file = Some(FilmFile::within(folder.path(), 800, u64::MAX / 2));
+        film.follow(2);
+        assert!(!film.keep_within(finished(&old[0], 2), &old, 0, None));
     }
 }

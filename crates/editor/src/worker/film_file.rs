@@ -7,7 +7,7 @@ use std::path::Path;
 
 use egui::ColorImage;
 
-/// The file grows no larger than this, bytes: 3,000 frames of a window of 1280x800.
+/// The file grows no larger than this, bytes: 2,000 frames of a window of 1280x800.
 const MOST_BYTES: u64 = 8 << 30;
 
 /// What stays free on its disk, bytes.
@@ -17,6 +17,7 @@ const LEFT_FREE: u64 = 2 << 30;
 pub(super) struct FilmFile {
     file: File,
     used: u64,
+    most_bytes: u64,
     /// What stays free on its disk, bytes.
     left_free: u64,
 }
@@ -25,15 +26,20 @@ impl FilmFile {
     /// An empty file in `folder`, which is made if it is not there; `None` if that cannot be.
     pub(super) fn new(folder: &Path) -> Option<Self> {
         std::fs::create_dir_all(folder).ok()?;
-        Some(Self { file: tempfile::tempfile_in(folder).ok()?, used: 0, left_free: LEFT_FREE })
+        Some(Self {
+            file: tempfile::tempfile_in(folder).ok()?,
+            used: 0,
+            most_bytes: MOST_BYTES,
+            left_free: LEFT_FREE,
+        })
     }
 
     /// Appends a picture. Returns where it lies; `None` if the disk has no room for it.
     pub(super) fn put(&mut self, image: &ColorImage) -> Option<u64> {
         let bytes = image.as_raw();
         let (at, size) = (self.used, bytes.len() as u64);
-        let fits =
-            at + size <= MOST_BYTES && self.free_bytes().is_some_and(|free| free >= size + self.left_free);
+        let fits = at + size <= self.most_bytes
+            && self.free_bytes().is_some_and(|free| free >= size + self.left_free);
         if !fits {
             return None;
         }
@@ -58,10 +64,10 @@ impl FilmFile {
         self.used
     }
 
-    /// As [`Self::new`], for a disk of any size.
+    /// As [`Self::new`], with limits of its own.
     #[cfg(test)]
-    pub(super) fn on_small_disk(folder: &Path) -> Self {
-        Self { left_free: 0, ..Self::new(folder).unwrap() }
+    pub(super) fn within(folder: &Path, most_bytes: u64, left_free: u64) -> Self {
+        Self { most_bytes, left_free, ..Self::new(folder).unwrap() }
     }
 
     /// Drops all pictures.

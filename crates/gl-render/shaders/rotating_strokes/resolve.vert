@@ -171,9 +171,8 @@ vec2 peak_px(float id) {
 // to be as steep as that.
 vec2 plane_slope() {
     vec3 n = mat3(view_from_world) * normal_and_bow.xyz;
-    n *= n.z < 0.0 ? -1.0 : 1.0;
     float facing = n.z - (1.0 - orthographic) * dot(n.xy, (place.xy - gaze_px) / px_per_unit_at_1);
-    vec2 slope = n.xy / (px_per_unit_at_1 * max(facing, 0.1));
+    vec2 slope = (facing < 0.0 ? -n.xy : n.xy) / (px_per_unit_at_1 * max(abs(facing), 0.1));
     return mix(-slope, slope / place.z, orthographic);
 }
 
@@ -185,6 +184,8 @@ float even_depth(float depth) {
 // Whether the depth leaps between the stroke's centre and a place on its body with this `even_depth`, 0..1: along a plane,
 // the middle between them has the depth halfway. Ground that recedes has no line.
 float broken(vec2 halfway_px, float there, vec2 own) {
+    // Nothing is known of what lies outside the picture.
+    if (any(lessThan(halfway_px, vec2(0.0))) || any(greaterThan(halfway_px, size_px))) return 0.0;
     vec2 at = halfway_px - 0.5;
     vec2 part = fract(at);
     vec2 middle = vec2(0.0);
@@ -197,8 +198,8 @@ float broken(vec2 halfway_px, float there, vec2 own) {
         else if (surface.y != 0.0 && surface.x < own.x) in_front += near.x * near.y;
     }
     // Something in front says nothing; something behind is past the end.
-    if (middle.y < 0.5) return in_front > 0.0 ? 0.0 : 1.0;
-    return smoothstep(0.5 * LEAP.x, LEAP.y, abs(1.0 - 2.0 * middle.x / middle.y + there));
+    float uneven = abs(1.0 - 2.0 * middle.x / max(middle.y, 1e-4) + there);
+    return middle.y * smoothstep(0.5 * LEAP.x, LEAP.y, uneven) + (1.0 - middle.y - in_front);
 }
 
 // Where the body ends nearby. xy: towards the end. z: the share of the surroundings that lies past the end, 0..1. w:
@@ -222,9 +223,7 @@ vec4 outline_near(vec2 own) {
         for (int corner = 0; corner < 4; corner++) {
             ivec2 step = ivec2(corner & 1, corner >> 1);
             vec2 near = mix(1.0 - part, part, vec2(step));
-            vec2 there_px = floor(at) + vec2(step) + 0.5;
-            // Nothing is known of what lies outside the picture.
-            if (min(there_px.x, there_px.y) < 0.0 || any(greaterThan(there_px, size_px))) continue;
+            vec2 there_px = clamp(floor(at) + vec2(step) + 0.5, vec2(0.5), size_px - 0.5);
             vec2 there = surface_at(there_px);
             // Not where bodies touch: a floor has no line at the foot of what stands on it.
             vec2 offset_px = there_px - place.xy;

@@ -145,7 +145,7 @@ pub(super) fn unique(name: &str, taken: &HashSet<&str>) -> String {
 fn bounds_of_all(scene: &Scene, meshes: &BTreeMap<String, Arc<MeshFile>>) -> Option<[DVec3; 2]> {
     let poses = motion::poses_at(scene, motion::referred_to(scene, &scene.reference).1);
     let of_objects = scene.objects.iter().zip(poses).filter_map(|(object, pose)| {
-        let is_file = !object.mesh.starts_with(built_in_mesh::PREFIX);
+        let is_file = !built_in_mesh::is_built_in(&object.mesh);
         bounds(object, meshes.get(&object.mesh).filter(|_| is_file)?, pose)
     });
     of_objects.reduce(|[low, high], [other_low, other_high]| [low.min(other_low), high.max(other_high)])

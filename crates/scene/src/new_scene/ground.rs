@@ -117,34 +117,38 @@ impl Ground {
         if self != Self::Plain && !looks_down {
             return Err(NoGround::SeenFromBelow);
         }
-        let models = || scene.objects.iter().filter(|object| !is_built_in(object));
+        let models = || scene.objects.iter().filter(|object| !built_in_mesh::is_built_in(&object.mesh));
         // Several objects may be groups of one file.
         let names: BTreeSet<&str> = models().map(|object| object.mesh.as_str()).collect();
         let files: Vec<&MeshFile> = names.iter().filter_map(|&name| Some(&**meshes.get(name)?)).collect();
         let name_hash =
             models().next().map_or(0, |first| scheme::name_hash(&object_name(Path::new(&first.mesh))));
         let chosen = Scheme::of(&files, name_hash);
-        let mut scheme = chosen.clone();
+        let mut colored = chosen.clone();
+        colored.ground = color.unwrap_or(chosen.ground);
+        let keeps_background = is_of_no_ground(scene.background, [&chosen, &colored]);
         // The colour of a plain ground is chosen, so that it is known again as one that nobody set.
-        scheme.ground = color.filter(|_| self != Self::Plain).unwrap_or(chosen.ground);
-        let given = [&chosen, &scheme]
-            .into_iter()
-            .flat_map(|scheme| Self::ALL.map(|(_, ground)| ground.background(scheme)));
-        let keeps_background =
-            scene.background != Color::default() && given.into_iter().all(|color| color != scene.background);
+        let scheme = if self == Self::Plain { chosen } else { colored };
         let taken: Vec<&str> = scene.objects.iter().map(|object| object.name.as_str()).collect();
         let laid = self.lay(&footing, &scheme, &taken, name_hash);
         scene.objects.extend(laid.object);
         // First, so that the regions that a person has made win.
-        let taken: HashSet<String> = scene.regions.iter().map(|region| region.name.clone()).collect();
-        let taken: HashSet<&str> = taken.iter().map(String::as_str).collect();
+        let taken: HashSet<&str> = scene.regions.iter().map(|region| region.name.as_str()).collect();
         let named = |region: Region| Region { name: add::unique(&region.name, &taken), ..region };
-        scene.regions.splice(0..0, laid.regions.into_iter().map(named));
+        let regions: Vec<Region> = laid.regions.into_iter().map(named).collect();
+        scene.regions.splice(0..0, regions);
         if !keeps_background {
             scene.background = laid.background;
         }
         Ok(())
     }
+}
+
+/// Whether a background is neither the usual one nor one that a ground has with one of these schemes: somebody chose it.
+fn is_of_no_ground(background: Color, schemes: [&Scheme; 2]) -> bool {
+    let given =
+        schemes.into_iter().flat_map(|scheme| Ground::ALL.map(|(_, ground)| ground.background(scheme)));
+    background != Color::default() && given.into_iter().all(|color| color != background)
 }
 
 /// Why no floor is laid.
@@ -158,10 +162,6 @@ pub enum NoGround {
     SeenFromBelow,
 }
 
-fn is_built_in(object: &Object) -> bool {
-    object.mesh.starts_with(built_in_mesh::PREFIX)
-}
-
 /// The footing of a scene's objects at its reference frame, without hidden ones and built-in meshes; `None` if there is
 /// nothing to stand on a ground.
 fn footing_in(scene: &Scene, meshes: &BTreeMap<String, Arc<MeshFile>>) -> Option<Footing> {
@@ -169,7 +169,9 @@ fn footing_in(scene: &Scene, meshes: &BTreeMap<String, Arc<MeshFile>>) -> Option
     let mut bounds: Option<[DVec3; 2]> = None;
     let placed = motion::poses_at(scene, frame).into_iter().zip(motion::hidden_at(scene, frame));
     for (object, (pose, hidden)) in scene.objects.iter().zip(placed) {
-        let Some(mesh) = meshes.get(&object.mesh).filter(|_| !hidden && !is_built_in(object)) else {
+        let Some(mesh) =
+            meshes.get(&object.mesh).filter(|_| !hidden && !built_in_mesh::is_built_in(&object.mesh))
+        else {
             continue;
         };
         let group =

@@ -326,6 +326,16 @@ fn a_ground_that_is_chosen_later_is_the_one_of_a_new_scene() {
     let material = scene.objects[1].material.as_ref().unwrap();
     assert_eq!(material.color, Some(Color([0.1, 0.7, 0.2])));
 
+    // A background that a coloured ground gave goes with it.
+    let mut scene = on(Ground::Plain);
+    let usual = scene.background;
+    assert_eq!(Ground::Vignette.lay_under(&mut scene, &meshes, green), Ok(()));
+    assert_ne!(scene.background, usual);
+    scene.objects.truncate(1);
+    scene.regions.clear();
+    assert_eq!(Ground::Plain.lay_under(&mut scene, &meshes, green), Ok(()));
+    assert_eq!(scene.background, usual);
+
     let mut from_below = on(Ground::Plain);
     from_below.camera.keys[0].eye[1] = -50.0;
     let laid = |scene: &mut Scene| Ground::Backdrop.lay_under(scene, &meshes, None);

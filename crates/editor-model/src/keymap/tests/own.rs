@@ -175,8 +175,8 @@ fn hints_name_the_keys_in_use() {
     let hints = "[Drag] comb  [F] radius  [Middle] orbit";
     assert_eq!(BLENDER.in_own_keys(hints), hints);
     assert_eq!(MAYA.in_own_keys(hints), "[Drag] comb  [B] radius  [Alt Drag] orbit");
-    let maya = MAYA.in_own_keys("Move a[b  [G R S] move, turn, scale  [I] key");
-    assert_eq!(maya, "Move a[b  [W E R] move, turn, scale  [S] key");
+    let maya = MAYA.in_own_keys("Move a [I] [b  [G R S] move, turn, scale  [I] key");
+    assert_eq!(maya, "Move a [I] [b  [W E R] move, turn, scale  [S] key");
     let own = with(&BLENDER, "Brush radius", &["Alt B"]);
     assert_eq!(own.in_own_keys(hints), "[Drag] comb  [Alt B] radius  [Middle] orbit");
     let none = with(&BLENDER, "Brush radius", &[]);
