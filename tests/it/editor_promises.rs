@@ -16,6 +16,21 @@ fn with_a_missing_texture(folder: &Path) {
     std::fs::write(&mtl, named).unwrap();
 }
 
+/// Writes the default settings, except that a copy is made after one second.
+fn copied_after_a_second(folder: &Path) {
+    std::fs::create_dir(folder.join("config")).unwrap();
+    std::fs::write(folder.join("config/editor.ron"), "(copy_after_secs: 1)").unwrap();
+}
+
+/// The texts of the copies that are written whole.
+fn copies(folder: &Path) -> Vec<String> {
+    let Ok(copies) = std::fs::read_dir(folder.join("config/recovery")) else { return Vec::new() };
+    // A copy that is still being written ends in `.part`.
+    let whole = copies.flatten().map(|copy| copy.path());
+    let whole = whole.filter(|path| path.extension().is_none_or(|end| end != "part"));
+    whole.filter_map(|path| std::fs::read_to_string(path).ok()).collect()
+}
+
 fn move_the_apple(editor: &mut EditorWindow<'_>) {
     editor.click("Viewport");
     let shown = editor.rest().0;
@@ -29,17 +44,11 @@ fn work_outlives_a_kill_soon_after_an_edit() {
     let Some(screen) = Screen::open() else { return };
     let folder = folder();
     let before = read(folder.path(), "apple.ron");
-    std::fs::create_dir(folder.path().join("config")).unwrap();
-    // The default settings, except that a copy is made after one second.
-    std::fs::write(folder.path().join("config/editor.ron"), "(copy_after_secs: 1)").unwrap();
+    copied_after_a_second(folder.path());
     let mut editor = EditorWindow::open(&screen, "killed", folder.path(), "apple.ron");
     move_the_apple(&mut editor);
     wait_for("a copy of the work", || {
-        let copies = std::fs::read_dir(folder.path().join("config/recovery")).ok()?.flatten();
-        // A copy that is still being written ends in `.part`.
-        let whole =
-            copies.map(|copy| copy.path()).filter(|path| path.extension().is_none_or(|end| end != "part"));
-        let mut texts = whole.filter_map(|path| std::fs::read_to_string(path).ok());
+        let mut texts = copies(folder.path()).into_iter();
         texts.any(|text| text.contains("translation: (0.5")).then_some(())
     });
     // Dropping the window kills it.
@@ -51,6 +60,33 @@ fn work_outlives_a_kill_soon_after_an_edit() {
     editor.keys(&["ctrl+s"]);
     editor.wait_for_title("apple.ron - Impasto");
     assert_eq!(read(folder.path(), "apple.ron").objects[0].keys[0].translation, [0.5, 0.0, 0.0]);
+}
+
+#[test]
+fn an_edited_text_outlives_a_kill() {
+    let Some(screen) = Screen::open() else { return };
+    let folder = folder();
+    let broken =
+        std::fs::read_to_string(folder.path().join("apple.ron")).unwrap().replacen("seed:", "sead:", 1);
+    assert!(broken.contains("sead:"));
+    std::fs::write(folder.path().join("apple.ron"), &broken).unwrap();
+    copied_after_a_second(folder.path());
+    let mut editor = EditorWindow::open(&screen, "text", folder.path(), "apple.ron");
+    // The text is wider than the panel and scrolled: only its corner is seen.
+    let text = editor.control("Source");
+    screen.click(text.at([0.02, 0.12]));
+    editor.keys(&["ctrl+Home"]);
+    screen.type_text("// mine");
+    wait_for("a copy of the text", || {
+        let mut texts = copies(folder.path()).into_iter();
+        texts.any(|text| text.contains("// edited| // mine") && text.contains("// source| ")).then_some(())
+    });
+    drop(editor);
+    let mut editor = EditorWindow::start(&screen, "text_again", folder.path(), &["apple.ron"]);
+    editor.click("Open what was being painted");
+    editor.control("Read this text");
+    editor.keep_picture("text");
+    assert_eq!(std::fs::read_to_string(folder.path().join("apple.ron")).unwrap(), broken);
 }
 
 #[test]

@@ -25,16 +25,16 @@ pub struct Source {
 impl Source {
     /// The source of a salvaged scene; none if nothing was lost.
     pub(crate) fn of(salvaged: &Salvaged) -> Option<Self> {
+        (!salvaged.losses.is_empty()).then(|| Self::with_any_losses(salvaged))
+    }
+
+    /// The source of a salvaged scene, even if nothing was lost.
+    pub(crate) fn with_any_losses(salvaged: &Salvaged) -> Self {
         let Salvaged { loaded, losses, text } = salvaged;
         let names = losses.iter().filter_map(|loss| loss.mesh.as_ref());
         let stand_in = |name: &String| Some((name.clone(), Arc::clone(loaded.meshes.get(name)?)));
         let stand_ins = names.filter_map(stand_in).collect();
-        (!losses.is_empty()).then(|| Self {
-            text: text.clone(),
-            losses: losses.clone(),
-            scene: loaded.scene.clone(),
-            stand_ins,
-        })
+        Self { text: text.clone(), losses: losses.clone(), scene: loaded.scene.clone(), stand_ins }
     }
 
     /// The scene with the boxes added to its meshes, so that an edited scene which names an unusable mesh still gets

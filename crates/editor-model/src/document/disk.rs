@@ -259,7 +259,7 @@ impl Document {
         files
     }
 
-    /// The unsaved work, for the recovery copy.
+    /// The unsaved work, for the recovery copy. A text that is being edited beside the scene is not known here.
     pub fn work(&self, at_unix_secs: u64) -> Work {
         let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         let copy = Copy {
@@ -270,6 +270,8 @@ impl Document {
             changes: self.changes(),
             lossy: self.first_loss().is_some(),
             text: String::new(),
+            source: self.source.as_ref().map(|source| source.text.clone()),
+            unread: None,
         };
         Work { copy, scene: Arc::clone(&self.loaded) }
     }

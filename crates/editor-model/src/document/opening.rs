@@ -33,15 +33,25 @@ impl Document {
         Ok(Self { stamp, source, ..document })
     }
 
-    /// Opens a copy of unsaved work as an edited document. Paths stay relative to the scene's original folder.
+    /// Opens a copy of unsaved work as an edited document. Paths stay relative to the scene's original folder. The text
+    /// that the scene was read from comes back with its problems.
     ///
     /// # Errors
     /// If nothing of the copy can be read.
     pub fn recovered(copy: &Copy, options: &LoadOptions) -> Result<Self, Report> {
         let salvaged = salvage::salvage_text(&copy.path, &copy.text, options)?;
-        let source = Source::of(&salvaged).map(Arc::new);
-        // A scene that was read with losses must not overwrite its file: the copy does not know what was lost.
-        let file = copy.file.clone().filter(|_| !copy.lossy);
+        let read_from = copy.source.as_ref().and_then(|text| {
+            let salvaged = salvage::salvage_text(&copy.path, text, options).ok()?;
+            // While it is being edited, the text is shown even if the files that it lacked are there by now.
+            if copy.unread.is_some() {
+                Some(Source::with_any_losses(&salvaged))
+            } else {
+                Source::of(&salvaged)
+            }
+        });
+        // A scene that was read with losses must not overwrite its file if it is not known what was lost.
+        let file = copy.file.clone().filter(|_| !copy.lossy || read_from.is_some());
+        let source = read_from.or_else(|| Source::of(&salvaged)).map(Arc::new);
         let stamp = copy.stamp.filter(|_| file.is_some());
         let document = Self::of(salvaged.loaded, file, options.clone());
         Ok(Self { stamp, source, history: History::new(false), ..document })

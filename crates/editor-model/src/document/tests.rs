@@ -220,21 +220,49 @@ fn a_scene_whose_mesh_or_folder_is_gone_is_saved_elsewhere_and_what_is_missing_i
     }
 }
 
+/// What comes back of a document, with an edited text beside it, after its window was killed.
+fn brought_back(
+    document: &Document,
+    change: impl Fn(&mut crate::recovery::Copy),
+) -> (Document, crate::recovery::Copy) {
+    let place = tempfile::tempdir().expect("a folder");
+    let mut work = document.work(1);
+    change(&mut work.copy);
+    crate::recovery::Recovery::open(place.path(), "1-1").expect("opens").keep(&work).expect("kept");
+    let offers = crate::recovery::Recovery::offers(place.path());
+    let copy = offers[0].copy.clone();
+    (Document::recovered(&copy, &LoadOptions::default()).expect("opens"), copy)
+}
+
 #[test]
 fn a_copy_of_a_scene_with_losses_never_takes_the_place_of_its_file() {
     let folder = Folder::with(&broken());
     let mut document = folder.open();
     document.apply(&Command::Scene(SceneEdit::SetSize(640, 480))).expect("done");
-    let place = tempfile::tempdir().expect("a folder");
-    crate::recovery::Recovery::open(place.path(), "1-1")
-        .expect("opens")
-        .keep(&document.work(1))
-        .expect("kept");
-    let offers = crate::recovery::Recovery::offers(place.path());
-    let mut back = Document::recovered(&offers[0].copy, &LoadOptions::default()).expect("opens");
+    // What could not be read comes back as it was, to be mended before the file is written over.
+    let (mut back, _) = brought_back(&document, |_| {});
+    assert_eq!(back.scene().size, (640, 480));
+    assert_eq!(back.source().expect("a source").text, broken());
+    assert_eq!(back.loss_count(), document.loss_count());
+    assert!(matches!(back.save(), Err(SaveError::Problems { .. })));
+    // Where the text is not known, the copy knows nothing of its file.
+    let (mut back, _) = brought_back(&document, |copy| copy.source = None);
     assert_eq!(back.scene().size, (640, 480));
     assert!(matches!(back.save(), Err(SaveError::Unnamed)));
     assert_eq!(folder.text(), broken());
+}
+
+#[test]
+fn a_text_that_was_being_edited_comes_back_letter_for_letter() {
+    let folder = Folder::with(&broken());
+    let document = folder.open();
+    for typed in ["(version: 1,\r\n// end of what it is a copy of\n\n\u{e4}", "", "\n\n", "// edited| x\n"] {
+        let (back, copy) = brought_back(&document, |copy| copy.unread = Some(typed.to_owned()));
+        assert_eq!(copy.unread.as_deref(), Some(typed));
+        assert_eq!(copy.source.as_deref(), Some(&*broken()));
+        assert_eq!((copy.path.as_path(), copy.changes), (folder.path().as_path(), 0));
+        assert_eq!(back.source().expect("a source").text, broken());
+    }
 }
 
 #[test]

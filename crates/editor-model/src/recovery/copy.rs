@@ -15,6 +15,13 @@ use crate::stamp::{Stamp, hash};
 const FIRST: &str = "// Impasto: a copy of unsaved work, 1";
 const LAST: &str = "// end of what it is a copy of";
 
+/// What begins each line of the text that the scene was read from, and of that text as it is being edited.
+const SOURCE: &str = "// source| ";
+const UNREAD: &str = "// edited| ";
+
+/// Longer texts are not kept beside the scene: the window edits none that long.
+const MAX_BESIDE_BYTES: usize = 1 << 20;
+
 /// Unsaved work to be copied.
 #[derive(Clone, Debug)]
 pub struct Work {
@@ -41,12 +48,16 @@ pub struct Copy {
     pub lossy: bool,
     /// The scene as text; empty before it is written.
     pub text: String,
+    /// The text that the scene was read from, if parts of it could not be read.
+    pub source: Option<String>,
+    /// That text as the user was editing it, before it was read.
+    pub unread: Option<String>,
 }
 
 impl Work {
     /// The text of the whole file.
     pub(super) fn to_text(&self) -> String {
-        let Copy { file, path, stamp, at_unix_secs, changes, lossy, .. } = &self.copy;
+        let Copy { file, path, stamp, at_unix_secs, changes, lossy, source, unread, .. } = &self.copy;
         let scene = save::to_ron(&self.scene.scene);
         let mut lines = vec![FIRST.to_owned()];
         let mut line = |key: &str, value: String| lines.push(format!("// {key}: {value}"));
@@ -63,6 +74,12 @@ impl Work {
         line("changes", changes.to_string());
         line("lossy", lossy.to_string());
         line("hash", format!("{:x}", hash(scene.as_bytes())));
+        for (prefix, text) in [(SOURCE, source), (UNREAD, unread)] {
+            let text = text.as_ref().filter(|text| text.len() <= MAX_BESIDE_BYTES);
+            lines.extend(
+                text.into_iter().flat_map(|text| text.split('\n')).map(|line| format!("{prefix}{line}")),
+            );
+        }
         lines.push(LAST.to_owned());
         lines.push(scene);
         lines.join("\n")
@@ -72,18 +89,27 @@ impl Work {
 impl Copy {
     /// Reads a copy back; none if it is not complete.
     pub(super) fn read(file: &Path) -> Option<Self> {
-        let bytes = read_regular_file(file, MAX_SCENE_BYTES + (64 << 10)).ok()?;
+        // A text of empty lines is the longest beside the scene, since each line gets its prefix.
+        let most_beside = (2 * (SOURCE.len() + 1) * MAX_BESIDE_BYTES) as u64;
+        let bytes = read_regular_file(file, MAX_SCENE_BYTES + most_beside + (64 << 10)).ok()?;
         Self::parse(std::str::from_utf8(&bytes).ok()?)
     }
 
     fn parse(text: &str) -> Option<Self> {
         let (head, scene) = text.split_once(&format!("\n{LAST}\n"))?;
-        let mut lines = head.lines();
+        let mut lines = head.split('\n');
         if lines.next()? != FIRST {
             return None;
         }
+        let beside = |prefix: &str| {
+            let lines: Vec<&str> = lines.clone().filter_map(|line| line.strip_prefix(prefix)).collect();
+            (!lines.is_empty()).then(|| lines.join("\n"))
+        };
+        let (source, unread) = (beside(SOURCE), beside(UNREAD));
+        let is_beside = |line: &&str| line.starts_with(SOURCE) || line.starts_with(UNREAD);
+        let heads = lines.filter(|line| !is_beside(line));
         let pairs: Vec<(&str, &str)> =
-            lines.filter_map(|line| line.strip_prefix("// ")?.split_once(": ")).collect();
+            heads.filter_map(|line| line.strip_prefix("// ")?.split_once(": ")).collect();
         let value = |key: &str| pairs.iter().find(|pair| pair.0 == key).map(|pair| pair.1);
         let stamp = || {
             let mut parts = value("stamp")?.split(' ');
@@ -102,6 +128,8 @@ impl Copy {
             changes: value("changes")?.parse().ok()?,
             lossy: value("lossy")?.parse().ok()?,
             text: scene.to_owned(),
+            source,
+            unread,
         })
     }
 
@@ -176,6 +204,8 @@ mod tests {
             changes: 0,
             lossy: false,
             text: String::new(),
+            source: None,
+            unread: None,
         };
         let now = UNIX_EPOCH + Duration::from_secs(1_000_000);
         let age = |ago: u64| copy(1_000_000 - ago).age(now);

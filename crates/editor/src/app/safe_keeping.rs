@@ -8,6 +8,7 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use egui::Context;
 use impasto_editor_model::document::{Document, SaveError};
 use impasto_editor_model::recovery::{Cadence, Keeper, Kept, Offer, Recovery};
+use impasto_editor_model::stamp::hash;
 use impasto_editor_model::watch::{News, Watch};
 use impasto_scene::load::LoadOptions;
 use impasto_scene::problem::Report;
@@ -16,7 +17,7 @@ use super::EditorApp;
 use crate::files::file_ask::FileAsk;
 use crate::files::preferences;
 use crate::panels::ask_close::{self, Answer, Question};
-use crate::panels::problems::TroubleOf;
+use crate::panels::problems::{self, TroubleOf};
 
 /// How often the document's files are checked for changes.
 const LOOK: Duration = Duration::from_secs(1);
@@ -91,13 +92,21 @@ impl SafeKeeping {
         self.cadence = Cadence::default();
     }
 
-    fn keep(&mut self, document: &Document) {
+    fn keep(&mut self, document: &Document, unread: Option<String>) {
         let Some(keeper) = &self.keeper else { return };
         let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
-        keeper.keep(document.work(since.as_secs()));
-        self.cadence.kept_now(document.revision());
+        self.cadence.kept_now(version_of(document, unread.as_deref()));
+        let mut work = document.work(since.as_secs());
+        work.copy.unread = unread;
+        keeper.keep(work);
         self.has_copy = true;
     }
+}
+
+/// A number that is another one after each edit of the scene or of its text.
+fn version_of(document: &Document, unread: Option<&str>) -> u64 {
+    let revision = document.revision();
+    unread.map_or(revision, |text| revision.wrapping_add(hash(text.as_bytes())))
 }
 
 impl EditorApp {
@@ -126,14 +135,16 @@ impl EditorApp {
             }
         }
         let document = self.editor.document();
+        let unread = problems::unread_text(ctx, document);
         let after_secs = self.preferences.copy_after_secs;
-        if !document.is_edited() {
+        if !document.is_edited() && unread.is_none() {
             self.safe.give_up();
         } else if after_secs > 0 {
             let after_secs = f64::from(after_secs);
             let now_secs = self.safe.start.elapsed().as_secs_f64();
-            if self.safe.cadence.is_due(Some(document.revision()), now_secs, after_secs) {
-                self.safe.keep(document);
+            let version = version_of(document, unread.as_deref());
+            if self.safe.cadence.is_due(Some(version), now_secs, after_secs) {
+                self.safe.keep(document, unread);
             }
             ctx.request_repaint_after(LOOK);
         }
@@ -152,8 +163,9 @@ impl EditorApp {
     /// Writes a recovery copy now, before something that may go wrong.
     pub(super) fn keep_before_risk(&mut self) {
         let document = self.editor.document();
-        if document.is_edited() && self.preferences.copy_after_secs > 0 {
-            self.safe.keep(document);
+        let unread = problems::unread_text(&self.ctx, document);
+        if (document.is_edited() || unread.is_some()) && self.preferences.copy_after_secs > 0 {
+            self.safe.keep(document, unread);
         }
     }
 
@@ -215,6 +227,7 @@ impl EditorApp {
             name: offer.copy.name(),
             age: offer.copy.age(SystemTime::now()),
             changes: offer.copy.changes,
+            has_text: offer.copy.unread.is_some(),
             of_another: offer.copy.is_of_another_file(),
         };
         let Some(answer) = ask_close::ask(ctx, &question) else { return };
@@ -239,7 +252,10 @@ impl EditorApp {
                 self.editor.open(document);
                 self.keymap();
                 self.sheets.welcome = false;
-                self.sheets.problems = self.editor.document().loss_count() > 0;
+                self.sheets.problems = self.editor.document().loss_count() > 0 || offer.copy.unread.is_some();
+                if let Some(typed) = &offer.copy.unread {
+                    problems::restore_text(&self.ctx, self.editor.document(), typed.clone());
+                }
                 self.toast(
                     format!("{} as it was being painted; it is not saved", offer.copy.name()),
                     None,
@@ -249,7 +265,8 @@ impl EditorApp {
                 if let Some(keeper) = &self.safe.keeper {
                     keeper.take_over(offer);
                     self.safe.has_copy = true;
-                    self.safe.cadence.kept_now(self.editor.document().revision());
+                    let unread = problems::unread_text(&self.ctx, self.editor.document());
+                    self.safe.cadence.kept_now(version_of(self.editor.document(), unread.as_deref()));
                 }
             }
             Err(Report(problems)) => {

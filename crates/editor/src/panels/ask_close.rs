@@ -49,6 +49,8 @@ pub enum Question {
         age: String,
         /// How many entries of the copy's history the file lacks.
         changes: usize,
+        /// Whether it holds an edited text that was not read.
+        has_text: bool,
         /// Whether the file has changed since the copy was made.
         of_another: bool,
     },
@@ -166,11 +168,15 @@ pub fn ask(ctx: &egui::Context, question: &Question) -> Option<Answer> {
                 ("Keep working", Answer::KeepWorking),
             ],
         ),
-        Question::Recovered { name, age, changes, of_another } => (
+        Question::Recovered { name, age, changes, has_text, of_another } => (
             "Impasto closed unexpectedly".to_owned(),
             format!(
                 "A copy of {name} from {age} has {} that the file does not.{}",
-                counted(*changes, "change"),
+                match (changes, has_text) {
+                    (0, true) => "an edited text".to_owned(),
+                    (_, true) => format!("{} and an edited text", counted(*changes, "change")),
+                    (_, false) => counted(*changes, "change"),
+                },
                 if *of_another { " The file was changed since." } else { "" }
             ),
             &[

@@ -402,6 +402,7 @@ fn questions_are_answered_by_their_verbs_and_keys() {
                 name: scene(),
                 age: "5 minutes ago".to_owned(),
                 changes: 9,
+                has_text: false,
                 of_another: true,
             },
             "Discard",

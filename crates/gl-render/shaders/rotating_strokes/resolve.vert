@@ -28,9 +28,9 @@ const float LEAST = 0.25;
 const float LEAST = 0.004;
 #endif
 
-// Thinness of a body: up to the first value a stroke takes its colour from the picture, from the second on it lights
-// its own albedo, since single pixels of a thin body are light or dark by chance.
-const vec2 THIN = vec2(0.01, 0.14);
+// The thinness of a face from which on a stroke lights its own albedo, since single pixels of a thin body are light or dark
+// by chance. The less thin the face, the more of the colour is that of the picture.
+const float THIN = 0.6;
 
 // Standard deviation, across the stroke, of the Gaussian over which colours are averaged: for each layer in widths of
 // the stroke, but at least 1.4 pixels of the picture (down to LEAST_BLUR_PX in pictures below the scene's own size),
@@ -68,6 +68,16 @@ float hidden_at(vec2 offset_px, float bias, bool by_own) {
     return smoothstep(bias, 3.0 * bias, plane_depth(tap_px - place.xy) - there.x);
 }
 
+// The share of the stroke that other bodies hide, by taps on a grid.
+float hidden_by_others(mat2 turn, float bias, ivec2 grid) {
+    float hidden = 0.0;
+    for (int tap = 0; tap < grid.x * grid.y; tap++) {
+        vec2 share = (vec2(tap % grid.x, tap / grid.x) + 0.5) / vec2(grid) - 0.5;
+        hidden += hidden_at(turn * (share * size.xy), bias, false);
+    }
+    return hidden / float(grid.x * grid.y);
+}
+
 // How much of the stroke is there, since bodies may hide it, 0..1. Other bodies are tested over the whole stroke, and
 // make it fade only when less than `WHOLE` of it shows: the paint pass cuts off the parts that they cover. The stroke's
 // own body, which may bend in front of it, is tested round the stroke's middle; so are other bodies, for paint that is
@@ -86,6 +96,7 @@ float seen(mat2 turn) {
     const int STEP = 1;
     const int RING = 17;
     const ivec2 GRID = ivec2(5, 3);
+    const ivec2 FINE_GRID = ivec2(13, 5);
 #endif
     float by_own = 0.0;
     for (int tap = 0; tap < RING; tap++) {
@@ -96,12 +107,13 @@ float seen(mat2 turn) {
         by_own += hidden_at(offset_px, bias, true);
         if (reach.x >= FREE) by_own += hidden_at(offset_px, bias, false);
     }
-    float by_others = 0.0;
-    for (int tap = 0; tap < GRID.x * GRID.y; tap++) {
-        vec2 share = (vec2(tap % GRID.x, tap / GRID.x) + 0.5) / vec2(GRID) - 0.5;
-        by_others += hidden_at(turn * (share * size.xy), bias, false);
-    }
-    float visible = 1.0 - by_others / float(GRID.x * GRID.y);
+    float by_others = hidden_by_others(turn, bias, GRID);
+#ifndef DRAFT
+    // Each tap of the coarse grid would be a visible step of a stroke that fades; whether it fades at all, the coarse one
+    // tells well enough.
+    if (by_others > 0.0 && by_others < 1.0) by_others = hidden_by_others(turn, bias, FINE_GRID);
+#endif
+    float visible = 1.0 - by_others;
     return (1.0 - by_own / float(RING)) * smoothstep(0.0, WHOLE, visible);
 }
 
@@ -318,13 +330,12 @@ void main() {
     float across_px = max(BLUR[kind] * size.y, clamp(1.4 * px_scale, LEAST_BLUR_PX, 1.4));
     mat2 blur_px = mat2(clamp(0.16 * size.x, across_px, 2.5 * across_px), 0.0, 0.0, across_px);
     if (kind == TOUCHES) blur_px = mat2(across_px, 0.0, 0.0, across_px);
-    vec2 frees = kind == LIGHTS ? vec2(0.0) : freedom(own.y);
-    float free = frees.x;
+    float free = kind == LIGHTS ? 0.0 : freedom(own.y);
     // What covers a stroke, as leaves do, changes as the view moves: its colour is taken from a wider surrounding.
     blur_px *= kind == LIGHTS ? 1.0 : 1.0 + 1.5 * (1.0 - free);
     vec4 found = own_color(kind == LIGHTS ? place.xy + moved : place.xy, own.y, turn * blur_px, free);
     // Only the picture has highlights, not the stroke's own lit albedo.
-    float known = kind == LIGHTS ? 1.0 : found.w * (1.0 - smoothstep(THIN.x, THIN.y, thinness(place.xy, own, min(frees.x, frees.y))));
+    float known = kind == LIGHTS ? 1.0 : found.w * (1.0 - smoothstep(0.0, THIN, thinness(place.xy, own, free)));
     vec3 color = known == 1.0 ? found.rgb : mix(color_of_own(), found.rgb, known);
     vec3 lab = oklab_from_linear(color);
     Mixing mixing = mixing_of(bytes.y);

@@ -19,6 +19,10 @@ const vec2 SAME_FACE = vec2(0.8, 0.97);
 // with the picture, since grooves have fewer pixels of depth there.
 const vec2 COVERS_PX = vec2(2.0, 6.0);
 
+// The least radius of the ring that tells whether a stroke is covered, in pictures of half the scene's size or more: within
+// a smaller one, single pixels decide by chance.
+const float LEAST_RING_PX = 1.6;
+
 // Depth and body id of the pixel at a place.
 vec2 surface_at(vec2 at_px) {
     ivec2 texel = clamp(ivec2(floor(at_px)), ivec2(0), textureSize(depth_and_id, 0) - 1);
@@ -37,9 +41,8 @@ float plane_depth(vec2 offset_px) {
 // Where it is covered, the stroke has the colour of what covers it.
 //
 // A leaf that passes before the centre would switch the colour: what counts is the share of seven places that is
-// covered, the centre and a ring half a stroke's width from it, without those where the body is not seen. x: by all
-// seven; y: by the centre alone.
-vec2 freedom(float id) {
+// covered, the centre and a ring half a stroke's width from it, without those where the body is not seen.
+float freedom(float id) {
     ivec2 last = textureSize(depth_and_id, 0) - 1;
     vec2 covers_px = COVERS_PX * min(2.0 * px_scale, 1.0);
 #ifdef DRAFT
@@ -47,12 +50,11 @@ vec2 freedom(float id) {
 #else
     const int PLACES = 7;
 #endif
-    float ring_px = 0.5 * size.y;
+    float ring_px = max(0.5 * size.y, LEAST_RING_PX * min(2.0 * px_scale, 1.0));
     float facing = max(abs((mat3(view_from_world) * normal_and_bow.xyz).z), 0.05);
     float covered = 0.0;
     float found = 1e-4;
     float doubt_px = 0.0;
-    float of_center = 0.0;
     for (int index = 0; index < 4 * PLACES; index++) {
         float angle = 1.0471976 * float(index / 4);
         vec2 away_px = index < 4 ? vec2(0.0) : vec2(cos(angle), sin(angle)) * ring_px;
@@ -61,10 +63,7 @@ vec2 freedom(float id) {
         vec2 part = at - vec2(corner);
         ivec2 offset = ivec2(index & 1, (index >> 1) & 1);
         vec2 there = texelFetch(depth_and_id, clamp(corner + offset, ivec2(0), last), 0).xy;
-        if (index == 4) {
-            doubt_px = (1.0 - covered) * 0.5 * ring_px / facing;
-            of_center = covered;
-        }
+        if (index == 4) doubt_px = (1.0 - covered) * 0.5 * ring_px / facing;
         if (there.y != id) continue;
         vec2 offset_px = away_px + vec2(offset) - part;
         float before_px = (plane_depth(offset_px) - there.x) / units_per_px(place.z);
@@ -75,10 +74,7 @@ vec2 freedom(float id) {
         found += near.x * near.y;
         covered += near.x * near.y * smoothstep(covers_px.x, covers_px.y, before_px);
     }
-#ifdef DRAFT
-    of_center = covered;
-#endif
-    return vec2(1.0 - covered / found, 1.0 - of_center);
+    return 1.0 - covered / found;
 }
 
 // How far a pixel of the stroke's own body shows another face than that of the stroke, 0..1. A body that noise colours has no
@@ -128,16 +124,34 @@ float is_past(vec2 at_px, vec2 own, float free) {
     return there.y == 0.0 || there.x > own.x ? 1.0 : 0.0;
 }
 
-// How thin the stroke's own face is, 0..1: in how many directions it ends nearby on both sides.
+// How far the stroke's own face has ended on both sides.
+float is_past_both(vec2 center_px, vec2 offset_px, vec2 own, float free) {
+    float past = is_past(center_px + offset_px, own, free);
+    return past == 0.0 ? 0.0 : past * is_past(center_px - offset_px, own, free);
+}
+
+// The next distance at which a face that has ended is looked at, relative to the first.
+const float FURTHER = 1.2;
+
+// How thin the stroke's own face is, 0..1: in how many directions it ends nearby on both sides. A face one pixel wide, such
+// as the side of a shutter, is not where the stroke's face ends: it must have ended at the next distance, too.
 float thinness(vec2 center_px, vec2 own, float free) {
     float around_px = AROUND_PX * max(2.0 * px_scale, 1.0);
+    // Beyond the picture nothing is known: towards its border less far is looked.
+    vec2 room_px = max(min(center_px, vec2(textureSize(depth_and_id, 0)) - center_px), 0.0) / FURTHER;
     float sum = 0.0;
     for (int index = 0; index < 12; index++) {
-        float angle = 0.52359878 * float(index % 6);
-        vec2 offset_px = vec2(cos(angle), sin(angle)) * (index < 6 ? around_px : 0.55 * around_px);
-        sum += is_past(center_px + offset_px, own, free) * is_past(center_px - offset_px, own, free);
+        float angle = 0.26179939 * float(index);
+        vec2 offset_px = vec2(cos(angle), sin(angle)) * around_px;
+        vec2 fits = room_px / max(abs(offset_px), 1e-3);
+        offset_px *= min(min(fits.x, fits.y), 1.0);
+        float past = is_past_both(center_px, offset_px, own, free);
+        if (past == 0.0) continue;
+        float nearer = is_past_both(center_px, 0.55 * offset_px, own, free);
+        float further = nearer < past ? is_past_both(center_px, FURTHER * offset_px, own, free) : 0.0;
+        sum += min(past, nearer) + min(past, max(nearer, further));
     }
-    return sum / 12.0;
+    return sum / 24.0;
 }
 
 // Mean colour on the stroke's own body: a Gaussian with this standard deviation, on two rings and the centre, longer

@@ -69,6 +69,11 @@ pub fn unread_text(ctx: &Context, document: &Document) -> Option<String> {
     (memory.is_edited() && memory.typed != source.text).then_some(memory.typed)
 }
 
+/// Shows this text as edited and not yet read, for a document that was opened from a copy of unsaved work.
+pub fn restore_text(ctx: &Context, document: &Document, typed: String) {
+    Memory { typed, begun_from: document.source().cloned(), go_to: None }.store(ctx);
+}
+
 /// Drops the edited text, because the user wants that or another document is opened.
 pub fn forget_text(ctx: &Context) {
     Memory::default().store(ctx);
