@@ -9,7 +9,10 @@ use impasto_scene::load::salvage::{Loss, Salvaged};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::mesh_file::MeshFile;
 
-/// The text that a scene was read from, of which parts could not be read.
+use crate::stamp::hash;
+
+/// The text that a scene was read from, of which parts could not be read. None may be left that could not: the user
+/// mended them, or was editing the text when the window was killed.
 #[derive(Clone, Debug)]
 pub struct Source {
     /// The text.
@@ -35,6 +38,12 @@ impl Source {
         let stand_in = |name: &String| Some((name.clone(), Arc::clone(loaded.meshes.get(name)?)));
         let stand_ins = names.filter_map(stand_in).collect();
         Self { text: text.clone(), losses: losses.clone(), scene: loaded.scene.clone(), stand_ins }
+    }
+
+    /// A hash of what could not be read, to tell whether it is the same again.
+    pub(crate) fn losses_hash(&self) -> u64 {
+        let words: Vec<String> = self.losses.iter().map(|loss| loss.problem.to_string()).collect();
+        hash(words.join("\n").as_bytes())
     }
 
     /// The scene with the boxes added to its meshes, so that an edited scene which names an unusable mesh still gets

@@ -112,8 +112,8 @@ impl Document {
 
     fn may_save_over(&self, target: &Path) -> Result<(), SaveError> {
         let real = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
-        // Compared by `loaded.path`: a recovered copy that was read with losses has no `file`, but must not overwrite
-        // its origin.
+        // Compared by `loaded.path`: a recovered copy of which it is not known what was lost has no `file`, but must not
+        // overwrite its origin.
         let is_own = real(target) == real(&self.loaded.path);
         match self.first_loss().filter(|_| is_own) {
             Some(line) => Err(SaveError::Problems { count: self.loss_count(), line }),
@@ -267,10 +267,11 @@ impl Document {
             path: absolute(&self.loaded.path),
             stamp: self.stamp,
             at_unix_secs,
-            changes: self.changes(),
+            changes: self.changes().max(usize::from(self.is_edited())),
             lossy: self.first_loss().is_some(),
             text: String::new(),
             source: self.source.as_ref().map(|source| source.text.clone()),
+            losses: self.source.as_ref().map(|source| source.losses_hash()),
             unread: None,
         };
         Work { copy, scene: Arc::clone(&self.loaded) }

@@ -33,31 +33,36 @@ impl Document {
         Ok(Self { stamp, source, ..document })
     }
 
-    /// Opens a copy of unsaved work as an edited document. Paths stay relative to the scene's original folder. The text
-    /// that the scene was read from comes back with its problems.
+    /// Opens a copy of unsaved work. Paths stay relative to the scene's original folder. The text that the scene was read
+    /// from comes back with its problems, if they are still the same.
     ///
     /// # Errors
     /// If nothing of the copy can be read.
     pub fn recovered(copy: &Copy, options: &LoadOptions) -> Result<Self, Report> {
         let salvaged = salvage::salvage_text(&copy.path, &copy.text, options)?;
         let read_from = copy.source.as_ref().and_then(|text| {
-            let salvaged = salvage::salvage_text(&copy.path, text, options).ok()?;
-            // While it is being edited, the text is shown even if the files that it lacked are there by now.
-            if copy.unread.is_some() {
-                Some(Source::with_any_losses(&salvaged))
-            } else {
-                Source::of(&salvaged)
-            }
+            let read_from = Source::with_any_losses(&salvage::salvage_text(&copy.path, text, options).ok()?);
+            // Where files came or went since, what the copy lacks would be taken for what the user has deleted.
+            let is_same = copy.losses == Some(read_from.losses_hash());
+            let is_known = |mesh: &String| read_from.has_stand_in(mesh);
+            let are_known = salvaged.losses.iter().all(|loss| loss.mesh.as_ref().is_some_and(is_known));
+            (is_same && are_known).then_some(read_from)
         });
         // A scene that was read with losses must not overwrite its file if it is not known what was lost.
         let file = copy.file.clone().filter(|_| !copy.lossy || read_from.is_some());
-        let source = read_from.or_else(|| Source::of(&salvaged)).map(Arc::new);
         let stamp = copy.stamp.filter(|_| file.is_some());
+        let is_as_read = read_from.as_ref().is_some_and(|source| source.scene == salvaged.loaded.scene);
+        let source = match &copy.unread {
+            // An edited text is shown beside a source, whether anything was lost or not.
+            Some(_) => read_from.or_else(|| Some(Source::with_any_losses(&salvaged))),
+            None => read_from.or_else(|| Source::of(&salvaged)),
+        };
         let document = Self::of(salvaged.loaded, file, options.clone());
-        Ok(Self { stamp, source, history: History::new(false), ..document })
+        let history = History::new(is_as_read && copy.changes == 0);
+        Ok(Self { stamp, source: source.map(Arc::new), history, ..document })
     }
 
-    /// The text that the scene was read from, if parts of it could not be read or used.
+    /// The text that the scene was read from, if parts of it could not be read or used, or the user was editing it.
     pub fn source(&self) -> Option<&Arc<Source>> {
         self.source.as_ref()
     }

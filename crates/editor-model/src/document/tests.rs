@@ -253,6 +253,29 @@ fn a_copy_of_a_scene_with_losses_never_takes_the_place_of_its_file() {
 }
 
 #[test]
+fn what_was_missing_when_a_copy_was_made_and_is_there_again_is_not_taken_for_deleted() {
+    let folder = Folder::with(&broken());
+    let mut document = folder.open();
+    document.apply(&Command::Scene(SceneEdit::SetSize(640, 480))).expect("done");
+    let place = tempfile::tempdir().expect("a folder");
+    crate::recovery::Recovery::open(place.path(), "1-1")
+        .expect("opens")
+        .keep(&document.work(1))
+        .expect("kept");
+    let copy = crate::recovery::Recovery::offers(place.path())[0].copy.clone();
+    // The mesh that was missing comes.
+    fs::write(folder.0.path().join("leaf.obj"), QUAD).expect("written");
+    for unread in [None, Some("(version: 1)".to_owned())] {
+        let has_text = unread.is_some();
+        let copy = crate::recovery::Copy { unread, ..copy.clone() };
+        let mut back = Document::recovered(&copy, &LoadOptions::default()).expect("opens");
+        assert_eq!(back.source().is_some(), has_text, "an edited text is shown, whatever is wrong");
+        assert!(matches!(back.save(), Err(SaveError::Unnamed)), "what was lost is not known any more");
+    }
+    assert_eq!(folder.text(), broken());
+}
+
+#[test]
 fn a_text_that_was_being_edited_comes_back_letter_for_letter() {
     let folder = Folder::with(&broken());
     let document = folder.open();
@@ -262,6 +285,7 @@ fn a_text_that_was_being_edited_comes_back_letter_for_letter() {
         assert_eq!(copy.source.as_deref(), Some(&*broken()));
         assert_eq!((copy.path.as_path(), copy.changes), (folder.path().as_path(), 0));
         assert_eq!(back.source().expect("a source").text, broken());
+        assert!(!back.is_edited(), "only the text was");
     }
 }
 

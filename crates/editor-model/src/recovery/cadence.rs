@@ -3,35 +3,35 @@
 /// Decides when unsaved work is copied: some time after the first edit since the last copy.
 #[derive(Clone, Debug, Default)]
 pub struct Cadence {
-    /// The revision that the last copy has.
+    /// The version that the last copy has.
     kept: Option<u64>,
     /// When the first edit after that copy was noticed.
     since_secs: Option<f64>,
 }
 
 impl Cadence {
-    /// Whether a copy is due now; if so, it counts as made. `edited` is the document's revision, or `None` if it has no
-    /// unsaved edits. The time is the caller's clock.
+    /// Whether a copy is due now; if so, it counts as made. `edited` is a number that is another one after each edit, or
+    /// `None` if there are no unsaved edits. The time is the caller's clock.
     pub fn is_due(&mut self, edited: Option<u64>, now_secs: f64, after_secs: f64) -> bool {
-        let Some(revision) = edited else {
+        let Some(version) = edited else {
             *self = Self::default();
             return false;
         };
-        if self.kept == Some(revision) {
+        if self.kept == Some(version) {
             self.since_secs = None;
             return false;
         }
         let since = *self.since_secs.get_or_insert(now_secs);
         let is_due = now_secs - since >= after_secs;
         if is_due {
-            self.kept_now(revision);
+            self.kept_now(version);
         }
         is_due
     }
 
-    /// Notes that a copy of this revision was made.
-    pub fn kept_now(&mut self, revision: u64) {
-        (self.kept, self.since_secs) = (Some(revision), None);
+    /// Notes that a copy of this version was made.
+    pub fn kept_now(&mut self, version: u64) {
+        (self.kept, self.since_secs) = (Some(version), None);
     }
 }
 

@@ -1,4 +1,5 @@
-//! The file of a copy of unsaved work: a scene file, headed by comment lines that say what it is a copy of.
+//! The file of a copy of unsaved work: a scene file, headed by comment lines that say what it is a copy of and hold the text
+//! that the scene was read from, if parts of that could not be read.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -19,8 +20,8 @@ const LAST: &str = "// end of what it is a copy of";
 const SOURCE: &str = "// source| ";
 const UNREAD: &str = "// edited| ";
 
-/// Longer texts are not kept beside the scene: the window edits none that long.
-const MAX_BESIDE_BYTES: usize = 1 << 20;
+/// Longer texts are not kept beside the scene.
+const MAX_BESIDE_BYTES: usize = 4 << 20;
 
 /// Unsaved work to be copied.
 #[derive(Clone, Debug)]
@@ -50,6 +51,8 @@ pub struct Copy {
     pub text: String,
     /// The text that the scene was read from, if parts of it could not be read.
     pub source: Option<String>,
+    /// A hash of what could not be read in that text.
+    pub losses: Option<u64>,
     /// That text as the user was editing it, before it was read.
     pub unread: Option<String>,
 }
@@ -57,7 +60,7 @@ pub struct Copy {
 impl Work {
     /// The text of the whole file.
     pub(super) fn to_text(&self) -> String {
-        let Copy { file, path, stamp, at_unix_secs, changes, lossy, source, unread, .. } = &self.copy;
+        let Copy { file, path, stamp, at_unix_secs, changes, lossy, source, losses, unread, .. } = &self.copy;
         let scene = save::to_ron(&self.scene.scene);
         let mut lines = vec![FIRST.to_owned()];
         let mut line = |key: &str, value: String| lines.push(format!("// {key}: {value}"));
@@ -73,6 +76,9 @@ impl Work {
         line("at", at_unix_secs.to_string());
         line("changes", changes.to_string());
         line("lossy", lossy.to_string());
+        if let Some(losses) = losses {
+            line("losses", format!("{losses:x}"));
+        }
         line("hash", format!("{:x}", hash(scene.as_bytes())));
         for (prefix, text) in [(SOURCE, source), (UNREAD, unread)] {
             let text = text.as_ref().filter(|text| text.len() <= MAX_BESIDE_BYTES);
@@ -129,6 +135,7 @@ impl Copy {
             lossy: value("lossy")?.parse().ok()?,
             text: scene.to_owned(),
             source,
+            losses: value("losses").and_then(|losses| u64::from_str_radix(losses, 16).ok()),
             unread,
         })
     }
@@ -205,6 +212,7 @@ mod tests {
             lossy: false,
             text: String::new(),
             source: None,
+            losses: None,
             unread: None,
         };
         let now = UNIX_EPOCH + Duration::from_secs(1_000_000);

@@ -87,7 +87,7 @@ impl EditorApp {
             match request {
                 Request::New => self.new_asking(),
                 Request::Open => self.files.dialogs.open(ctx, FileAsk::Open, &start),
-                Request::Save if self.editor.document().file().is_some() => drop(self.save(None)),
+                Request::Save if self.editor.document().file().is_some() => self.save_own_asking(),
                 Request::Save | Request::SaveAs => self.save_asking(FileAsk::SaveAs),
                 Request::SaveCopy => self.save_asking(FileAsk::SaveCopy),
                 Request::TakeFaces(command, taken) => self.sheets.take_faces = Some((*command, taken)),

@@ -27,6 +27,8 @@ enum Next {
     Close,
     New,
     Open(PathBuf),
+    /// Save to the document's own file.
+    SaveOwn,
     /// Ask for a file to save to.
     Save(FileAsk),
 }
@@ -166,6 +168,7 @@ impl EditorApp {
                 self.sheets.problems = false;
                 self.keymap();
             }
+            Next::SaveOwn => drop(self.save(None)),
             Next::Save(ask) => self.ask_where_to_save(ask),
             Next::Open(path) => self.open(&path),
         }
@@ -245,7 +248,7 @@ impl EditorApp {
         let Some(answer) = ask_close::ask(ctx, &question) else { return };
         self.files.asks = None;
         match (answer, self.files.waiting.take()) {
-            (ask_close::Answer::Discard, Some(next @ Next::Save(_))) => {
+            (ask_close::Answer::Discard, Some(next @ (Next::SaveOwn | Next::Save(_)))) => {
                 problems::forget_text(ctx);
                 self.go_on(next);
             }
@@ -338,6 +341,14 @@ impl EditorApp {
         match self.unsaved() {
             Some(Unsaved::Text) => self.wait_for(Next::Save(ask), Unsaved::Text),
             _ => self.ask_where_to_save(ask),
+        }
+    }
+
+    /// Saves to the document's own file. If the scene's text was edited and not read, asks about that first.
+    pub(super) fn save_own_asking(&mut self) {
+        match self.unsaved() {
+            Some(Unsaved::Text) => self.wait_for(Next::SaveOwn, Unsaved::Text),
+            _ => drop(self.save(None)),
         }
     }
 

@@ -68,12 +68,12 @@ float hidden_at(vec2 offset_px, float bias, bool by_own) {
     return smoothstep(bias, 3.0 * bias, plane_depth(tap_px - place.xy) - there.x);
 }
 
-// The share of the stroke that other bodies hide, by taps on a grid.
-float hidden_by_others(mat2 turn, float bias, ivec2 grid) {
+// The share of the stroke that other bodies hide, by taps on a grid over `spread` times its length and width.
+float hidden_by_others(mat2 turn, float bias, ivec2 grid, vec2 spread) {
     float hidden = 0.0;
     for (int tap = 0; tap < grid.x * grid.y; tap++) {
         vec2 share = (vec2(tap % grid.x, tap / grid.x) + 0.5) / vec2(grid) - 0.5;
-        hidden += hidden_at(turn * (share * size.xy), bias, false);
+        hidden += hidden_at(turn * (share * spread * size.xy), bias, false);
     }
     return hidden / float(grid.x * grid.y);
 }
@@ -107,11 +107,13 @@ float seen(mat2 turn) {
         by_own += hidden_at(offset_px, bias, true);
         if (reach.x >= FREE) by_own += hidden_at(offset_px, bias, false);
     }
-    float by_others = hidden_by_others(turn, bias, GRID);
-#ifndef DRAFT
-    // Each tap of the coarse grid would be a visible step of a stroke that fades; whether it fades at all, the coarse one
-    // tells well enough.
-    if (by_others > 0.0 && by_others < 1.0) by_others = hidden_by_others(turn, bias, FINE_GRID);
+#ifdef DRAFT
+    float by_others = hidden_by_others(turn, bias, GRID, vec2(1.0));
+#else
+    // Each tap of a coarse grid would be a visible step of a stroke that fades. Where all taps agree, those on the stroke's
+    // rim too, so would those of the fine one.
+    float by_others = hidden_by_others(turn, bias, GRID, vec2(GRID) / vec2(GRID - 1));
+    if (by_others > 0.0 && by_others < 1.0) by_others = hidden_by_others(turn, bias, FINE_GRID, vec2(1.0));
 #endif
     float visible = 1.0 - by_others;
     return (1.0 - by_own / float(RING)) * smoothstep(0.0, WHOLE, visible);

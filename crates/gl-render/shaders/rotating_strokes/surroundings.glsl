@@ -41,7 +41,7 @@ float plane_depth(vec2 offset_px) {
 // Where it is covered, the stroke has the colour of what covers it.
 //
 // A leaf that passes before the centre would switch the colour: what counts is the share of seven places that is
-// covered, the centre and a ring half a stroke's width from it, without those where the body is not seen.
+// covered, the centre and a ring half a stroke's width from it or LEAST_RING_PX, without those where the body is not seen.
 float freedom(float id) {
     ivec2 last = textureSize(depth_and_id, 0) - 1;
     vec2 covers_px = COVERS_PX * min(2.0 * px_scale, 1.0);
@@ -54,7 +54,6 @@ float freedom(float id) {
     float facing = max(abs((mat3(view_from_world) * normal_and_bow.xyz).z), 0.05);
     float covered = 0.0;
     float found = 1e-4;
-    float doubt_px = 0.0;
     for (int index = 0; index < 4 * PLACES; index++) {
         float angle = 1.0471976 * float(index / 4);
         vec2 away_px = index < 4 ? vec2(0.0) : vec2(cos(angle), sin(angle)) * ring_px;
@@ -62,14 +61,14 @@ float freedom(float id) {
         ivec2 corner = ivec2(floor(at));
         vec2 part = at - vec2(corner);
         ivec2 offset = ivec2(index & 1, (index >> 1) & 1);
-        vec2 there = texelFetch(depth_and_id, clamp(corner + offset, ivec2(0), last), 0).xy;
-        if (index == 4) doubt_px = (1.0 - covered) * 0.5 * ring_px / facing;
+        ivec2 texel = corner + offset;
+        if (texel != clamp(texel, ivec2(0), last)) continue;
+        vec2 there = texelFetch(depth_and_id, texel, 0).xy;
         if (there.y != id) continue;
         vec2 offset_px = away_px + vec2(offset) - part;
         float before_px = (plane_depth(offset_px) - there.x) / units_per_px(place.z);
-        // The flatter the gaze, the less the stroke's normal says of the depth on the ring. `covered` is that of the centre
-        // until the ring begins.
-        before_px -= doubt_px;
+        // The flatter the gaze, the less the stroke's normal says of the depth on the ring, and the more is left to the centre.
+        if (index >= 4) before_px -= 0.5 * ring_px / facing;
         vec2 near = mix(1.0 - part, part, vec2(offset));
         found += near.x * near.y;
         covered += near.x * near.y * smoothstep(covers_px.x, covers_px.y, before_px);
@@ -101,8 +100,8 @@ vec4 own_color_at(vec2 at_px, float id, float free) {
     vec4 sum = vec4(0.0);
     for (int index = 0; index < 4; index++) {
         ivec2 offset = ivec2(index & 1, index >> 1);
-        ivec2 texel = clamp(corner + offset, ivec2(0), last);
-        if (texelFetch(depth_and_id, texel, 0).y != id) continue;
+        ivec2 texel = corner + offset;
+        if (texel != clamp(texel, ivec2(0), last) || texelFetch(depth_and_id, texel, 0).y != id) continue;
         vec2 near = mix(1.0 - part, part, vec2(offset));
         float weight = near.x * near.y * (1.0 - free * other_face(texel));
         sum += vec4(texelFetch(reference_color, texel, 0).rgb, 1.0) * weight;
@@ -133,23 +132,24 @@ float is_past_both(vec2 center_px, vec2 offset_px, vec2 own, float free) {
 // The next distance at which a face that has ended is looked at, relative to the first.
 const float FURTHER = 1.2;
 
-// How thin the stroke's own face is, 0..1: in how many directions it ends nearby on both sides. A face one pixel wide, such
-// as the side of a shutter, is not where the stroke's face ends: it must have ended at the next distance, too.
+// How thin the stroke's own face is, 0..1: in how many directions it has ended nearby on both sides. At a face one pixel
+// wide, such as the side of a shutter, the stroke's own has not ended: it must have ended nearer or further away, too.
 float thinness(vec2 center_px, vec2 own, float free) {
     float around_px = AROUND_PX * max(2.0 * px_scale, 1.0);
-    // Beyond the picture nothing is known: towards its border less far is looked.
+    // Beyond the picture nothing is known: towards its border less far is looked, and what is found there counts less.
     vec2 room_px = max(min(center_px, vec2(textureSize(depth_and_id, 0)) - center_px), 0.0) / FURTHER;
     float sum = 0.0;
     for (int index = 0; index < 12; index++) {
         float angle = 0.26179939 * float(index);
         vec2 offset_px = vec2(cos(angle), sin(angle)) * around_px;
-        vec2 fits = room_px / max(abs(offset_px), 1e-3);
-        offset_px *= min(min(fits.x, fits.y), 1.0);
+        vec2 shares = room_px / max(abs(offset_px), 1e-3);
+        float fits = min(min(shares.x, shares.y), 1.0);
+        offset_px *= fits;
         float past = is_past_both(center_px, offset_px, own, free);
         if (past == 0.0) continue;
         float nearer = is_past_both(center_px, 0.55 * offset_px, own, free);
         float further = nearer < past ? is_past_both(center_px, FURTHER * offset_px, own, free) : 0.0;
-        sum += min(past, nearer) + min(past, max(nearer, further));
+        sum += fits * (min(past, nearer) + min(past, max(nearer, further)));
     }
     return sum / 24.0;
 }
