@@ -54,7 +54,11 @@ float freedom(float id) {
     float facing = max(abs((mat3(view_from_world) * normal_and_bow.xyz).z), 0.05);
     float covered = 0.0;
     float found = 1e-4;
+    float doubt_px = 0.0;
     for (int index = 0; index < 4 * PLACES; index++) {
+        // The flatter the gaze, the less the stroke's normal says of the depth on the ring, and the more is left to the centre,
+        // but in small pictures, where what covers the centre is near.
+        if (index == 4) doubt_px = (1.0 - covered * (1.0 - min(2.0 * px_scale, 1.0))) * 0.5 * ring_px / facing;
         float angle = 1.0471976 * float(index / 4);
         vec2 away_px = index < 4 ? vec2(0.0) : vec2(cos(angle), sin(angle)) * ring_px;
         vec2 at = place.xy + away_px - 0.5;
@@ -67,8 +71,7 @@ float freedom(float id) {
         if (there.y != id) continue;
         vec2 offset_px = away_px + vec2(offset) - part;
         float before_px = (plane_depth(offset_px) - there.x) / units_per_px(place.z);
-        // The flatter the gaze, the less the stroke's normal says of the depth on the ring, and the more is left to the centre.
-        if (index >= 4) before_px -= 0.5 * ring_px / facing;
+        if (index >= 4) before_px -= doubt_px;
         vec2 near = mix(1.0 - part, part, vec2(offset));
         found += near.x * near.y;
         covered += near.x * near.y * smoothstep(covers_px.x, covers_px.y, before_px);
@@ -100,8 +103,8 @@ vec4 own_color_at(vec2 at_px, float id, float free) {
     vec4 sum = vec4(0.0);
     for (int index = 0; index < 4; index++) {
         ivec2 offset = ivec2(index & 1, index >> 1);
-        ivec2 texel = corner + offset;
-        if (texel != clamp(texel, ivec2(0), last) || texelFetch(depth_and_id, texel, 0).y != id) continue;
+        ivec2 texel = clamp(corner + offset, ivec2(0), last);
+        if (texelFetch(depth_and_id, texel, 0).y != id) continue;
         vec2 near = mix(1.0 - part, part, vec2(offset));
         float weight = near.x * near.y * (1.0 - free * other_face(texel));
         sum += vec4(texelFetch(reference_color, texel, 0).rgb, 1.0) * weight;
