@@ -86,6 +86,7 @@ fn an_edited_text_outlives_a_kill() {
     editor.click("Open what was being painted");
     editor.control("Read this text");
     editor.keep_picture("text");
+    assert_eq!(editor.title(), "apple.ron - Impasto", "only the text was edited");
     assert_eq!(std::fs::read_to_string(folder.path().join("apple.ron")).unwrap(), broken);
 }
 

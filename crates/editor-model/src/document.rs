@@ -40,7 +40,8 @@ pub struct Document {
     options: LoadOptions,
     /// The file as it was read or written last.
     stamp: Option<Stamp>,
-    /// The text that the scene was read from; `None` unless parts of it could not be read.
+    /// The text that the scene was read from; `None` unless parts of it could not be read, or the user was editing it when
+    /// the window was killed.
     source: Option<Arc<Source>>,
     revision: u64,
 }

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! Document ─▶ Work ─▶ Keeper (a thread) ─▶ Recovery::keep ─▶ NAME.ron   whole or not at all, never over a scene
-//! next start: Recovery::offers ─▶ Offer ─▶ Document::recovered, edited and not saved
+//! next start: Recovery::offers ─▶ Offer ─▶ Document::recovered, as it was and not saved
 //! ```
 //!
 //! A session is one running editor. It holds a lock on `NAME.lock`, so that other sessions can tell its copy from one

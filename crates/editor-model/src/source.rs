@@ -40,10 +40,14 @@ impl Source {
         Self { text: text.clone(), losses: losses.clone(), scene: loaded.scene.clone(), stand_ins }
     }
 
-    /// A hash of what could not be read, to tell whether it is the same again.
+    /// A hash of which parts could not be read, to tell whether they are the same again. Where the file lies does not
+    /// matter.
     pub(crate) fn losses_hash(&self) -> u64 {
-        let words: Vec<String> = self.losses.iter().map(|loss| loss.problem.to_string()).collect();
-        hash(words.join("\n").as_bytes())
+        let parts = self.losses.iter().map(|Loss { problem, mesh, .. }| {
+            let place = problem.place.map(|place| (place.line, place.column));
+            format!("{place:?} {} {mesh:?}\n", problem.field_path)
+        });
+        hash(parts.collect::<String>().as_bytes())
     }
 
     /// The scene with the boxes added to its meshes, so that an edited scene which names an unusable mesh still gets

@@ -41,24 +41,25 @@ impl Document {
     pub fn recovered(copy: &Copy, options: &LoadOptions) -> Result<Self, Report> {
         let salvaged = salvage::salvage_text(&copy.path, &copy.text, options)?;
         let read_from = copy.source.as_ref().and_then(|text| {
-            let read_from = Source::with_any_losses(&salvage::salvage_text(&copy.path, text, options).ok()?);
-            // Where files came or went since, what the copy lacks would be taken for what the user has deleted.
-            let is_same = copy.losses == Some(read_from.losses_hash());
-            let is_known = |mesh: &String| read_from.has_stand_in(mesh);
-            let are_known = salvaged.losses.iter().all(|loss| loss.mesh.as_ref().is_some_and(is_known));
-            (is_same && are_known).then_some(read_from)
+            Some(Source::with_any_losses(&salvage::salvage_text(&copy.path, text, options).ok()?))
+        });
+        // Where files came or went since, what the copy lacks would be taken for what the user has deleted.
+        let is_known = read_from.as_ref().is_some_and(|source| {
+            let has_box = |mesh: &String| source.has_stand_in(mesh);
+            copy.losses == Some(source.losses_hash())
+                && salvaged.losses.iter().all(|loss| loss.mesh.as_ref().is_some_and(has_box))
         });
         // A scene that was read with losses must not overwrite its file if it is not known what was lost.
-        let file = copy.file.clone().filter(|_| !copy.lossy || read_from.is_some());
+        let file = copy.file.clone().filter(|_| !copy.lossy || is_known);
         let stamp = copy.stamp.filter(|_| file.is_some());
         let is_as_read = read_from.as_ref().is_some_and(|source| source.scene == salvaged.loaded.scene);
         let source = match &copy.unread {
             // An edited text is shown beside a source, whether anything was lost or not.
             Some(_) => read_from.or_else(|| Some(Source::with_any_losses(&salvaged))),
-            None => read_from.or_else(|| Source::of(&salvaged)),
+            None => read_from.filter(|_| is_known).or_else(|| Source::of(&salvaged)),
         };
         let document = Self::of(salvaged.loaded, file, options.clone());
-        let history = History::new(is_as_read && copy.changes == 0);
+        let history = History::new(is_known && is_as_read && copy.changes == 0);
         Ok(Self { stamp, source: source.map(Arc::new), history, ..document })
     }
 

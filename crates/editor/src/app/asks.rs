@@ -37,7 +37,7 @@ impl EditorApp {
             Ask::Mend(mend) => self.mend(mend),
             Ask::SaveCopy => self.save_asking(FileAsk::SaveCopy),
             Ask::ShowProblems => self.sheets.problems = !self.sheets.problems,
-            Ask::Settle(index, settle) => self.settle(index, settle, ctx),
+            Ask::Settle(index, settle) => self.settle(index, settle),
             Ask::BringFile(to) => {
                 let start = self.editor.document().folder().to_owned();
                 self.files.bring_to = Some(to);

@@ -248,7 +248,12 @@ impl EditorApp {
         let Some(answer) = ask_close::ask(ctx, &question) else { return };
         self.files.asks = None;
         match (answer, self.files.waiting.take()) {
-            (ask_close::Answer::Discard, Some(next @ (Next::SaveOwn | Next::Save(_)))) => {
+            (ask_close::Answer::Discard, Some(Next::SaveOwn)) => {
+                if self.save(None) {
+                    problems::forget_text(ctx);
+                }
+            }
+            (ask_close::Answer::Discard, Some(next @ Next::Save(_))) => {
                 problems::forget_text(ctx);
                 self.go_on(next);
             }
@@ -344,10 +349,13 @@ impl EditorApp {
         }
     }
 
-    /// Saves to the document's own file. If the scene's text was edited and not read, asks about that first.
+    /// Saves to the document's own file. If the scene's text was edited and not read, asks about that first, unless the
+    /// save will be refused for what is wrong with the scene.
     pub(super) fn save_own_asking(&mut self) {
         match self.unsaved() {
-            Some(Unsaved::Text) => self.wait_for(Next::SaveOwn, Unsaved::Text),
+            Some(Unsaved::Text) if self.editor.document().loss_count() == 0 => {
+                self.wait_for(Next::SaveOwn, Unsaved::Text);
+            }
             _ => drop(self.save(None)),
         }
     }

@@ -1,7 +1,5 @@
 //! Lists failures in the window until they are settled, and does what settles them.
 
-use egui::Context;
-
 use super::EditorApp;
 use super::long_work::MeshFor;
 use crate::files::file_ask::FileAsk;
@@ -42,14 +40,12 @@ impl EditorApp {
     }
 
     /// Does what a button of the list says.
-    pub(super) fn settle(&mut self, index: usize, settle: Settle, ctx: &Context) {
+    pub(super) fn settle(&mut self, index: usize, settle: Settle) {
         let Some(of) = self.troubles.get(index).map(|trouble| trouble.of.clone()) else { return };
         match (settle, &of) {
             (Settle::Dismiss, _) => self.settled(&of),
-            (Settle::SaveAs, _) => {
-                let start = self.editor.document().suggested_file();
-                self.files.dialogs.open(ctx, FileAsk::SaveAs, &start);
-            }
+            (Settle::SaveAs, _) => self.save_asking(FileAsk::SaveAs),
+            (Settle::Retry, TroubleOf::Save(None)) => self.save_own_asking(),
             (Settle::Retry, TroubleOf::Save(target)) => drop(self.save(target.as_deref())),
             (Settle::Retry, TroubleOf::Copy) => self.keep_before_risk(),
             (Settle::Retry, TroubleOf::Open(path)) => self.open_asking(path),

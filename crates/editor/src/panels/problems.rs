@@ -31,17 +31,17 @@ pub(super) fn count(shown: &PanelInput<'_>) -> usize {
     shown.document.problem_count() + shown.troubles.len()
 }
 
-/// The button of the status line that shows the panel, while there is anything to list.
+/// The button of the status line that shows the panel, while there is anything to list or an edited text to read.
 pub(super) fn chip(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let count = count(shown);
-    if count == 0 {
+    if count == 0 && unread_text(ui.ctx(), shown.document).is_none() {
         return;
     }
     let tokens = Tokens::of(ui);
     let is_error = shown.document.loss_count() > 0 || !shown.troubles.is_empty();
     let (icon, colour) =
         if is_error { (icons::ERROR, tokens.vermilion) } else { (icons::WARNING, tokens.ochre) };
-    let words = counted(count);
+    let words = if count == 0 { "Edited text".to_owned() } else { counted(count) };
     let size = vec2(text_width(ui, &words, type_face::small()) + 30.0, measure::STATUS_LINE);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     if response.hovered() || response.has_focus() {

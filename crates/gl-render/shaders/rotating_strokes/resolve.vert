@@ -110,8 +110,8 @@ float seen(mat2 turn) {
 #ifdef DRAFT
     float by_others = hidden_by_others(turn, bias, GRID, vec2(1.0));
 #else
-    // Each tap of a coarse grid would be a visible step of a stroke that fades. Where all taps agree, those on the stroke's
-    // rim too, so would those of the fine one.
+    // Each tap of a coarse grid would be a visible step of a stroke that fades. Where all its taps agree, those on the
+    // stroke's rim too, the fine one would find little else: what is narrower than half a stroke.
     float by_others = hidden_by_others(turn, bias, GRID, vec2(GRID) / vec2(GRID - 1));
     if (by_others > 0.0 && by_others < 1.0) by_others = hidden_by_others(turn, bias, FINE_GRID, vec2(1.0));
 #endif
