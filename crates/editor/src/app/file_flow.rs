@@ -249,7 +249,8 @@ impl EditorApp {
         self.files.asks = None;
         match (answer, self.files.waiting.take()) {
             (ask_close::Answer::Discard, Some(Next::SaveOwn)) => {
-                if self.save(None) {
+                let is_saved = self.save(None);
+                if is_saved {
                     problems::forget_text(ctx);
                 }
             }
