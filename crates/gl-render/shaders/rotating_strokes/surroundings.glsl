@@ -52,13 +52,13 @@ float freedom(float id) {
 #endif
     float ring_px = max(0.5 * size.y, LEAST_RING_PX * min(2.0 * px_scale, 1.0));
     float facing = max(abs((mat3(view_from_world) * normal_and_bow.xyz).z), 0.05);
+    // The flatter the gaze, the less the stroke's normal says of the depth on the ring. At the rim of a body the centre alone
+    // tells: there the near side covers the far one.
+    float doubt_px = 0.5 * ring_px / facing;
+    float believed = smoothstep(0.1, 0.35, facing);
     float covered = 0.0;
     float found = 1e-4;
-    float doubt_px = 0.0;
     for (int index = 0; index < 4 * PLACES; index++) {
-        // The flatter the gaze, the less the stroke's normal says of the depth on the ring, and the more is left to the centre,
-        // but in small pictures, where what covers the centre is near.
-        if (index == 4) doubt_px = (1.0 - covered * (1.0 - min(2.0 * px_scale, 1.0))) * 0.5 * ring_px / facing;
         float angle = 1.0471976 * float(index / 4);
         vec2 away_px = index < 4 ? vec2(0.0) : vec2(cos(angle), sin(angle)) * ring_px;
         vec2 at = place.xy + away_px - 0.5;
@@ -73,8 +73,9 @@ float freedom(float id) {
         float before_px = (plane_depth(offset_px) - there.x) / units_per_px(place.z);
         if (index >= 4) before_px -= doubt_px;
         vec2 near = mix(1.0 - part, part, vec2(offset));
-        found += near.x * near.y;
-        covered += near.x * near.y * smoothstep(covers_px.x, covers_px.y, before_px);
+        float weight = near.x * near.y * (index < 4 ? 1.0 : believed);
+        found += weight;
+        covered += weight * smoothstep(covers_px.x, covers_px.y, before_px);
     }
     return 1.0 - covered / found;
 }
