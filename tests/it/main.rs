@@ -55,6 +55,7 @@ mod shots;
 mod sidecars;
 mod steadiness;
 mod strange_models;
+mod stroke_colors;
 mod sumi_e;
 mod touches;
 mod turntable;

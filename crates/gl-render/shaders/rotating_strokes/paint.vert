@@ -71,14 +71,20 @@ const float WET_PICKUP = 0.25;
 const float BYTE = 1.0 / 255.0;
 
 #ifndef DRAFT
-// The mean colour below on the stroke's own body (not premultiplied), and its alpha.
+// The mean colour below on the stroke's own body (not premultiplied), and its alpha: five places, each between four pixels, so
+// that none comes or goes at once as the view moves.
 vec4 paint_below(vec2 center_px, float spread_px) {
     vec4 sum = vec4(0.0);
-    for (int index = 0; index < 5; index++) {
-        vec2 offset = index == 4 ? vec2(0.0) : vec2(index & 1, index >> 1) * 2.0 - 1.0;
-        ivec2 texel = ivec2(clamp(center_px + offset * spread_px, vec2(0.0), size_px - 1.0));
+    for (int index = 0; index < 20; index++) {
+        int place = index >> 2;
+        vec2 away = place == 4 ? vec2(0.0) : vec2(place & 1, place >> 1) * 2.0 - 1.0;
+        vec2 at = center_px + away * spread_px - 0.5;
+        ivec2 offset = ivec2(index & 1, (index >> 1) & 1);
+        ivec2 texel = clamp(ivec2(floor(at)) + offset, ivec2(0), ivec2(size_px) - 1);
         // No colour of one body is smeared over another.
-        if (texelFetch(depth_and_id, texel, 0).y == float(marks.y)) sum += texelFetch(below, texel, 0);
+        if (texelFetch(depth_and_id, texel, 0).y != float(marks.y)) continue;
+        vec2 near = mix(1.0 - fract(at), fract(at), vec2(offset));
+        sum += texelFetch(below, texel, 0) * near.x * near.y;
     }
     return vec4(sum.rgb / max(sum.a, 1e-4), sum.a / 5.0);
 }
@@ -162,7 +168,7 @@ void main() {
     picked_up = vec4(0.0);
 #else
     vec4 under = pickup > 0.0 ? paint_below(center_px - along * (0.3 * size.x), 0.15 * size.y) : vec4(0.0);
-    picked_up = vec4(under.rgb, pickup * smoothstep(0.3, 0.9, under.a));
+    picked_up = vec4(under.rgb, pickup * smoothstep(0.6, 1.0, under.a));
 #endif
 
     // A constant level keeps the mark the same at every angle.

@@ -332,12 +332,13 @@ void main() {
     float across_px = max(BLUR[kind] * size.y, clamp(1.4 * px_scale, LEAST_BLUR_PX, 1.4));
     mat2 blur_px = mat2(clamp(0.16 * size.x, across_px, 2.5 * across_px), 0.0, 0.0, across_px);
     if (kind == TOUCHES) blur_px = mat2(across_px, 0.0, 0.0, across_px);
-    float free = kind == LIGHTS ? 0.0 : freedom(own.y);
+    vec2 at_px = kind == LIGHTS ? place.xy + moved : center_in_picture();
+    float free = kind == LIGHTS ? 0.0 : freedom(at_px, own.y);
     // What covers a stroke, as leaves do, changes as the view moves: its colour is taken from a wider surrounding.
     blur_px *= kind == LIGHTS ? 1.0 : 1.0 + 1.5 * (1.0 - free);
-    vec4 found = own_color(kind == LIGHTS ? place.xy + moved : place.xy, own.y, turn * blur_px, free);
+    vec4 found = own_color(at_px, own.y, turn * blur_px, free);
     // Only the picture has highlights, not the stroke's own lit albedo.
-    float known = kind == LIGHTS ? 1.0 : found.w * (1.0 - smoothstep(0.0, THIN, thinness(place.xy, own, free)));
+    float known = kind == LIGHTS ? 1.0 : found.w * (1.0 - smoothstep(0.0, THIN, thinness(at_px, own, free)));
     vec3 color = known == 1.0 ? found.rgb : mix(color_of_own(), found.rgb, known);
     vec3 lab = oklab_from_linear(color);
     Mixing mixing = mixing_of(bytes.y);
@@ -352,7 +353,7 @@ void main() {
         if (kind == TOUCHES) fitted.z = oklab_from_linear(resolved.rgb).x;
         return;
     }
-    vec3 wide = kind == ACCENTS ? mix(lab, wide_mean(place.xy, own.y, lab, free), known) : lab;
+    vec3 wide = kind == ACCENTS ? mix(lab, wide_mean(at_px, own.y, lab, free), known) : lab;
     lab = mixed(lab, wide, kind, mixing, uvec2(marks.x, floatBitsToUint(reach.y)));
 #ifdef DRAFT
     there = max(there - LEAST, 0.0) / (1.0 - LEAST);

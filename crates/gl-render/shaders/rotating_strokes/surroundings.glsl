@@ -23,6 +23,20 @@ const vec2 COVERS_PX = vec2(2.0, 6.0);
 // a smaller one, single pixels decide by chance.
 const float LEAST_RING_PX = 1.6;
 
+// The stroke's centre or, where that lies beyond the picture, the place nearest to it that the stroke's middle line has in the
+// picture: what is seen of the stroke begins there.
+vec2 center_in_picture() {
+    vec2 first = vec2(0.5);
+    vec2 last = vec2(textureSize(depth_and_id, 0)) - 0.5;
+    vec2 missing_px = clamp(place.xy, first, last) - place.xy;
+    if (missing_px == vec2(0.0)) return place.xy;
+    vec2 along = vec2(cos(place.w), sin(place.w));
+    bool is_beside = abs(missing_px.x) > abs(missing_px.y);
+    float slope = is_beside ? along.x : along.y;
+    float along_px = (is_beside ? missing_px.x : missing_px.y) / (slope < 0.0 ? min(slope, -1e-3) : max(slope, 1e-3));
+    return clamp(place.xy + along * clamp(along_px, -0.5 * size.x, 0.5 * size.x), first, last);
+}
+
 // Depth and body id of the pixel at a place.
 vec2 surface_at(vec2 at_px) {
     ivec2 texel = clamp(ivec2(floor(at_px)), ivec2(0), textureSize(depth_and_id, 0) - 1);
@@ -42,7 +56,7 @@ float plane_depth(vec2 offset_px) {
 //
 // A leaf that passes before the centre would switch the colour: what counts is the share of seven places that is
 // covered, the centre and a ring half a stroke's width from it or LEAST_RING_PX, without those where the body is not seen.
-float freedom(float id) {
+float freedom(vec2 center_px, float id) {
     ivec2 last = textureSize(depth_and_id, 0) - 1;
     vec2 covers_px = COVERS_PX * min(2.0 * px_scale, 1.0);
 #ifdef DRAFT
@@ -57,11 +71,11 @@ float freedom(float id) {
     float doubt_px = 0.5 * ring_px / facing;
     float believed = smoothstep(0.1, 0.35, facing);
     float covered = 0.0;
-    float found = 1e-4;
+    float found = 0.0;
     for (int index = 0; index < 4 * PLACES; index++) {
         float angle = 1.0471976 * float(index / 4);
         vec2 away_px = index < 4 ? vec2(0.0) : vec2(cos(angle), sin(angle)) * ring_px;
-        vec2 at = place.xy + away_px - 0.5;
+        vec2 at = center_px + away_px - 0.5;
         ivec2 corner = ivec2(floor(at));
         vec2 part = at - vec2(corner);
         ivec2 offset = ivec2(index & 1, (index >> 1) & 1);
@@ -69,7 +83,7 @@ float freedom(float id) {
         if (texel != clamp(texel, ivec2(0), last)) continue;
         vec2 there = texelFetch(depth_and_id, texel, 0).xy;
         if (there.y != id) continue;
-        vec2 offset_px = away_px + vec2(offset) - part;
+        vec2 offset_px = vec2(texel) + 0.5 - place.xy;
         float before_px = (plane_depth(offset_px) - there.x) / units_per_px(place.z);
         if (index >= 4) before_px -= doubt_px;
         vec2 near = mix(1.0 - part, part, vec2(offset));
@@ -77,7 +91,8 @@ float freedom(float id) {
         found += weight;
         covered += weight * smoothstep(covers_px.x, covers_px.y, before_px);
     }
-    return 1.0 - covered / found;
+    // Where most places show other bodies, the few that are left would switch the colour.
+    return (found - covered) / max(found, 0.5 * (1.0 + float(PLACES - 1) * believed));
 }
 
 // How far a pixel of the stroke's own body shows another face than that of the stroke, 0..1. A body that noise colours has no
@@ -89,23 +104,28 @@ float other_face(ivec2 texel) {
     return 1.0 - smoothstep(SAME_FACE.x, SAME_FACE.y, cosine);
 }
 
+bool is_in_picture(ivec2 texel) {
+    return all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, textureSize(reference_color, 0)));
+}
+
 // The sum of the colours of the four nearest pixels, by bilinear weights; w is the sum of these weights. Only pixels of
 // the body count, and the further the stroke is `free`, the less those of its other faces. The plain render has hard
-// edges, and a tap on a single pixel would jump at them.
+// edges, and a tap on a single pixel would jump at them. Beyond the picture there are none: the pixels at its border, taken
+// again and again, would decide alone.
 vec4 own_color_at(vec2 at_px, float id, float free) {
 #ifdef DRAFT
-    ivec2 nearest = clamp(ivec2(at_px), ivec2(0), textureSize(reference_color, 0) - 1);
-    return texelFetch(depth_and_id, nearest, 0).y == id ? vec4(texelFetch(reference_color, nearest, 0).rgb, 1.0) : vec4(0.0);
+    ivec2 nearest = ivec2(floor(at_px));
+    bool is_own = is_in_picture(nearest) && texelFetch(depth_and_id, nearest, 0).y == id;
+    return is_own ? vec4(texelFetch(reference_color, nearest, 0).rgb, 1.0) : vec4(0.0);
 #endif
     vec2 at = at_px - 0.5;
     ivec2 corner = ivec2(floor(at));
-    ivec2 last = textureSize(reference_color, 0) - 1;
     vec2 part = at - vec2(corner);
     vec4 sum = vec4(0.0);
     for (int index = 0; index < 4; index++) {
         ivec2 offset = ivec2(index & 1, index >> 1);
-        ivec2 texel = clamp(corner + offset, ivec2(0), last);
-        if (texelFetch(depth_and_id, texel, 0).y != id) continue;
+        ivec2 texel = corner + offset;
+        if (!is_in_picture(texel) || texelFetch(depth_and_id, texel, 0).y != id) continue;
         vec2 near = mix(1.0 - part, part, vec2(offset));
         float weight = near.x * near.y * (1.0 - free * other_face(texel));
         sum += vec4(texelFetch(reference_color, texel, 0).rgb, 1.0) * weight;
