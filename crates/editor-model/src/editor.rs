@@ -104,8 +104,13 @@ pub struct Editor {
     said: Vec<Said>,
     requests: Vec<Request>,
     version: u64,
-    /// [`Document::loss_count`] when messages were last taken, or when the document was saved after that.
-    losses: usize,
+    /// [`losses_of`] the document when messages were last taken, or when the document was saved after that.
+    losses: (usize, bool),
+}
+
+/// How many losses are left, and whether saving over the file would lose text.
+fn losses_of(document: &Document) -> (usize, bool) {
+    (document.loss_count(), document.saving_loses())
 }
 
 impl Editor {
@@ -114,7 +119,7 @@ impl Editor {
         // A shot of another program may begin long after frame 0.
         let timeline = &document.scene().timeline;
         let frame = reference_frame(document.scene()).max(timeline.first as f64).min(timeline.last as f64);
-        let losses = document.loss_count();
+        let losses = losses_of(&document);
         let session = Session { frame, ..Session::default() };
         Self {
             document,
@@ -227,9 +232,12 @@ impl Editor {
 
     /// Takes all messages to show.
     pub fn take_said(&mut self) -> Vec<Said> {
-        let losses = self.document.loss_count();
-        if std::mem::replace(&mut self.losses, losses) > 0 && losses == 0 {
-            self.say("No problems left. Saving is on again.");
+        let losses = losses_of(&self.document);
+        match (std::mem::replace(&mut self.losses, losses), losses) {
+            ((_, true), (0, _)) => self.say("No problems left. Saving is on again."),
+            ((_, true), (_, false)) => self.say("Saving is on again."),
+            ((1.., false), (0, _)) => self.say("No problems left."),
+            _ => {}
         }
         std::mem::take(&mut self.said)
     }

@@ -8,6 +8,7 @@ use impasto_scene::document::Scene;
 use impasto_scene::load::salvage::{Loss, Salvaged};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::mesh_file::MeshFile;
+use impasto_scene::problem::{Problem, TextPosition};
 
 use crate::stamp::hash;
 
@@ -40,6 +41,29 @@ impl Source {
         Self { text: text.clone(), losses: losses.clone(), scene: loaded.scene.clone(), stand_ins }
     }
 
+    /// The source of the saved scene, whose text is `text`: of what could not be read, meshes are left. `None` if the scene
+    /// names none that cannot be used.
+    pub(crate) fn saved(&self, text: String, scene: &Scene) -> Option<Self> {
+        let in_text = |loss: &Loss| {
+            let mesh = loss.mesh.as_ref()?;
+            let object = scene.objects.iter().position(|object| object.mesh == *mesh)?;
+            let problem = Problem {
+                place: place_of_mesh(&text, mesh),
+                field_path: format!("objects[{object}].mesh").into(),
+                ..loss.problem.clone()
+            };
+            // A fix is of the text as it was.
+            Some(Loss { problem, fix: None, ..loss.clone() })
+        };
+        let losses: Vec<Loss> = self.losses.iter().filter_map(in_text).collect();
+        (!losses.is_empty()).then(|| Self {
+            losses,
+            scene: scene.clone(),
+            stand_ins: self.stand_ins.clone(),
+            text,
+        })
+    }
+
     /// A hash of which parts could not be read, to tell whether they are the same again. Where the file lies does not
     /// matter.
     pub(crate) fn losses_hash(&self) -> u64 {
@@ -64,4 +88,13 @@ impl Source {
     pub(crate) fn has_stand_in(&self, mesh: &str) -> bool {
         self.stand_ins.contains_key(mesh)
     }
+}
+
+/// Where a saved scene first names a mesh.
+fn place_of_mesh(text: &str, mesh: &str) -> Option<TextPosition> {
+    const FIELD: &str = "mesh: ";
+    let before = &text[..text.find(&format!("{FIELD}{mesh:?}"))? + FIELD.len()];
+    let line_start = before.rfind('\n').map_or(0, |end| end + 1);
+    let line = before.matches('\n').count() + 1;
+    Some(TextPosition { line, column: before[line_start..].chars().count() + 1 })
 }

@@ -105,7 +105,7 @@ impl Document {
         self.stamp = Stamp::of(target).map(written);
         self.file = Some(target.to_owned());
         self.loaded = Arc::new(LoadedScene { path: target.to_owned(), ..(*self.loaded).clone() });
-        self.source = None;
+        self.source = self.source.as_ref().and_then(|source| source.saved(text, self.scene())).map(Arc::new);
         self.history.mark_saved();
         Ok(missing)
     }
@@ -115,8 +115,11 @@ impl Document {
         // Compared by `loaded.path`: a recovered copy of which it is not known what was lost has no `file`, but must not
         // overwrite its origin.
         let is_own = real(target) == real(&self.loaded.path);
-        match self.first_loss().filter(|_| is_own) {
-            Some(line) => Err(SaveError::Problems { count: self.loss_count(), line }),
+        match self.unread_parts().next().filter(|_| is_own) {
+            Some(first) => Err(SaveError::Problems {
+                count: self.unread_parts().count(),
+                line: first.problem.place.map_or(1, |place| place.line),
+            }),
             None => Ok(()),
         }
     }
@@ -268,7 +271,7 @@ impl Document {
             stamp: self.stamp,
             at_unix_secs,
             changes: self.changes().max(usize::from(self.is_edited())),
-            lossy: self.first_loss().is_some(),
+            lossy: self.saving_loses(),
             text: String::new(),
             source: self.source.as_ref().map(|source| source.text.clone()),
             losses: self.source.as_ref().map(|source| source.losses_hash()),

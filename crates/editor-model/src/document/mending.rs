@@ -61,7 +61,7 @@ pub enum Repair {
 }
 
 impl Document {
-    /// All problems: first those that keep the scene from being saved over its file, then the rest.
+    /// All problems: first what could not be read or used, then the rest.
     pub fn problems(&self) -> Vec<ProblemRow> {
         let losses = self.open_losses().map(|(index, loss)| {
             let mut repairs = missing_file(&loss.problem, loss.mesh.is_some());
@@ -93,15 +93,20 @@ impl Document {
         self.loss_count() + self.loaded.warnings.len()
     }
 
-    /// How many losses are left. While any is left, the scene must not be saved over its file.
+    /// How many losses are left.
     pub fn loss_count(&self) -> usize {
         self.open_losses().count()
     }
 
-    /// The line of the first loss that is left.
-    pub(super) fn first_loss(&self) -> Option<usize> {
-        let (_, first) = self.open_losses().next()?;
-        Some(first.problem.place.map_or(1, |place| place.line))
+    /// Whether saving over the scene's file would lose a part of its text that could not be read. A mesh that is missing
+    /// or cannot be used is no such part: the scene goes on to name it.
+    pub fn saving_loses(&self) -> bool {
+        self.unread_parts().next().is_some()
+    }
+
+    /// The parts of the text that could not be read.
+    pub(super) fn unread_parts(&self) -> impl Iterator<Item = &Loss> {
+        self.open_losses().map(|(_, loss)| loss).filter(|loss| loss.mesh.is_none())
     }
 
     /// The losses that are left, with their indices. An unusable mesh counts only while the scene names it.

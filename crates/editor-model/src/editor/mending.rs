@@ -35,10 +35,12 @@ pub struct Mended {
 }
 
 /// Whether a repaired document was put in place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Took {
     /// It was put in place; true if that changed anything.
     In(bool),
+    /// What changed on disk could not be read, for this reason; the document is as before.
+    Unread(String),
     /// It was dropped, because the document was edited or saved meanwhile.
     Late,
 }
@@ -78,17 +80,14 @@ impl Editor {
             self.document.select(selection);
         }
         self.version += 1;
-        Took::In(match (mended.unasked, mended.result) {
-            (None, result) => self.told(result),
+        match (mended.unasked, mended.result) {
+            (None, result) => Took::In(self.told(result)),
             (Some(words), Ok(_)) => {
                 self.say(words);
-                true
+                Took::In(true)
             }
-            (Some(_), Err(refusal)) => {
-                self.refuse(&refusal);
-                false
-            }
-        })
+            (Some(_), Err(refusal)) => Took::Unread(refusal.0),
+        }
     }
 
     /// A function for any thread that reads what changed on disk, for [`Editor::take`]; view, selection and mode stay.
@@ -100,10 +99,13 @@ impl Editor {
         let mut document = self.document.clone();
         Some(move || {
             let (name, version_of) = (document.name(), version_of(&document));
-            let result = take_in(&mut document, news).map_err(|refusal| {
-                Refusal::new(format!("{name} changed on disk; what was read last stays: {}", refusal.0))
-            });
-            let unasked = Some(format!("{name} changed on disk, and was read again"));
+            let what = match news {
+                News::Scene => name,
+                News::Files => format!("A file of {name}"),
+            };
+            let result = take_in(&mut document, news)
+                .map_err(|refusal| Refusal::new(format!("{what} changed on disk: {}", refusal.0)));
+            let unasked = Some(format!("{what} changed on disk, and was read again"));
             Mended { document, result, version_of, unasked }
         })
     }

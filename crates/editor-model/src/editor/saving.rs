@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::Editor;
+use super::{Editor, losses_of};
 use crate::document::SaveError;
 
 impl Editor {
@@ -15,7 +15,7 @@ impl Editor {
             Some(target) => self.document.save_as(target)?,
             None => self.document.save().map(|_| Vec::new())?,
         };
-        self.losses = self.document.loss_count();
+        self.losses = losses_of(&self.document);
         self.say(format!("Saved {}{}", self.document.name(), without_files(&missing)));
         Ok(())
     }

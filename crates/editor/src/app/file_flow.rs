@@ -319,7 +319,7 @@ impl EditorApp {
                 }
             }
             // A scene that was read with errors: the copy becomes the document, and the broken file stays as it is.
-            FileAsk::SaveCopy if self.editor.document().loss_count() > 0 => drop(self.save(Some(&path))),
+            FileAsk::SaveCopy if self.editor.document().saving_loses() => drop(self.save(Some(&path))),
             FileAsk::SaveCopy => self.save_copy(&path),
             FileAsk::LocateMesh => self.replace_mesh(&path),
             FileAsk::Missing => self.bring_file(&path),
@@ -354,7 +354,7 @@ impl EditorApp {
     /// save will be refused for what is wrong with the scene.
     pub(super) fn save_own_asking(&mut self) {
         match self.unsaved() {
-            Some(Unsaved::Text) if self.editor.document().loss_count() == 0 => {
+            Some(Unsaved::Text) if !self.editor.document().saving_loses() => {
                 self.wait_for(Next::SaveOwn, Unsaved::Text);
             }
             _ => drop(self.save(None)),

@@ -251,8 +251,14 @@ impl EditorApp {
             }
             Outcome::Mended(..) | Outcome::Mesh(..) if document.folder() != reading.folder => {}
             Outcome::Mended(news, mended) => match (self.editor.take(*mended), news) {
-                (Took::In(_), None) => {}
-                (Took::In(_), Some(_)) => self.sheets.problems |= self.editor.document().loss_count() > 0,
+                (Took::Unread(words), Some(news)) => self.trouble(TroubleOf::ChangedOutside(news), words),
+                (Took::In(_) | Took::Unread(_), None) => {}
+                (Took::In(_), Some(_)) => {
+                    for news in [News::Files, News::Scene] {
+                        self.settled(&TroubleOf::ChangedOutside(news));
+                    }
+                    self.sheets.problems |= self.editor.document().loss_count() > 0;
+                }
                 (Took::Late, Some(news)) => self.changed_outside(news),
                 (Took::Late, None) => {
                     let words =

@@ -17,6 +17,9 @@ impl EditorApp {
                 "A crash would lose what is not saved",
                 &[Settle::SaveAs, Settle::Retry, Settle::Dismiss],
             ),
+            TroubleOf::ChangedOutside(_) => {
+                (words, "What was read last stays", &[Settle::Retry, Settle::Dismiss])
+            }
             TroubleOf::Open(_)
             | TroubleOf::Import(_)
             | TroubleOf::Picture(..)
@@ -49,6 +52,7 @@ impl EditorApp {
             (Settle::Retry, TroubleOf::Save(target)) => drop(self.save(target.as_deref())),
             (Settle::Retry, TroubleOf::Copy) => self.keep_before_risk(),
             (Settle::Retry, TroubleOf::Open(path)) => self.open_asking(path),
+            (Settle::Retry, TroubleOf::ChangedOutside(news)) => self.changed_outside(*news),
             (Settle::Retry, TroubleOf::Import(path)) => self.read_mesh(path, MeshFor::Import),
             (Settle::Retry, TroubleOf::Picture(of, path)) => self.picture(of, path),
             (Settle::Retry, TroubleOf::Preset(of, path)) => self.use_preset(of.clone(), path),

@@ -124,8 +124,8 @@ fn counted(count: usize) -> String {
 /// Returns false when the panel is closed.
 fn head(ui: &mut Ui, shown: &PanelInput<'_>, count: usize, asks: &mut Vec<Ask>) -> bool {
     let tokens = Tokens::of(ui);
-    let is_lossy = shown.document.loss_count() > 0;
-    let glyph = if is_lossy || !shown.troubles.is_empty() {
+    let is_lossy = shown.document.saving_loses();
+    let glyph = if shown.document.loss_count() > 0 || !shown.troubles.is_empty() {
         (icons::ERROR, tokens.vermilion)
     } else {
         (icons::WARNING, tokens.ochre)

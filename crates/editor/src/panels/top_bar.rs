@@ -84,7 +84,7 @@ fn undo_button(
 fn document(ui: &mut Ui, shown: &PanelInput<'_>) {
     let tokens = Tokens::of(ui);
     let (name, edited) = (shown.document.name(), shown.document.is_edited());
-    let off = shown.document.loss_count() > 0;
+    let off = shown.document.saving_loses();
     let words = match (off, edited) {
         (true, _) => "saving over it is off",
         (false, true) => "edited",

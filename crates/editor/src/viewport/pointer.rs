@@ -83,7 +83,8 @@ impl Pointer {
                     }
                     self.inside = false;
                 }
-                Event::MouseWheel { unit, delta, modifiers, .. } if self.inside => {
+                // With Alt the wheel steps through frames. Some systems' wheel events do not tell that Alt is held.
+                Event::MouseWheel { unit, delta, modifiers, .. } if self.inside && !held.alt => {
                     // Some systems turn the wheel sideways while Shift is held.
                     let turned = if delta.y == 0.0 { delta.x } else { delta.y };
                     let steps = f64::from(turned)

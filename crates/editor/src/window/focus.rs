@@ -16,6 +16,15 @@ pub fn tab_pressed(ctx: &Context) -> Option<Modifiers> {
     ctx.data(|data| data.get_temp(tab_id())).flatten()
 }
 
+/// Lets a control that is dragged or clicked in this pass keep the focus, for its arrow keys.
+pub fn keep_focus(ctx: &Context, control: Id) {
+    ctx.data_mut(|data| data.insert_temp(kept_id(), Some(control)));
+}
+
+fn kept_id() -> Id {
+    Id::unique("control that keeps the focus")
+}
+
 fn tab_id() -> Id {
     Id::unique("tab for the app")
 }
@@ -41,10 +50,11 @@ impl Plugin for FocusRules {
     }
 
     fn on_end_pass(&mut self, ui: &mut Ui) {
+        let kept = ui.data_mut(|data| data.remove_temp::<Option<Id>>(kept_id())).flatten();
         let clicked = ui.input(|input| input.pointer.any_pressed() || input.pointer.any_released());
         if clicked && !ui.ctx().text_edit_focused() {
             ui.memory_mut(|memory| {
-                if let Some(focused) = memory.focused() {
+                if let Some(focused) = memory.focused().filter(|focused| kept != Some(*focused)) {
                     memory.surrender_focus(focused);
                 }
             });

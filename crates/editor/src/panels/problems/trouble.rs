@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use impasto_editor_model::PictureFor;
 use impasto_editor_model::command::StrokesOf;
+use impasto_editor_model::watch::News;
 
 /// A failure that is listed until it is settled.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,6 +28,8 @@ pub enum TroubleOf {
     Copy,
     /// A scene or a mesh was not opened.
     Open(PathBuf),
+    /// What changed on disk was not read.
+    ChangedOutside(News),
     /// A mesh was not imported.
     Import(PathBuf),
     /// The picture at this path could not be used for this.

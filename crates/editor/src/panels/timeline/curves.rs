@@ -17,6 +17,7 @@ use super::lanes::{is_selected, item, key_node};
 use crate::panels::{Ask, PanelInput};
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{Tip, ease_line};
+use crate::window::keep_focus;
 
 /// Room above and below the curves, points.
 const MARGIN: f32 = 14.0;
@@ -370,7 +371,13 @@ impl Handle<'_> {
             asks.extend((ease != segment.left.ease).then(|| Ask::Do(self.set(ease))));
         } else {
             self.drag(ui, &response, memory, asks);
-            if let Some(moved) = stepped(ui, &response, [time, share]) {
+            if response.clicked() {
+                response.request_focus();
+            }
+            if response.dragged() || response.drag_stopped() || response.clicked() {
+                keep_focus(ui.ctx(), response.id);
+            }
+            if let Some(moved) = stepped(ui, &response, [time, share], memory.drag.is_some()) {
                 let ease = with_handle(segment.left.ease, index, moved);
                 asks.push(Ask::DoMerged(self.set(ease), format!("{id:?}")));
             }
@@ -421,12 +428,18 @@ impl Handle<'_> {
     }
 }
 
-/// Where the arrows take a handle that has the focus.
-fn stepped(ui: &Ui, response: &Response, [time, share]: [f64; 2]) -> Option<[f64; 2]> {
+/// Where the arrows take a handle that has the focus. While it is dragged, Esc does not take the focus away, so that the
+/// handle gets it and not the window.
+fn stepped(ui: &Ui, response: &Response, [time, share]: [f64; 2], is_dragged: bool) -> Option<[f64; 2]> {
     if !response.has_focus() {
         return None;
     }
-    let filter = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
+    let filter = EventFilter {
+        horizontal_arrows: true,
+        vertical_arrows: true,
+        escape: is_dragged,
+        ..EventFilter::default()
+    };
     ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
     let (along, up) = ui.input(|input| {
         let pressed = |key: Key| f64::from(u8::from(input.key_pressed(key)));

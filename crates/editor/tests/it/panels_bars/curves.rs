@@ -117,6 +117,9 @@ fn escape_takes_a_drag_back() {
     harness.run();
     assert!(matches!(eases(harness.state(), 37.0)[1], Ease::Curve(..)));
     harness.key_press(Key::Escape);
+    harness.step();
+    // With the focus the key is the handle's; without it the window would use it up.
+    assert!(harness.ctx.memory(|memory| memory.focused()).is_some(), "Esc took the focus from the handle");
     harness.run();
     assert_eq!(eases(harness.state(), 37.0), [Ease::Smooth; 2]);
     harness.hover_at(from + vec2(40.0, -30.0));
@@ -126,6 +129,23 @@ fn escape_takes_a_drag_back() {
     assert_eq!(*harness.state().document.scene(), before);
     assert_eq!(harness.state().document.undo_count(), count);
     assert_eq!(eases(harness.state(), 37.0)[1], Ease::Smooth);
+}
+
+#[test]
+fn arrows_move_a_handle_that_was_clicked_or_dragged() {
+    let mut harness = curves_of(curved());
+    for drag_px in [0.0, 30.0] {
+        let from = place(&harness, "First handle");
+        drag(&mut harness, from, from + vec2(drag_px, 0.0));
+        let before = place(&harness, "First handle");
+        harness.key_press(Key::ArrowUp);
+        harness.run();
+        let after = place(&harness, "First handle");
+        assert!(after.y < before.y - 0.2 && (after.x - before.x).abs() < 0.5, "{before} to {after}");
+    }
+    // A click elsewhere gives up the focus.
+    click(&mut harness, "Curves");
+    assert!(harness.ctx.memory(|memory| memory.focused()).is_none());
 }
 
 #[test]
