@@ -26,6 +26,7 @@ use impasto_painting::Painting;
 use impasto_scene::document::{Reference, Scene};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion::{self, CameraPose};
+use impasto_scene::new_scene::Ground;
 
 use crate::camera_rig::Looking;
 use crate::command::{Arrange, Command, Pose, Time};
@@ -416,10 +417,15 @@ impl Editor {
             return "Drop a mesh or a scene anywhere in the window".to_owned();
         }
         let light = self.active_light().map(|place| place.light.name);
-        let object = || Some(self.document.shown().scene.objects[self.active_object()?].name.clone());
-        let object = light.or_else(object);
+        let object = || Some(&self.document.shown().scene.objects[self.active_object()?]);
+        // A drag does not take the ground away.
+        let is_ground = light.is_none() && object().is_some_and(|object| Ground::of_object(object).is_some());
+        let object = light.or_else(|| Some(object()?.name.clone()));
         let object = object.as_deref().unwrap_or("an object");
         match self.session.mode {
+            Mode::Arrange if is_ground && self.session.tool() == Tool::Select => {
+                format!("[G R S] move, turn, scale {object}  [Shift A] add  [Middle] orbit")
+            }
             Mode::Arrange => match self.session.tool() {
                 Tool::AddLight => "[Click] add a light here  [Middle] orbit".to_owned(),
                 Tool::ShotCamera => {

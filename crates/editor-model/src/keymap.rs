@@ -337,6 +337,15 @@ impl Keymap {
         chords.first().map(Chord::text)
     }
 
+    /// The first key of an action that does not do something else in `scope`; `None` if it has none.
+    pub fn shortcut_text_in(&self, action: Action, scope: Scope) -> Option<String> {
+        let chords = self.bindings().filter(|(binding, _)| binding.action == action);
+        let chords: Vec<Chord> = chords.flat_map(|(_, chords)| chords.to_vec()).collect();
+        let does = |chord: &Chord| self.action_for(chord.key, chord.held, scope);
+        let here = chords.iter().find(|chord| does(chord) == Some(action));
+        here.or_else(|| chords.iter().find(|chord| does(chord).is_none())).map(Chord::text)
+    }
+
     /// Every binding that has keys, for a list of keys, in the order of the menus.
     pub fn listed(&self) -> impl Iterator<Item = Listed> {
         self.bindings().filter(|(_, chords)| !chords.is_empty()).map(|(binding, chords)| {

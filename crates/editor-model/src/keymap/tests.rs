@@ -242,6 +242,28 @@ fn menus_write_keys_as_people_do() {
 }
 
 #[test]
+fn menus_of_a_mode_show_no_key_that_does_something_else_in_it() {
+    for (action, scope, text) in [
+        (Action::Delete, Scope::Arrange, Some("X")),
+        (Action::Delete, Scope::Paint, Some("Delete")),
+        (Action::SetKey, Scope::Animate, Some("I")),
+        (Action::SetKey, Scope::Paint, None),
+        // A key that does nothing here is shown: it is to be learnt.
+        (Action::Touch, Scope::Arrange, Some("U")),
+        (Action::Save, Scope::Paint, Some("Ctrl S")),
+    ] {
+        assert_eq!(BLENDER.shortcut_text_in(action, scope).as_deref(), text, "{action:?} in {scope:?}");
+    }
+    for scope in [Scope::Arrange, Scope::Paint, Scope::Animate] {
+        for action in Action::all() {
+            let both = keymaps()
+                .map(|keymap| (keymap.shortcut_text(action), keymap.shortcut_text_in(action, scope)));
+            assert!(both.into_iter().all(|(any, here)| any.is_some() || here.is_none()), "{action:?}");
+        }
+    }
+}
+
+#[test]
 fn pointer_buttons_orbit_pan_and_zoom() {
     let [ctrl, shift, alt] = ["Ctrl A", "Shift A", "Alt A"].map(|text| chord(text).held);
     let none = Modifiers::default();

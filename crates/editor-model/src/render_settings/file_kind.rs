@@ -65,10 +65,11 @@ impl FileKind {
             return output.to_owned();
         }
         let stem = ending.and_then(|_| output.rfind('.')).map_or(output, |at| &output[..at]);
-        // A movie has no number in its name.
+        // A movie has no number in its name, and frames have one again.
         let stem = match self {
-            Self::Movie => stem.trim_end_matches('#').trim_end_matches(['_', '-', '.']),
-            _ => stem,
+            Self::Movie => stem.trim_end_matches('#').trim_end_matches(['_', '-', '.']).to_owned(),
+            _ if ending == Some(FileEnding::Movie) && !stem.contains('#') => format!("{stem}_####"),
+            _ => stem.to_owned(),
         };
         // An empty name gets no ending.
         if stem.is_empty() || stem.ends_with(['/', '\\']) {

@@ -292,7 +292,7 @@ fn a_movie_is_one_file_of_all_frames() {
     // A transparent movie needs a kind that has transparency.
     assert!(RenderSettings { transparent: true, ..settings.clone() }.plan(&document, 0.0).is_ok());
     settings.choose_kind(FileKind::Png8);
-    assert_eq!(settings.output, "films/my film.png");
+    assert_eq!(settings.output, "films/my film_####.png", "frames have numbers again");
 }
 
 #[test]

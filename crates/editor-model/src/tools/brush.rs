@@ -301,7 +301,10 @@ impl Act {
             return Err(Refusal::new(format!("{name} is locked")));
         }
         match region.on.object() {
-            Some(on) if on != object.name => Err(Refusal::new(format!("{name} lies on {on}"))),
+            Some(on) if on != object.name => {
+                let other = &object.name;
+                Err(Refusal::new(format!("The region {name} is of {on}, not of {other}: choose New region")))
+            }
             _ => {
                 let target = RegionTarget::Named(name.clone());
                 let region = Some(index);

@@ -38,7 +38,8 @@ mod tree;
 use egui::TextureHandle;
 use impasto_editor_model::command::{Command, StrokesOf};
 use impasto_editor_model::editor::Mend;
-use impasto_editor_model::keymap::{Action, Keymap, OwnKeys};
+use impasto_editor_model::keymap::{Action, Keymap, OwnKeys, Scope};
+use impasto_editor_model::session::Mode;
 use impasto_editor_model::session::Tool;
 use impasto_editor_model::timeline::{TimeHand, TimelineEvent};
 use impasto_editor_model::{Document, Item, PictureFor, Selection, Session};
@@ -104,9 +105,14 @@ impl<'a> PanelInput<'a> {
         }
     }
 
-    /// The first shortcut of an action, as text; empty if it has none.
+    /// The first shortcut of an action that does nothing else in this mode, as text; empty if it has none.
     pub fn keys_of(&self, action: Action) -> String {
-        self.keymap.shortcut_text(action).unwrap_or_default()
+        let scope = match self.session.mode {
+            Mode::Arrange => Scope::Arrange,
+            Mode::Paint => Scope::Paint,
+            Mode::Animate => Scope::Animate,
+        };
+        self.keymap.shortcut_text_in(action, scope).unwrap_or_default()
     }
 
     /// Why an action cannot be done now, in the words of its tooltip; `None` if it can.

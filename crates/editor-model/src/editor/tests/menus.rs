@@ -1,6 +1,9 @@
 //! Tests of the right button over the viewport, and of tools that are taken up from menus.
 
+use impasto_scene::new_scene::Ground;
+
 use super::*;
+use crate::command::SceneEdit;
 
 /// Presses and releases the right button at a place.
 fn right_click(editor: &mut Editor, at_px: DVec2) -> Vec<Request> {
@@ -102,4 +105,17 @@ fn delete_takes_the_point_under_the_pointer_and_elsewhere_the_whole_guide() {
     act(&mut editor, Action::Delete);
     let after: usize = editor.document().scene().regions.iter().map(|region| region.guides.len()).sum();
     assert_eq!(after, before, "the curve that is selected went");
+}
+
+#[test]
+fn the_hint_of_the_ground_promises_no_drag() {
+    let mut editor = with_apple();
+    act(&mut editor, Action::Arrange);
+    assert!(editor.run(&Command::Scene(SceneEdit::SetGround(Ground::Vignette))));
+    for object in editor.document().scene().objects.clone() {
+        editor.select(Selection::only(Item::Object(object.name.clone())));
+        let is_ground = Ground::of_object(&object).is_some();
+        assert_eq!(editor.status().contains("[Drag]"), !is_ground, "{}: {}", object.name, editor.status());
+    }
+    assert_eq!(Ground::of_scene(editor.document().scene()), Ground::Vignette);
 }

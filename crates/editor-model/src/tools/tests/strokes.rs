@@ -242,7 +242,10 @@ fn the_region_brush_paints_the_selected_region() {
     );
     world.select(Item::Region("lid".to_owned()));
     assert_eq!(world.hover(Tool::Region, LEFT).status, "[Drag] add to lid  [Ctrl] take away");
-    assert_eq!(refused(&world.press(Tool::Region, [580.0, 180.0], NONE)), "lid lies on ball");
+    assert_eq!(
+        refused(&world.press(Tool::Region, [580.0, 180.0], NONE)),
+        "The region lid is of ball, not of plate: choose New region"
+    );
     world.drag(Tool::Region, &[LEFT, RIGHT], NONE);
     world.drag(Tool::Region, &[LEFT, RIGHT], CTRL);
     assert_eq!((world.document.undo_count(), world.document.undo_text()), (2, Some("Paint region lid")));

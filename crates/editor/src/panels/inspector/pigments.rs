@@ -43,7 +43,7 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes
             }
             if shown.len() < MAX_PALETTE {
                 let tip = Tip {
-                    name: "Add a pigment",
+                    name: "Add a pigment to the palette",
                     effect: "Strokes take their hue from the nearest pigments, and keep how light and dark they are.",
                     range: "Without pigments they have any colour.",
                     ..Tip::default()

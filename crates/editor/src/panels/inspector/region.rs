@@ -87,7 +87,7 @@ fn direction(ui: &mut Ui, asker: &mut Asker<'_, '_>, [region, stored]: [&Region;
     });
     row(ui, "Sense", |ui| {
         let mut sense = usize::from(region.sense == Sense::Arrows);
-        if widgets::segmented(ui, &["Lines", "Arrows"], &mut sense).changed() {
+        if widgets::segmented_of(ui, "Sense", &["Lines", "Arrows"], &mut sense).changed() {
             let sense = if sense == 1 { Sense::Arrows } else { Sense::Lines };
             asker.ask(Command::Directions(Directions::SetSense(of.clone(), sense)));
         }

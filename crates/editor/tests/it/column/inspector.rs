@@ -138,7 +138,7 @@ fn every_base_direction_can_be_chosen_and_set() {
     assert_eq!(direction(&harness), Direction::Curvature(impasto_scene::document::Bend::Max));
     pick(&mut harness, "Base direction", "Automatic");
     assert_eq!(direction(&harness), Direction::Auto);
-    click(&mut harness, "Arrows");
+    click(&mut harness, "Sense arrows");
     click(&mut harness, "Seam soft");
     type_in(&mut harness, "Seam distance", "0.25");
     type_in(&mut harness, "Turn", "30");

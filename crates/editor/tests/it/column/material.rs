@@ -162,8 +162,8 @@ fn pigments_of_a_region_are_added_picked_taken_out_and_reset() {
     let mut harness = harness_of(column, Theme::Dark, vec2(700.0, 1600.0));
     let palette = |harness: &Harness<'_, Column>| harness.state().region("lemon").strokes.palette.clone();
     assert_eq!(palette(&harness), None);
-    click(&mut harness, "Add a pigment");
-    click(&mut harness, "Add a pigment");
+    click(&mut harness, "Add a pigment to the palette");
+    click(&mut harness, "Add a pigment to the palette");
     assert_eq!(palette(&harness).map(|palette| palette.len()), Some(2));
     pick_colour(&mut harness, "Pigment 2");
     let picked = palette(&harness).expect("a palette");
