@@ -19,6 +19,10 @@ impl Refusal {
         Self(words.into())
     }
 
+    pub(crate) fn of_another(region: &str, own: &str, other: &str) -> Self {
+        Self(format!("The region {region} is of {own}, not of {other}: choose New region"))
+    }
+
     pub(crate) fn unknown(what: &str, name: &str) -> Self {
         Self(format!("There is no {what} named \"{name}\""))
     }

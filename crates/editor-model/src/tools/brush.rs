@@ -301,10 +301,7 @@ impl Act {
             return Err(Refusal::new(format!("{name} is locked")));
         }
         match region.on.object() {
-            Some(on) if on != object.name => {
-                let other = &object.name;
-                Err(Refusal::new(format!("The region {name} is of {on}, not of {other}: choose New region")))
-            }
+            Some(on) if on != object.name => Err(Refusal::of_another(&name, on, &object.name)),
             _ => {
                 let target = RegionTarget::Named(name.clone());
                 let region = Some(index);

@@ -224,10 +224,10 @@ vec4 outline_near(vec2 own) {
     vec2 behind = BEHIND_PX * (units_per_px(own.x) * px_scale / own.x);
     float deeper = mix(-1.0, 1.0, orthographic);
     vec4 sum = vec4(0.0);
-    for (int index = 0; index < 24; index++) {
-        float angle = 0.78539816 * (float(index & 7) + 0.5 * float((index >> 3) & 1));
+    for (int index = 0; index < 48; index++) {
+        float angle = 0.39269908 * (float(index & 15) + 0.5 * float((index >> 4) & 1));
         vec2 offset = vec2(cos(angle), sin(angle));
-        vec2 away_px = offset * (OUTLINE_PX * px_scale * (0.4 + 0.3 * float(index >> 3)));
+        vec2 away_px = offset * (OUTLINE_PX * px_scale * (0.4 + 0.3 * float(index >> 4)));
         vec2 at = place.xy + away_px - 0.5;
         vec2 part = fract(at);
         float past = 0.0;
@@ -258,7 +258,7 @@ vec4 outline_near(vec2 own) {
         if (leaps > 0.0) past += leaps * broken(place.xy + 0.5 * away_px, on_body.x / on_body.y, own);
         sum += vec4(vec3(offset, 1.0) * past, hidden);
     }
-    return sum / 24.0;
+    return sum / 48.0;
 }
 
 // How much a contour line is wanted, 0..1: near the end of the body, here and there by slow noise, and less in the
