@@ -8,7 +8,7 @@ use super::{Paintable, Surroundings, ToolEvent, ToolOutput, waiting_words};
 use crate::command::{Command, Directions};
 use crate::keymap::Action;
 use crate::picking::Hit;
-use crate::session::{FillKind, Tool};
+use crate::session::{FillKind, Tool, ToolOptions};
 
 /// A needle shorter than this is a click.
 const LEAST_NEEDLE_PX: f64 = 6.0;
@@ -53,8 +53,15 @@ impl Fill {
                 self.under_way(around)
             }
             ToolEvent::Release { .. } => {
-                let commit = self.filling.take().map(|filling| filling.command(around));
-                ToolOutput { commit, ..ToolOutput::default() }
+                let Some(filling) = self.filling.take() else { return ToolOutput::default() };
+                // The needle at rest and the bar show the angle that was dragged.
+                let options = match filling.direction(around) {
+                    Direction::Angle(fill_angle_deg) if filling.needle(around).is_some() => {
+                        Some(ToolOptions { fill_angle_deg, ..around.options.clone() })
+                    }
+                    _ => None,
+                };
+                ToolOutput { commit: Some(filling.command(around)), options, ..ToolOutput::default() }
             }
             ToolEvent::Cancel | ToolEvent::FocusLost | ToolEvent::Key(Action::Cancel) => {
                 self.filling = None;

@@ -43,8 +43,13 @@ fn a_needle_is_dragged_to_an_angle() {
     let dragged = world.drag_to(Tool::Fill, [330.0 + 30.0, 200.0 - 30.0], NONE);
     assert_eq!(dragged.status, "Filling skin, 45°   [Esc] take it back");
     assert!(dragged.needle.is_some());
-    world.release(Tool::Fill);
+    let released = world.release(Tool::Fill);
     assert_eq!(direction(&world), &Direction::Angle(45.0));
+    assert_eq!(
+        released.options.map(|options| options.fill_angle_deg),
+        Some(45.0),
+        "the bar shows another angle"
+    );
     // A camera rolled by 30 degrees shows everything turned by −30.
     world.view.camera.roll_rad = 30f64.to_radians();
     let hit = [320.0, 180.0];
