@@ -41,15 +41,17 @@ impl Source {
         Self { text: text.clone(), losses: losses.clone(), scene: loaded.scene.clone(), stand_ins }
     }
 
-    /// The source of the saved scene, whose text is `text`: of what could not be read, meshes are left. `None` if the scene
-    /// names none that cannot be used.
+    /// The source of the saved scene, whose text is `text`: of what could not be read, meshes are left. `None` if all
+    /// meshes could be used.
     pub(crate) fn saved(&self, text: String, scene: &Scene) -> Option<Self> {
         let in_text = |loss: &Loss| {
             let mesh = loss.mesh.as_ref()?;
-            let object = scene.objects.iter().position(|object| object.mesh == *mesh)?;
+            // A mesh that no object names now is listed again when an edit is taken back.
+            let object = scene.objects.iter().position(|object| object.mesh == *mesh);
             let problem = Problem {
                 place: place_of_mesh(&text, mesh),
-                field_path: format!("objects[{object}].mesh").into(),
+                field_path: object
+                    .map_or_else(Box::default, |object| format!("objects[{object}].mesh").into()),
                 ..loss.problem.clone()
             };
             // A fix is of the text as it was.

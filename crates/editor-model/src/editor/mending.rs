@@ -117,8 +117,8 @@ fn version_of(document: &Document) -> (u64, bool) {
 
 fn take_in(document: &mut Document, news: News) -> Result<Step, Refusal> {
     let first = |report: Report| Refusal::of(&report);
-    // A source of which all was read is there only for a text that is being edited: it stays.
-    let read_in_part = document.source().filter(|source| !source.losses.is_empty());
+    // A source without open losses is there for a text that is being edited, or for edits that may be taken back: it stays.
+    let read_in_part = document.source().filter(|_| document.loss_count() > 0);
     match (news, read_in_part.map(|source| source.text.clone())) {
         // The user may be repairing the file in another program: it is read as far as possible, to show what is still
         // wrong.

@@ -45,7 +45,7 @@ pub struct Copy {
     pub at_unix_secs: u64,
     /// How many unsaved entries of the history there are.
     pub changes: usize,
-    /// Whether the scene was read with losses, so that it must not overwrite its file.
+    /// Whether parts of the scene's text could not be read, so that it must not overwrite its file.
     pub lossy: bool,
     /// The scene as text; empty before it is written.
     pub text: String,

@@ -68,7 +68,8 @@ impl FileKind {
         // A movie has no number in its name, and frames have one again.
         let stem = match self {
             Self::Movie => stem.trim_end_matches('#').trim_end_matches(['_', '-', '.']).to_owned(),
-            _ if ending == Some(FileEnding::Movie) && !stem.contains('#') => format!("{stem}_####"),
+            _ if stem.is_empty() || stem.ends_with(['/', '\\']) => stem.to_owned(),
+            _ if ending == Some(FileEnding::Movie) && !name_in(stem).contains('#') => format!("{stem}_####"),
             _ => stem.to_owned(),
         };
         // An empty name gets no ending.
@@ -95,6 +96,11 @@ impl FileKind {
             _ => self.endings().iter().map(|ending| path.with_extension(ending)).collect(),
         }
     }
+}
+
+/// The part of a path after its folders.
+fn name_in(path: &str) -> &str {
+    path.rsplit(['/', '\\']).next().unwrap_or(path)
 }
 
 /// The ending of a file that can be rendered.

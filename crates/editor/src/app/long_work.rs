@@ -252,12 +252,13 @@ impl EditorApp {
             Outcome::Mended(..) | Outcome::Mesh(..) if document.folder() != reading.folder => {}
             Outcome::Mended(news, mended) => match (self.editor.take(*mended), news) {
                 (Took::Unread(words), Some(news)) => self.trouble(TroubleOf::ChangedOutside(news), words),
-                (Took::In(_) | Took::Unread(_), None) => {}
-                (Took::In(_), Some(_)) => {
-                    for news in [News::Files, News::Scene] {
-                        self.settled(&TroubleOf::ChangedOutside(news));
+                (Took::In(false) | Took::Unread(_), None) => {}
+                (Took::In(_), news) => {
+                    self.settled(&TroubleOf::ChangedOutside(News::Files));
+                    if news != Some(News::Files) {
+                        self.settled(&TroubleOf::ChangedOutside(News::Scene));
                     }
-                    self.sheets.problems |= self.editor.document().loss_count() > 0;
+                    self.sheets.problems |= news.is_some() && self.editor.document().loss_count() > 0;
                 }
                 (Took::Late, Some(news)) => self.changed_outside(news),
                 (Took::Late, None) => {

@@ -52,6 +52,9 @@ impl EditorApp {
             (Settle::Retry, TroubleOf::Save(target)) => drop(self.save(target.as_deref())),
             (Settle::Retry, TroubleOf::Copy) => self.keep_before_risk(),
             (Settle::Retry, TroubleOf::Open(path)) => self.open_asking(path),
+            (Settle::Retry, TroubleOf::ChangedOutside(_)) if self.is_reading() => {
+                self.toast("Something is being read: wait for it, or stop it".to_owned(), None, true);
+            }
             (Settle::Retry, TroubleOf::ChangedOutside(news)) => self.changed_outside(*news),
             (Settle::Retry, TroubleOf::Import(path)) => self.read_mesh(path, MeshFor::Import),
             (Settle::Retry, TroubleOf::Picture(of, path)) => self.picture(of, path),

@@ -338,6 +338,7 @@ void main() {
     blur_px *= kind == LIGHTS ? 1.0 : 1.0 + 1.5 * (1.0 - free);
     vec4 found = own_color(at_px, own.y, turn * blur_px, free);
     // Only the picture has highlights, not the stroke's own lit albedo.
+    if (kind == LIGHTS) there *= found.w;
     float known = kind == LIGHTS ? 1.0 : found.w * (1.0 - smoothstep(0.0, THIN, thinness(at_px, own, free)));
     vec3 color = known == 1.0 ? found.rgb : mix(color_of_own(), found.rgb, known);
     vec3 lab = oklab_from_linear(color);

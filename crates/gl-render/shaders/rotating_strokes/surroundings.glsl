@@ -23,17 +23,15 @@ const vec2 COVERS_PX = vec2(2.0, 6.0);
 // a smaller one, single pixels decide by chance.
 const float LEAST_RING_PX = 1.6;
 
-// The stroke's centre or, where that lies beyond the picture, the place nearest to it that the stroke's middle line has in the
-// picture: what is seen of the stroke begins there.
+// The stroke's centre or, where that lies beyond the picture, about where the stroke enters it: as its middle line does, but
+// strokes along the border enter straight ahead, so that the place does not leap as they turn.
 vec2 center_in_picture() {
     vec2 first = vec2(0.5);
     vec2 last = vec2(textureSize(depth_and_id, 0)) - 0.5;
     vec2 missing_px = clamp(place.xy, first, last) - place.xy;
     if (missing_px == vec2(0.0)) return place.xy;
     vec2 along = vec2(cos(place.w), sin(place.w));
-    bool is_beside = abs(missing_px.x) > abs(missing_px.y);
-    float slope = is_beside ? along.x : along.y;
-    float along_px = (is_beside ? missing_px.x : missing_px.y) / (slope < 0.0 ? min(slope, -1e-3) : max(slope, 1e-3));
+    float along_px = dot(missing_px, along / max(along * along, 0.06));
     return clamp(place.xy + along * clamp(along_px, -0.5 * size.x, 0.5 * size.x), first, last);
 }
 
@@ -55,7 +53,8 @@ float plane_depth(vec2 offset_px) {
 // Where it is covered, the stroke has the colour of what covers it.
 //
 // A leaf that passes before the centre would switch the colour: what counts is the share of seven places that is
-// covered, the centre and a ring half a stroke's width from it or LEAST_RING_PX, without those where the body is not seen.
+// covered, the centre and a ring half a stroke's width from it or LEAST_RING_PX. Those where the body is not seen
+// tell nothing; the stroke is free by the others, as far as these are at least half of all.
 float freedom(vec2 center_px, float id) {
     ivec2 last = textureSize(depth_and_id, 0) - 1;
     vec2 covers_px = COVERS_PX * min(2.0 * px_scale, 1.0);
