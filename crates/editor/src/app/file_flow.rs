@@ -8,7 +8,6 @@ use impasto_editor_model::PictureFor;
 use impasto_editor_model::document::{Document, SaveError};
 use impasto_editor_model::editor::Mend;
 use impasto_editor_model::keymap::Preset;
-use impasto_editor_model::watch::News;
 
 use super::EditorApp;
 use super::long_work::MeshFor;
@@ -185,14 +184,7 @@ impl EditorApp {
     pub(super) fn saved(&mut self, saved: Result<(), SaveError>) -> bool {
         match saved {
             Ok(()) => {
-                // What another program wrote before is no longer the document's file.
-                let is_settled = |of: &TroubleOf| {
-                    matches!(
-                        of,
-                        TroubleOf::Save(_) | TroubleOf::Copy | TroubleOf::ChangedOutside(News::Scene)
-                    )
-                };
-                self.troubles.retain(|trouble| !is_settled(&trouble.of));
+                self.troubles.retain(|trouble| !trouble.of.is_settled_by_saving());
                 if let Some(file) = self.editor.document().file().map(Path::to_owned) {
                     self.preferences.note_recent(&file);
                     self.note_last_seen();

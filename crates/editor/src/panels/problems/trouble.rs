@@ -40,6 +40,14 @@ pub enum TroubleOf {
     SavePreset(StrokesOf, PathBuf),
 }
 
+impl TroubleOf {
+    /// Whether nothing is left of it once the document was saved: what another program had written is then no longer the
+    /// document's file.
+    pub fn is_settled_by_saving(&self) -> bool {
+        matches!(self, Self::Save(_) | Self::Copy | Self::ChangedOutside(News::Scene))
+    }
+}
+
 /// What settles a trouble.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Settle {
