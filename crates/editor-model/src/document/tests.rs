@@ -7,7 +7,7 @@ use impasto_scene::document::{CameraKey, Ease, Lens};
 use impasto_scene::load::LoadOptions;
 
 use super::*;
-use crate::command::{Arrange, Command, SceneEdit};
+use crate::command::{Arrange, Command, Edit, SceneEdit};
 
 const QUAD: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
 
@@ -158,6 +158,19 @@ fn a_missing_mesh_is_listed_and_does_not_keep_the_scene_from_being_saved() {
     let text = document.source().expect("a source").text.clone();
     document.read_text(&text).expect("read");
     assert_eq!(document.loss_count(), 0);
+}
+
+#[test]
+fn a_missing_mesh_whose_object_was_deleted_and_saved_is_listed_again_after_undo() {
+    let folder = Folder::with(&scene("lost.obj", ""));
+    let mut document = folder.open();
+    let leaf = Item::Object("leaf".to_owned());
+    document.apply(&Command::Edit(Edit::Delete(vec![leaf]))).expect("deleted");
+    assert_eq!(document.loss_count(), 0);
+    document.save().expect("saved");
+    document.undo().expect("undone");
+    assert!(document.loss_count() == 1 && document.lacks_mesh("lost.obj"));
+    assert!(document.loaded().meshes.contains_key("lost.obj"), "the box is gone");
 }
 
 #[test]

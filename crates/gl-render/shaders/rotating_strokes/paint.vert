@@ -72,9 +72,11 @@ const float BYTE = 1.0 / 255.0;
 
 #ifndef DRAFT
 // The mean colour below on the stroke's own body (not premultiplied), and its alpha: five places, each between four pixels, so
-// that none comes or goes at once as the view moves.
+// that none comes or goes at once as the view moves. Past the body's border lies paint of the thing beside it: the alpha is
+// less where places lie there, and 0 where two of the five do.
 vec4 paint_below(vec2 center_px, float spread_px) {
     vec4 sum = vec4(0.0);
+    float share = 0.0;
     for (int index = 0; index < 20; index++) {
         int place = index >> 2;
         vec2 away = place == 4 ? vec2(0.0) : vec2(place & 1, place >> 1) * 2.0 - 1.0;
@@ -85,8 +87,9 @@ vec4 paint_below(vec2 center_px, float spread_px) {
         if (texelFetch(depth_and_id, texel, 0).y != float(marks.y)) continue;
         vec2 near = mix(1.0 - fract(at), fract(at), vec2(offset));
         sum += texelFetch(below, texel, 0) * near.x * near.y;
+        share += 0.2 * near.x * near.y;
     }
-    return vec4(sum.rgb / max(sum.a, 1e-4), sum.a / 5.0);
+    return vec4(sum.rgb / max(sum.a, 1e-4), 0.2 * sum.a * smoothstep(0.6, 1.0, share));
 }
 #endif
 
@@ -168,7 +171,7 @@ void main() {
     picked_up = vec4(0.0);
 #else
     vec4 under = pickup > 0.0 ? paint_below(center_px - along * (0.3 * size.x), 0.15 * size.y) : vec4(0.0);
-    picked_up = vec4(under.rgb, pickup * smoothstep(0.6, 1.0, under.a));
+    picked_up = vec4(under.rgb, pickup * smoothstep(0.3, 0.9, under.a));
 #endif
 
     // A constant level keeps the mark the same at every angle.
