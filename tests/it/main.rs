@@ -23,6 +23,7 @@ mod far_scenes;
 mod farm;
 mod goldens;
 mod guides;
+mod highlights;
 mod horn;
 mod hostile_directions;
 mod hostile_scenes;

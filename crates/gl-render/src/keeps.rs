@@ -45,7 +45,7 @@ impl Keeps {
             Style::Reference => (0, false),
         };
         // Bytes of `UnlitTargets`, of the other targets of the reference pass, and of the finished picture.
-        let [unlit, lit, picture] = [13, 26, 16];
+        let [unlit, lit, picture] = [13, 30, 16];
         // Bytes for strokes, for what is read back, and for what the driver needs beside.
         let else_taken = 8;
         let drawn = match self {

@@ -20,6 +20,7 @@ use crate::noise_tiles::NoiseTiles;
 use crate::reference_targets::{ReferenceTargets, SURFACE_TEXTURES};
 use crate::shader_files::{REFERENCE, SHARED};
 use crate::shadow::ShadowMap;
+use crate::styles;
 use crate::watch::Watch;
 
 /// The passes, in order: shadow, surface, openness (ambient occlusion), light, then the bodies that noise colours.
@@ -93,7 +94,9 @@ impl ReferencePass {
             (Quality::Draft, Some(light)) => light,
             _ => &self.light,
         };
-        let bound = targets.set(lights.set(lens.set(light.bind(), &LENS_UNIFORMS)))?;
+        let bound = targets
+            .set(lights.set(lens.set(light.bind(), &LENS_UNIFORMS)))?
+            .set("highlight_in_color", styles::highlight_in_color(&frame.style));
         self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
         watch.passed("light")?;
         self.noise.draw(frame, &bodies, &self.tiles, targets, watch)?;
@@ -255,8 +258,12 @@ const OPENNESS: ProgramSource<'static> = ProgramSource::screen(
     &[&VIEW_LENS_UNIFORMS, &["normal", "depth_and_id", "view_from_world"]],
 );
 
-const LIGHT: ProgramSource<'static> =
-    ProgramSource::screen("reference/light.frag", &[&LENS_UNIFORMS, &LIGHT_UNIFORMS, &SURFACE_TEXTURES]);
+const LIGHT: ProgramSource<'static> = ProgramSource::screen(
+    "reference/light.frag",
+    &[&LENS_UNIFORMS, &LIGHT_UNIFORMS, &SURFACE_TEXTURES, &["highlight_in_color"]],
+);
 
-const LIGHT_PARTS: ProgramSource<'static> =
-    ProgramSource { fragment: Some("reference/light_parts.frag"), ..LIGHT };
+const LIGHT_PARTS: ProgramSource<'static> = ProgramSource::screen(
+    "reference/light_parts.frag",
+    &[&LENS_UNIFORMS, &LIGHT_UNIFORMS, &SURFACE_TEXTURES],
+);

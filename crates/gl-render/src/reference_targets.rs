@@ -19,6 +19,8 @@ pub(crate) struct ReferenceTargets {
     pub(crate) depth_and_id: Rc<Texture>,
     /// How strong the highlight is.
     pub(crate) glint: Rc<Texture>,
+    /// What `color` leaves out of the highlights, display-linear.
+    pub(crate) highlight: Rc<Texture>,
     /// `None` after they were let go.
     unlit: Option<UnlitTargets>,
     pub(crate) light_pass: Framebuffer,
@@ -46,6 +48,7 @@ impl ReferenceTargets {
         let half = size_px.map(|side| side.div_ceil(2));
         let color = target(Format::Rgba16F, size_px, Filter::Nearest)?;
         let glint = target(Format::R16F, size_px, Filter::Nearest)?;
+        let highlight = target(Format::R11G11B10F, size_px, Filter::Nearest)?;
         let albedo = target(Format::Rgba16F, size_px, Filter::Nearest)?;
         let normal = target(Format::Rgba16F, size_px, Filter::Nearest)?;
         let depth_and_id = target(Format::Rg32F, size_px, Filter::Nearest)?;
@@ -60,10 +63,11 @@ impl ReferenceTargets {
         };
         Ok(Self {
             size_px,
-            light_pass: Framebuffer::new(gpu, &[&color, &glint], None)?,
+            light_pass: Framebuffer::new(gpu, &[&color, &glint, &highlight], None)?,
             place_pass: Framebuffer::new(gpu, &[&depth_and_id], None)?,
             color,
             glint,
+            highlight,
             normal,
             depth_and_id,
             unlit: Some(unlit),

@@ -17,7 +17,8 @@ uniform float threshold;
 
 layout(location = 0) out vec4 color;    // premultiplied, display-linear
 layout(location = 1) out vec4 glint;    // of strength 0, laid over with the alpha of the look: it hides the highlights behind it
-layout(location = 2) out vec4 glow;     // premultiplied
+layout(location = 2) out vec4 highlight; // as `glint`
+layout(location = 3) out vec4 glow;     // premultiplied
 
 vec4 noise_at(vec2 at) {
     vec4 texel = texture(layer_noise, at);
@@ -41,6 +42,7 @@ void main() {
     float alpha = layered.a;
     color = vec4(layered.rgb * alpha, alpha);
     glint = vec4(0.0, 0.0, 0.0, alpha);
+    highlight = glint;
     float brightest = max(layered.r, max(layered.g, layered.b));
     float beyond = max(brightest - threshold, 0.0) / max(brightest, 1e-6);
     glow = vec4(layered.rgb * (beyond * bloom * alpha), alpha);

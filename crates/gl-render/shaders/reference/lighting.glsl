@@ -96,9 +96,8 @@ Light light_on(LitPoint at) {
     return Light(light, highlight, glint, shadowed);
 }
 
-// Display-linear colour; `glint` is how strong the highlight is, as in `Light`.
-vec3 lit(vec3 albedo, LitPoint at, out float glint) {
+// Display-linear colour.
+vec3 lit(vec3 albedo, LitPoint at) {
     Light light = light_on(at);
-    glint = light.glint;
     return exposed(albedo * light.diffuse + light.highlight);
 }

@@ -41,10 +41,12 @@ const float BLUR[8] = float[8](0.33, 0.20, 0.20, 0.22, 0.30, 0.60, 0.25, 0.25);
 // How far highlights are spread over their body, as in `RotatingStrokes`, pixels of the scene's own size.
 const float SPREAD_PX = 16.0;
 // Strokes of a highlight gather round its peak. GATHERED: a stroke lies at this share of its particle's distance from
-// the peak. GATHER_PX: particles count up to this distance, pixels of the scene's own size; strokes fade over its
-// second half, so that none pops as its particle comes near or goes.
+// the peak. NEAR_PEAK: particles count by how strong the highlight is where they lie, as a share of its peak: not at all
+// below the first, wholly from the second on. So none pops as its particle comes near or goes, nor where the peak is
+// vague. GATHER_PX: nor do those count that are further away than this, pixels of the scene's own size.
 const float GATHERED = 0.3;
-const float GATHER_PX = 34.0;
+const float GATHER_PX = 60.0;
+const vec2 NEAR_PEAK = vec2(0.0, 0.7);
 
 // How far from itself a contour stroke looks for the end of its body, pixels of the scene's own size.
 const float OUTLINE_PX = 20.0;
@@ -136,8 +138,7 @@ vec3 color_of_own() {
     point.towards_eye = towards_eye_from_px(place.xy);
     point.openness = 1.0;
     point.gloss = 0.0;
-    float no_glint;
-    return lit(albedo, point, no_glint);
+    return lit(albedo, point);
 }
 
 // Below a presence of 0.1 only a few scattered hairs are left: not painted.
@@ -157,7 +158,8 @@ float fullness(float lightness, float grading) {
 
 // How much a layer of small strokes is wanted here, 0..1.
 float wanted(vec3 detail) {
-    if (kind == LIGHTS) return smoothstep(0.01, 0.30, detail.b);
+    // Full early: a highlight that grows as it runs over a bump has strokes as strong as before.
+    if (kind == LIGHTS) return smoothstep(0.0, 0.14, detail.b);
     // Edges are lost in places.
     float rim = min(1.4 * detail.g, 1.0) * clamp(0.55 * (0.6 + 0.5 * reach.z), 0.0, 1.0);
     float inside = kind == FORM ? detail.r - 0.05 : 0.6 * detail.r - 0.2;
@@ -165,18 +167,18 @@ float wanted(vec3 detail) {
 }
 
 // The peak of the highlight that this place belongs to. Climbs the blurred highlights of the body; on a single Gaussian
-// spot one step leads to the peak.
+// spot one whole step would lead to the peak; shorter ones do not leap over the border of a leaf.
 vec2 peak_px(float id) {
     vec2 at_px = place.xy;
     float reach_px = SPREAD_PX * px_scale;
-    for (int step = 0; step < 4; step++) {
+    for (int step = 0; step < 6; step++) {
         vec4 glints = vec4(
             detail_at(at_px + vec2(block_px, 0.0), id).b, detail_at(at_px - vec2(block_px, 0.0), id).b,
             detail_at(at_px + vec2(0.0, block_px), id).b, detail_at(at_px - vec2(0.0, block_px), id).b
         );
         vec4 logs = log(max(glints, 1e-4));
         vec2 up = vec2(logs.x - logs.y, logs.z - logs.w) * (reach_px * reach_px / (2.0 * block_px));
-        at_px += up * min(1.0, reach_px / max(length(up), 1e-4));
+        at_px += up * min(0.7, 0.5 * reach_px / max(length(up), 1e-4));
     }
     return at_px;
 }
@@ -313,7 +315,9 @@ void main() {
         moved = to_peak * (1.0 - GATHERED);
         float gather_px = GATHER_PX * px_scale;
         there *= 1.0 - smoothstep(0.5 * gather_px, gather_px, length(to_peak));
-        there = without_last(there * wanted(detail_at(place.xy + to_peak, own.y)));
+        vec3 at_peak = detail_at(place.xy + to_peak, own.y);
+        there *= smoothstep(NEAR_PEAK.x, NEAR_PEAK.y, detail_at(place.xy, own.y).b / max(at_peak.b, 1e-4));
+        there = without_last(there * wanted(at_peak));
     } else if (small && there > LEAST) there = without_last(there * wanted(detail_at(place.xy, own.y)));
     if (kind == CONTOUR && there > LEAST) {
 #ifdef DRAFT
@@ -337,9 +341,10 @@ void main() {
     // What covers a stroke, as leaves do, changes as the view moves: its colour is taken from a wider surrounding.
     blur_px *= kind == LIGHTS ? 1.0 : 1.0 + 1.5 * (1.0 - free);
     vec4 found = own_color(at_px, own.y, turn * blur_px, free);
-    // Only the picture has highlights, not the stroke's own lit albedo.
-    if (kind == LIGHTS) there *= found.w;
-    float known = kind == LIGHTS ? 1.0 : found.w * (1.0 - smoothstep(0.0, THIN, thinness(at_px, own, free)));
+    // Only the picture has highlights, not the stroke's own lit albedo. On thin parts single pixels glint by chance.
+    if (kind == LIGHTS) there *= found.w * (1.0 - smoothstep(0.0, THIN, thinness(place.xy, own, 1.0)));
+    float thin = kind == LIGHTS ? 0.0 : smoothstep(0.0, THIN, thinness(at_px, own, free));
+    float known = kind == LIGHTS ? 1.0 : found.w * (1.0 - thin);
     vec3 color = known == 1.0 ? found.rgb : mix(color_of_own(), found.rgb, known);
     vec3 lab = oklab_from_linear(color);
     Mixing mixing = mixing_of(bytes.y);
@@ -360,5 +365,9 @@ void main() {
     there = max(there - LEAST, 0.0) / (1.0 - LEAST);
 #endif
     resolved = vec4(linear_from_oklab(lab), there);
-    fitted = vec4(place.xy + moved + turn[0] * shift(turn, own), lab.x, turned);
+    vec2 center_px = place.xy + moved + turn[0] * shift(turn, own);
+#ifndef DRAFT
+    if (thin > 0.0 && kind != CONTOUR && reach.x < FREE) center_px += thin * to_spine_px(center_px, own);
+#endif
+    fitted = vec4(center_px, lab.x, turned);
 }

@@ -1,6 +1,7 @@
 // What surrounds a stroke in the reference picture. Everything here changes slowly with position, so that what depends
 // on it fades and never switches.
 uniform sampler2D reference_color;
+uniform sampler2D highlight;     // what the highlights add to that, display-linear: strokes of highlights alone have it
 uniform sampler2D depth_and_id;
 uniform sampler2D normal;        // of the surface, world space, towards the eye; 0 where noise colours it
 uniform sampler2D detail;        // in blocks: change of colour, outline, highlight, body id and half its share
@@ -107,6 +108,11 @@ bool is_in_picture(ivec2 texel) {
     return all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, textureSize(reference_color, 0)));
 }
 
+vec3 color_of(ivec2 texel) {
+    vec3 color = texelFetch(reference_color, texel, 0).rgb;
+    return kind == LIGHTS ? color + texelFetch(highlight, texel, 0).rgb : color;
+}
+
 // The sum of the colours of the four nearest pixels, by bilinear weights; w is the sum of these weights. Only pixels of
 // the body count, and the further the stroke is `free`, the less those of its other faces. The plain render has hard
 // edges, and a tap on a single pixel would jump at them. Beyond the picture there are none: the pixels at its border, taken
@@ -115,7 +121,7 @@ vec4 own_color_at(vec2 at_px, float id, float free) {
 #ifdef DRAFT
     ivec2 nearest = ivec2(floor(at_px));
     bool is_own = is_in_picture(nearest) && texelFetch(depth_and_id, nearest, 0).y == id;
-    return is_own ? vec4(texelFetch(reference_color, nearest, 0).rgb, 1.0) : vec4(0.0);
+    return is_own ? vec4(color_of(nearest), 1.0) : vec4(0.0);
 #endif
     vec2 at = at_px - 0.5;
     ivec2 corner = ivec2(floor(at));
@@ -127,7 +133,7 @@ vec4 own_color_at(vec2 at_px, float id, float free) {
         if (!is_in_picture(texel) || texelFetch(depth_and_id, texel, 0).y != id) continue;
         vec2 near = mix(1.0 - part, part, vec2(offset));
         float weight = near.x * near.y * (1.0 - free * other_face(texel));
-        sum += vec4(texelFetch(reference_color, texel, 0).rgb, 1.0) * weight;
+        sum += vec4(color_of(texel), 1.0) * weight;
     }
     return sum;
 }
@@ -177,33 +183,38 @@ float thinness(vec2 center_px, vec2 own, float free) {
     return sum / 24.0;
 }
 
-// Mean colour on the stroke's own body: a Gaussian with this standard deviation, on two rings and the centre, longer
+// Mean colour on the stroke's own body: a Gaussian with this standard deviation, on rings and the centre, longer
 // along the stroke, so that a shadow that sweeps over it takes several frames. The less of the body is found there, the
-// more a wider surrounding counts. w is how much of the colour is known, 0..1.
+// more a wider surrounding counts. Where only scraps of the body are seen, single taps would decide: the less the stroke is
+// `free`, the more two further rings count. w is how much of the colour is known, 0..1.
 vec4 own_color(vec2 center_px, float id, mat2 sigma_px, float free) {
 #ifdef DRAFT
-    const int TAPS = 6;
+    const int ring_count = 1;
 #else
-    const int TAPS = 12;
+    int ring_count = free < 1.0 ? 4 : 2;
 #endif
-    // The weight of a body that all taps find, and the weight that is enough.
-    const float FULL = 0.7 + 6.0 * 0.60 + float(TAPS - 6) * 0.17;
-    const float ENOUGH = 0.25 * FULL;
+    // Of each ring: how many standard deviations wide it is, and the weight of a tap.
+    vec2 rings[4] = vec2[4](vec2(1.0, 0.60), vec2(1.9, 0.17), vec2(0.55, 0.86 * (1.0 - free)), vec2(1.45, 0.35 * (1.0 - free)));
+    const float CENTER = 0.7;
+    // The weight of a body that all taps find, a quarter of which is enough.
+    float full = CENTER;
+    for (int ring = 0; ring < ring_count; ring++) full += 6.0 * rings[ring].y;
+    float enough = 0.25 * full;
     vec4 sum = vec4(0.0);
     float need = 1.0;
     for (int widening = 0; widening < 3 && need > 0.0; widening++) {
-        vec4 found = own_color_at(center_px, id, free) * 0.7;
-        for (int index = 0; index < TAPS; index++) {
-            float radius = index < 6 ? 1.0 : 1.9;
-            float angle = 1.0471976 * (float(index) + (index < 6 ? 0.0 : 0.5));
-            vec2 tap_px = center_px + sigma_px * vec2(cos(angle), sin(angle)) * radius;
-            found += own_color_at(tap_px, id, free) * (index < 6 ? 0.60 : 0.17);
+        vec4 found = own_color_at(center_px, id, free) * CENTER;
+        for (int index = 0; index < 6 * ring_count; index++) {
+            vec2 ring = rings[index / 6];
+            float angle = 1.0471976 * (float(index % 6) + ((index / 6) % 2 == 0 ? 0.0 : 0.5));
+            vec2 tap_px = center_px + sigma_px * vec2(cos(angle), sin(angle)) * ring.x;
+            found += own_color_at(tap_px, id, free) * ring.y;
         }
         sum += found * need;
-        need = clamp(1.0 - sum.a / ENOUGH, 0.0, 1.0);
+        need = clamp(1.0 - sum.a / enough, 0.0, 1.0);
         sigma_px = sigma_px * 2.2;
     }
-    return vec4(sum.rgb / max(sum.a, 1e-4), clamp(sum.a / (0.2 * ENOUGH), 0.0, 1.0));
+    return vec4(sum.rgb / max(sum.a, 1e-4), clamp(sum.a / (0.2 * enough), 0.0, 1.0));
 }
 
 // The mean colour of the wider surroundings on the stroke's own body, Oklab.
@@ -237,7 +248,21 @@ vec3 detail_at(vec2 center_px, float id) {
     return sum / max(weight, 0.7);
 }
 
-// How much of the way from the stroke's centre to one of its ends lies on its body, 0..1: taps on three lines, so that
+// From a place to the middle of what is seen of the stroke's own body around it. On a part that is two or three pixels wide
+// a stroke beside it would lie on the part in one frame and miss it in the next.
+vec2 to_spine_px(vec2 center_px, vec2 own) {
+    float step_px = 2.0 * px_scale;
+    vec3 sum = vec3(0.0);
+    for (int index = 0; index < 49; index++) {
+        vec2 offset = vec2(index % 7, index / 7) - 3.0;
+        float near = max(1.0 - 0.0625 * dot(offset, offset), 0.0);
+        vec2 there = surface_at(center_px + offset * step_px);
+        if (there.y == own.y) sum += vec3(offset * step_px, 1.0) * near * near;
+    }
+    return sum.xy / max(sum.z, 1e-3);
+}
+
+// How much of the way from the stroke's centre to one of its ends lies on its body, 0..1: taps on two lines, so that
 // it changes slowly even where the stroke runs along the body's border. The body does not end where something stands in
 // front.
 float share_on_body(vec2 center_px, vec2 to_end_px, vec2 across_px, vec2 own) {
@@ -252,12 +277,16 @@ float share_on_body(vec2 center_px, vec2 to_end_px, vec2 across_px, vec2 own) {
     }
     return 1.0 - beyond / 24.0;
 #endif
-    for (int index = 0; index < 24; index++) {
-        float along = (float(index / 3) + 0.5 + float(index % 3) / 3.0 - 0.33) / 8.0;
-        vec2 tap_px = center_px + to_end_px * along + across_px * (float(index % 3) - 1.0);
-        vec2 there = surface_at(tap_px);
+    // Each tap lies between four pixels, or the stroke would leap along a body that is two or three pixels wide.
+    for (int index = 0; index < 48; index++) {
+        int tap = index >> 2;
+        float along = (float(tap >> 1) + 0.25 + 0.5 * float(tap & 1)) / 6.0;
+        vec2 at = center_px + to_end_px * along + across_px * (float(tap & 1) - 0.5) * 1.5 - 0.5;
+        ivec2 offset = ivec2(index & 1, (index >> 1) & 1);
+        vec2 there = surface_at(floor(at) + vec2(offset) + 0.5);
         if (there.y == own.y) continue;
-        beyond += there.y == 0.0 ? 1.0 : smoothstep(-bias, bias, there.x - own.x);
+        vec2 near = mix(1.0 - fract(at), fract(at), vec2(offset));
+        beyond += near.x * near.y * (there.y == 0.0 ? 1.0 : smoothstep(-bias, bias, there.x - own.x));
     }
-    return 1.0 - beyond / 24.0;
+    return 1.0 - beyond / 12.0;
 }

@@ -13,6 +13,8 @@ pub(crate) enum Format {
     SrgbAlpha8,
     R16F,
     Rg16F,
+    /// Colours of 11, 11 and 10 bits, without alpha; none is below 0.
+    R11G11B10F,
     Rg32F,
     Rgba16F,
     Rgba32F,
@@ -26,6 +28,7 @@ impl Format {
             Format::Rgba8 => (glow::RGBA8, glow::RGBA, glow::UNSIGNED_BYTE),
             Format::SrgbAlpha8 => (glow::SRGB8_ALPHA8, glow::RGBA, glow::UNSIGNED_BYTE),
             Format::R16F => (glow::R16F, glow::RED, glow::HALF_FLOAT),
+            Format::R11G11B10F => (glow::R11F_G11F_B10F, glow::RGB, glow::HALF_FLOAT),
             Format::Rg16F => (glow::RG16F, glow::RG, glow::HALF_FLOAT),
             Format::Rg32F => (glow::RG32F, glow::RG, glow::FLOAT),
             Format::Rgba16F => (glow::RGBA16F, glow::RGBA, glow::HALF_FLOAT),

@@ -304,7 +304,11 @@ impl Targets {
         let (depth, depth_and_id) = (&reference.unlit()?.depth, &reference.depth_and_id);
         Ok(Self {
             place_pass: Framebuffer::new(gpu, &[depth_and_id, &reference.normal], Some(depth))?,
-            look_pass: Framebuffer::new(gpu, &[&color, &reference.glint, &glow], Some(depth))?,
+            look_pass: Framebuffer::new(
+                gpu,
+                &[&color, &reference.glint, &reference.highlight, &glow],
+                Some(depth),
+            )?,
             glow_pass: Framebuffer::new(gpu, &[&glow], None)?,
             color_pass: Framebuffer::new(gpu, &[&color], None)?,
             depth_and_id: Rc::clone(depth_and_id),

@@ -17,3 +17,12 @@ pub(crate) fn open(gpu: &Gpu, style: &Style) -> Result<Box<dyn StyleRenderer>, G
         Style::Reference => Box::new(reference::Reference::new(gpu)?),
     })
 }
+
+/// The share of the highlights that the colour of the reference picture has. Of a highlight that passes over a body the
+/// strokes below take a part, so that they stay calm; the strokes of highlights add the rest.
+pub(crate) fn highlight_in_color(style: &Style) -> f32 {
+    match style {
+        Style::RotatingStrokes(_) => 0.6,
+        Style::SumiE(_) | Style::Reference => 1.0,
+    }
+}

@@ -141,6 +141,7 @@ impl RotatingStrokes {
                 .lights
                 .set(lens.set(self.programs(frame.quality).resolve.bind(), &LENS_UNIFORMS))
                 .texture("reference_color", &input.reference.color)
+                .texture("highlight", &input.reference.highlight)
                 .texture("depth_and_id", &input.reference.depth_and_id)
                 .texture("normal", &input.reference.normal)
                 .texture("detail", &targets.detail[0])

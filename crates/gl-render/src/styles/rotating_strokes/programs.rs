@@ -119,6 +119,7 @@ const RESOLVE: ProgramSource<'static> = ProgramSource {
             &LIGHT_UNIFORMS,
             &[
                 "reference_color",
+                "highlight",
                 "depth_and_id",
                 "normal",
                 "detail",
