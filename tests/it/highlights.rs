@@ -27,8 +27,7 @@ fn ball(renderer: &mut Renderer, gloss: f64, distance: f64) -> Seen {
     let mut scene = shapes::scene(vec![ball]);
     scene.background = Color([0.0; 3]);
     scene.camera.keys = vec![shapes::camera_key(0.0, [0.0, 0.0, distance], [0.0; 3])];
-    scene.lights =
-        vec![Light { direction: Some([0.2, -0.3, -1.0]), ..Light::new("sun", LightKind::Sun) }];
+    scene.lights = vec![Light { direction: Some([0.2, -0.3, -1.0]), ..Light::new("sun", LightKind::Sun) }];
     (scene.strokes.color_jitter, scene.strokes.grading) = (Some(0.0), Some(0.0));
     let painting = prepare(shapes::loaded(scene, [shapes::sphere(64, 32)])).unwrap();
     let mut frame = painting.at(0.0, &FrameOptions::new(SIZE_PX));

@@ -1,5 +1,7 @@
-//! Tests that strokes near the border of their body are shifted along themselves, to lie on it as far as they can.
+//! Tests that strokes near the border of their body are shifted along themselves, to lie on it as far as they can, and that
+//! strokes of thin parts lie along the middle of the part.
 
+use glam::DVec3;
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::Driver;
 use impasto_painting::frame::LayerKind;
@@ -86,4 +88,38 @@ fn strokes_at_the_border_are_shifted_onto_their_body() {
         let off = largest(&errors(&frame, &mut faulty_renderer(file, shift, fault)).at_border);
         assert!(off > least, "the test does not notice `{fault}`: off by {off} px");
     }
+}
+
+/// A wire 2.4 pixels wide, at 30 degrees, with strokes along it: they lie on its middle line, where paint reaches the whole
+/// wire in every frame.
+#[test]
+fn strokes_of_a_wire_lie_on_its_middle_line() {
+    const HALF_WIDTH_PX: f64 = 1.2;
+    let along = DVec3::new(30f64.to_radians().cos(), 30f64.to_radians().sin(), 0.0);
+    let across = DVec3::new(-along.y, along.x, 0.0);
+    let wire = shapes::moved(&shapes::sheet(16), |at| along * at.x + across * (at.y * HALF_WIDTH_PX / 120.0));
+    let mut scene = shapes::scene(vec![shapes::object("wire", 2000)]);
+    scene.camera.lens = Lens::Orthographic { height: 3.0, near: 0.05, far: 100.0 };
+    scene.regions[0].direction = Direction::Angle(30.0);
+    let painting = prepare(shapes::loaded(scene, [wire])).unwrap();
+    let mut renderer = renderer(Driver::Egl);
+    let frame = painting.at(0.0, &FrameOptions::new(SIZE_PX));
+    renderer.render(&frame).unwrap();
+    let off_px = |center_px: [f32; 2]| {
+        let [x, y] = center_px.map(f64::from);
+        ((x - 320.0) * across.x + (y - 180.0) * across.y).abs()
+    };
+    let (mut count, mut before, mut after) = (0, 0.0, 0.0);
+    for (stroke, drawn) in frame.strokes.iter().zip(renderer.resolved_strokes()) {
+        let [x, y] = stroke.center_px;
+        // The ends of the wire have no middle line.
+        if drawn.alpha < 0.05 || drawn.turned_rad != 0.0 || (x - 320.0).hypot(y - 180.0) > 100.0 {
+            continue;
+        }
+        (count, before, after) =
+            (count + 1, before + off_px(stroke.center_px), after + off_px(drawn.center_px));
+    }
+    (before, after) = (before / f64::from(count), after / f64::from(count));
+    assert!(count > 50 && before > 0.45, "{count} strokes, {before} px off the middle by their particles");
+    assert!(after < 0.3, "strokes are {after} px off the middle, their particles {before}");
 }

@@ -19,7 +19,8 @@ pub struct ResolvedStroke {
     /// How far the stroke is there: its presence, reduced as far as bodies hide it, 0..=1.
     pub alpha: f32,
     /// Centre in pixels, origin at the lower left, as painted: the stroke was moved along itself onto its body, a
-    /// contour stroke also to its body's outline, a light towards the peak of the highlight.
+    /// contour stroke also to its body's outline, a light towards the peak of the highlight, and one on a thin part to
+    /// the middle of that part.
     pub center_px: [f32; 2],
     /// What was added to the stroke's angle, radians: a contour stroke is turned to run along its body's outline.
     pub turned_rad: f32,

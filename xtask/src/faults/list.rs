@@ -148,6 +148,20 @@ pub(super) const FAULTS: &[Fault] = &[
         tests: &[GOLDENS],
     },
     Fault {
+        name: "strokes below a highlight take all of it",
+        file: "reference/light.frag",
+        from: "highlight_in_color * light.highlight",
+        to: "light.highlight",
+        tests: &["highlights::"],
+    },
+    Fault {
+        name: "strokes of thin parts lie beside their middle",
+        file: "rotating_strokes/resolve.vert",
+        from: "center_px += thin * to_spine_px",
+        to: "center_px += 0.0 * to_spine_px",
+        tests: &["shift::"],
+    },
+    Fault {
         name: "colour from too wide around",
         file: "rotating_strokes/resolve.vert",
         from: "float across_px = max(BLUR[kind] * size.y",
