@@ -66,28 +66,36 @@ float freedom(vec2 center_px, float id) {
 #endif
     float ring_px = max(0.5 * size.y, LEAST_RING_PX * min(2.0 * px_scale, 1.0));
     float facing = max(abs((mat3(view_from_world) * normal_and_bow.xyz).z), 0.05);
-    // The flatter the gaze, the less the stroke's normal says of the depth on the ring. At the rim of a body the centre alone
-    // tells: there the near side covers the far one.
-    float doubt_px = 0.5 * ring_px / facing;
+    // The flatter the gaze, the less the stroke's normal says of the depth away from the centre. At the rim of a body the
+    // centre alone tells: there the near side covers the far one.
+    float doubt = 0.5 / facing;
     float believed = smoothstep(0.1, 0.35, facing);
+#ifdef DRAFT
+    const int SIDE = 2;
+#else
+    const int SIDE = 4;
+#endif
+    // The centre is a mean over pixels up to this far away: in a gap between two leaves, a pixel wide, one pixel decides by
+    // chance.
+    float center_wide_px = clamp(4.0 * px_scale, 1.0, 0.5 * float(SIDE));
     float covered = 0.0;
     float found = 0.0;
-    for (int index = 0; index < 4 * PLACES; index++) {
-        float angle = 1.0471976 * float(index / 4);
-        vec2 away_px = index < 4 ? vec2(0.0) : vec2(cos(angle), sin(angle)) * ring_px;
+    for (int index = 0; index < SIDE * SIDE + 4 * (PLACES - 1); index++) {
+        int on_ring = index - SIDE * SIDE;
+        float angle = 1.0471976 * float(on_ring / 4);
+        vec2 away_px = on_ring < 0 ? vec2(0.0) : vec2(cos(angle), sin(angle)) * ring_px;
         vec2 at = center_px + away_px - 0.5;
-        ivec2 corner = ivec2(floor(at));
-        vec2 part = at - vec2(corner);
-        ivec2 offset = ivec2(index & 1, (index >> 1) & 1);
-        ivec2 texel = corner + offset;
+        ivec2 offset = on_ring < 0 ? ivec2(index % SIDE, index / SIDE) + 1 - SIDE / 2 : ivec2(on_ring & 1, (on_ring >> 1) & 1);
+        ivec2 texel = ivec2(floor(at)) + offset;
         if (texel != clamp(texel, ivec2(0), last)) continue;
         vec2 there = texelFetch(depth_and_id, texel, 0).xy;
         if (there.y != id) continue;
         vec2 offset_px = vec2(texel) + 0.5 - place.xy;
         float before_px = (plane_depth(offset_px) - there.x) / units_per_px(place.z);
-        if (index >= 4) before_px -= doubt_px;
-        vec2 near = mix(1.0 - part, part, vec2(offset));
-        float weight = near.x * near.y * (index < 4 ? 1.0 : believed);
+        before_px -= doubt * (on_ring < 0 ? max(length(offset_px) - 1.0, 0.0) : ring_px);
+        float wide_px = on_ring < 0 ? center_wide_px : 1.0;
+        vec2 near = max(1.0 - abs(vec2(texel) - at) / wide_px, 0.0) / wide_px;
+        float weight = near.x * near.y * (on_ring < 0 ? 1.0 : believed);
         found += weight;
         covered += weight * smoothstep(covers_px.x, covers_px.y, before_px);
     }
@@ -111,6 +119,18 @@ bool is_in_picture(ivec2 texel) {
 vec3 color_of(ivec2 texel) {
     vec3 color = texelFetch(reference_color, texel, 0).rgb;
     return kind == LIGHTS ? color + texelFetch(highlight, texel, 0).rgb : color;
+}
+
+// How much lighter the highlight makes the body here: the luminance of what `highlight` adds, a mean over the place.
+float added_by_highlight(vec2 at_px, float id) {
+    vec2 sum = vec2(0.0);
+    for (int index = 0; index < 9; index++) {
+        vec2 tap_px = at_px + (vec2(index % 3, index / 3) - 1.0) * max(3.0 * px_scale, 1.0);
+        if (surface_at(tap_px).y != id) continue;
+        ivec2 texel = clamp(ivec2(floor(tap_px)), ivec2(0), textureSize(highlight, 0) - 1);
+        sum += vec2(dot(texelFetch(highlight, texel, 0).rgb, vec3(0.2126, 0.7152, 0.0722)), 1.0);
+    }
+    return sum.x / max(sum.y, 1.0);
 }
 
 // The sum of the colours of the four nearest pixels, by bilinear weights; w is the sum of these weights. Only pixels of
