@@ -277,7 +277,7 @@ fn what_takes_more_memory_than_the_process_may_have_is_refused_and_does_not_end_
     for (arguments, says) in [
         (
             "--frames 0 --size 8192x8192",
-            "a picture of 8192x8192 takes about 4544 MiB while it is drawn, and ",
+            "a picture of 8192x8192 takes about 4800 MiB while it is drawn, and ",
         ),
         ("--frames 0 --set objects[0].particles=16000000", "MiB may be taken"),
         // `--memory` does not lift the limit of the process.
