@@ -77,7 +77,7 @@ fn strokes_at_the_border_are_shifted_onto_their_body() {
     let painting = prepare(shapes::loaded(scene, [shapes::sheet(1)])).unwrap();
     let frame = painting.at(0.0, &FrameOptions::new(SIZE_PX));
     let found = errors(&frame, &mut renderer(Driver::Egl));
-    // The shader's taps are 1/24 of half a stroke apart, so the shift is not exact.
+    // The shader's taps are 1/12 of half a stroke apart, so the shift is not exact.
     let off = largest(&found.at_border);
     assert!(off < 2.0, "strokes at the border are not shifted onto their body: off by {off} px");
     let off = largest(&found.inside);

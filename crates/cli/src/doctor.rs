@@ -167,6 +167,7 @@ fn test_frame() -> Frame {
         palettes: Arc::default(),
         finish: Finish::default(),
         style: Style::default(),
+        has_highlight_strokes: false,
         quality: Quality::Exact,
         exposure: 1.0,
     }

@@ -96,7 +96,7 @@ impl ReferencePass {
         };
         let bound = targets
             .set(lights.set(lens.set(light.bind(), &LENS_UNIFORMS)))?
-            .set("highlight_in_color", styles::highlight_in_color(&frame.style));
+            .set("highlight_in_color", styles::highlight_in_color(frame));
         self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
         watch.passed("light")?;
         self.noise.draw(frame, &bodies, &self.tiles, targets, watch)?;

@@ -6,7 +6,7 @@ use glam::DAffine3;
 use impasto_scene::built_in_mesh;
 use impasto_scene::motion::{self, CameraPose};
 
-use crate::frame::{Frame, FrameBody, Lines, Strokes};
+use crate::frame::{Frame, FrameBody, LayerKind, Lines, Strokes};
 use crate::frame_options::FrameOptions;
 use crate::lights;
 use crate::painting::Painting;
@@ -64,6 +64,7 @@ impl Painting {
             palettes: self.palettes_at(frame),
             finish: self.finish.at(&view, f64::from(options.shot_height_px())),
             style: self.style.clone(),
+            has_highlight_strokes: self.coats.iter().any(|coat| coat.kind == LayerKind::Lights),
             quality: options.quality,
             exposure: (options.exposure_stops + of_shot).exp2(),
         }

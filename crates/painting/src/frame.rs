@@ -52,6 +52,8 @@ pub struct Frame {
     pub finish: Finish,
     /// How to draw, with the settings of that style.
     pub style: Style,
+    /// Whether highlights have strokes of their own, anywhere in the painting.
+    pub has_highlight_strokes: bool,
     /// Exact, or a quick draft.
     pub quality: Quality,
     /// A factor on the finished picture as a display shows it; 1 leaves it as it is.

@@ -33,6 +33,6 @@ void main() {
     Light light = light_on(point);
     vec3 matt = surface.rgb * light.diffuse;
     color = vec4(exposed(matt + highlight_in_color * light.highlight), 1.0);
-    highlight.rgb = exposed(matt + light.highlight) - color.rgb;
+    highlight.rgb = max(exposed(matt + light.highlight) - color.rgb, 0.0);
     glint.r = light.glint;
 }

@@ -41,12 +41,11 @@ const float BLUR[8] = float[8](0.33, 0.20, 0.20, 0.22, 0.30, 0.60, 0.25, 0.25);
 // How far highlights are spread over their body, as in `RotatingStrokes`, pixels of the scene's own size.
 const float SPREAD_PX = 16.0;
 // Strokes of a highlight gather round its peak. GATHERED: a stroke lies at this share of its particle's distance from
-// the peak. NEAR_PEAK: particles count by how strong the highlight is where they lie, as a share of its peak: not at all
-// below the first, wholly from the second on. So none pops as its particle comes near or goes, nor where the peak is
-// vague. GATHER_PX: nor do those count that are further away than this, pixels of the scene's own size.
+// the peak. Strokes fade as the highlight, where their particle lies, falls below NEAR_PEAK of its peak, and over the second
+// half of GATHER_PX (pixels of the scene's own size) from the peak: none pops as its particle comes near or goes.
 const float GATHERED = 0.3;
 const float GATHER_PX = 60.0;
-const vec2 NEAR_PEAK = vec2(0.0, 0.7);
+const float NEAR_PEAK = 0.7;
 // By how much luminance, display-linear, the strokes of a highlight are lighter than those below: none where it is less than
 // the first, since a faint sheen is no highlight, and all from the second on.
 const vec2 SHEEN = vec2(0.05, 0.12);
@@ -319,7 +318,7 @@ void main() {
         float gather_px = GATHER_PX * px_scale;
         there *= 1.0 - smoothstep(0.5 * gather_px, gather_px, length(to_peak));
         vec3 at_peak = detail_at(place.xy + to_peak, own.y);
-        there *= smoothstep(NEAR_PEAK.x, NEAR_PEAK.y, detail_at(place.xy, own.y).b / max(at_peak.b, 1e-4));
+        there *= smoothstep(0.0, NEAR_PEAK, detail_at(place.xy, own.y).b / max(at_peak.b, 1e-4));
         there = without_last(there * wanted(at_peak));
     } else if (small && there > LEAST) there = without_last(there * wanted(detail_at(place.xy, own.y)));
     if (kind == CONTOUR && there > LEAST) {
@@ -358,10 +357,15 @@ void main() {
         there *= presence(size.w + log(fullness(lab.x, mixing.grading))) / presence(size.w + log(MOST_FULL));
     }
     if (kind == CONTOUR) there = without_last(there * line_wanted(outline, lab.x));
+    vec2 center_px = place.xy + moved + turn[0] * shift(turn, own);
+#ifndef DRAFT
+    bool may_move = kind != CONTOUR && kind != TOUCHES && reach.x < FREE;
+    if (thin > 0.0 && may_move) center_px += thin * to_spine_px(center_px, own);
+#endif
+    fitted = vec4(center_px, lab.x, turned);
     // A fixed colour: that of a touch, or of a picture that shows a measure instead of the scene.
     if ((marks.z >> 24) == 128u) {
         resolved = vec4(albedo_of(marks.z), there);
-        fitted = vec4(place.xy + moved + turn[0] * shift(turn, own), lab.x, turned);
         if (kind == TOUCHES) fitted.z = oklab_from_linear(resolved.rgb).x;
         return;
     }
@@ -371,9 +375,5 @@ void main() {
     there = max(there - LEAST, 0.0) / (1.0 - LEAST);
 #endif
     resolved = vec4(linear_from_oklab(lab), there);
-    vec2 center_px = place.xy + moved + turn[0] * shift(turn, own);
-#ifndef DRAFT
-    if (thin > 0.0 && kind != CONTOUR && reach.x < FREE) center_px += thin * to_spine_px(center_px, own);
-#endif
-    fitted = vec4(center_px, lab.x, turned);
+    fitted.z = lab.x;
 }

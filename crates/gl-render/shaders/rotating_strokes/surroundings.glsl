@@ -92,7 +92,7 @@ float freedom(vec2 center_px, float id) {
         if (there.y != id) continue;
         vec2 offset_px = vec2(texel) + 0.5 - place.xy;
         float before_px = (plane_depth(offset_px) - there.x) / units_per_px(place.z);
-        before_px -= doubt * (on_ring < 0 ? max(length(offset_px) - 1.0, 0.0) : ring_px);
+        before_px -= doubt * (on_ring < 0 ? max(length(vec2(texel) + 0.5 - center_px) - 1.0, 0.0) : ring_px);
         float wide_px = on_ring < 0 ? center_wide_px : 1.0;
         vec2 near = max(1.0 - abs(vec2(texel) - at) / wide_px, 0.0) / wide_px;
         float weight = near.x * near.y * (on_ring < 0 ? 1.0 : believed);
@@ -269,15 +269,20 @@ vec3 detail_at(vec2 center_px, float id) {
 }
 
 // From a place to the middle of what is seen of the stroke's own body around it. On a part that is two or three pixels wide
-// a stroke beside it would lie on the part in one frame and miss it in the next.
+// a stroke beside it would lie on the part in one frame and miss it in the next. Each tap lies between four pixels, so that
+// the middle does not leap either.
 vec2 to_spine_px(vec2 center_px, vec2 own) {
     float step_px = 2.0 * px_scale;
     vec3 sum = vec3(0.0);
-    for (int index = 0; index < 49; index++) {
-        vec2 offset = vec2(index % 7, index / 7) - 3.0;
-        float near = max(1.0 - 0.0625 * dot(offset, offset), 0.0);
-        vec2 there = surface_at(center_px + offset * step_px);
-        if (there.y == own.y) sum += vec3(offset * step_px, 1.0) * near * near;
+    for (int index = 0; index < 4 * 49; index++) {
+        int tap = index >> 2;
+        vec2 offset = vec2(tap % 7, tap / 7) - 3.0;
+        float near_center = max(1.0 - 0.0625 * dot(offset, offset), 0.0);
+        vec2 at = center_px + offset * step_px - 0.5;
+        vec2 corner = vec2(index & 1, (index >> 1) & 1);
+        if (surface_at(floor(at) + corner + 0.5).y != own.y) continue;
+        vec2 near = mix(1.0 - fract(at), fract(at), corner);
+        sum += vec3(offset * step_px, 1.0) * (near_center * near_center * near.x * near.y);
     }
     return sum.xy / max(sum.z, 1e-3);
 }

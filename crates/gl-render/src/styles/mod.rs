@@ -4,7 +4,7 @@ mod reference;
 mod rotating_strokes;
 mod sumi_e;
 
-use impasto_painting::frame::Style;
+use impasto_painting::frame::{Frame, Style};
 
 use crate::gl::{GlError, Gpu};
 use crate::style_renderer::StyleRenderer;
@@ -19,10 +19,10 @@ pub(crate) fn open(gpu: &Gpu, style: &Style) -> Result<Box<dyn StyleRenderer>, G
 }
 
 /// The share of the highlights that the colour of the reference picture has. Of a highlight that passes over a body the
-/// strokes below take a part, so that they stay calm; the strokes of highlights add the rest.
-pub(crate) fn highlight_in_color(style: &Style) -> f32 {
-    match style {
-        Style::RotatingStrokes(_) => 0.6,
-        Style::SumiE(_) | Style::Reference => 1.0,
+/// strokes below take a part, so that they stay calm; the strokes of highlights, where there are any, add the rest.
+pub(crate) fn highlight_in_color(frame: &Frame) -> f32 {
+    match frame.style {
+        Style::RotatingStrokes(_) if frame.has_highlight_strokes => 0.6,
+        Style::RotatingStrokes(_) | Style::SumiE(_) | Style::Reference => 1.0,
     }
 }
