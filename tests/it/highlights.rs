@@ -70,3 +70,16 @@ fn strokes_of_a_small_highlight_are_about_as_strong_as_those_of_a_large_one() {
     let [large, small] = [4.0, 7.0].map(|distance| ball(&mut renderer, 0.5, distance).highlight[1]);
     assert!(small > 0.6 * large && large > 0.3, "{small} where it is small, {large} where it is large");
 }
+
+/// Plaster shines a little: that is no highlight, and none of it is lost.
+#[test]
+fn a_faint_sheen_has_no_strokes_of_its_own_and_stays_in_those_below() {
+    let mut renderer = renderer(Driver::Egl);
+    let matt = ball(&mut renderer, 0.0, 4.0);
+    let plaster = ball(&mut renderer, 0.1, 4.0);
+    let whole = plaster.plain - matt.plain;
+    assert!(whole > 0.03, "the sheen is hardly seen: {whole}");
+    let below = (plaster.below - matt.below) / whole;
+    assert!(below > 0.8, "strokes below have {below} of it");
+    assert!(plaster.highlight[1] == 0.0, "a stroke of highlights is there by {}", plaster.highlight[1]);
+}

@@ -150,8 +150,22 @@ pub(super) const FAULTS: &[Fault] = &[
     Fault {
         name: "strokes below a highlight take all of it",
         file: "reference/light.frag",
-        from: "highlight_in_color * light.highlight",
+        from: "share * light.highlight",
         to: "light.highlight",
+        tests: &["highlights::"],
+    },
+    Fault {
+        name: "a faint sheen loses a part",
+        file: "reference/light.frag",
+        from: "smoothstep(STRONG.x, STRONG.y, lighter)",
+        to: "1.0",
+        tests: &["highlights::"],
+    },
+    Fault {
+        name: "strokes of highlights follow how large they are",
+        file: "rotating_strokes/resolve.vert",
+        from: "smoothstep(0.0, 0.14, detail.b)",
+        to: "smoothstep(0.01, 0.30, detail.b)",
         tests: &["highlights::"],
     },
     Fault {
@@ -159,6 +173,13 @@ pub(super) const FAULTS: &[Fault] = &[
         file: "rotating_strokes/resolve.vert",
         from: "center_px += thin * to_spine_px",
         to: "center_px += 0.0 * to_spine_px",
+        tests: &["shift::"],
+    },
+    Fault {
+        name: "the middle of a thin part leaps from pixel to pixel",
+        file: "rotating_strokes/surroundings.glsl",
+        from: "mix(1.0 - fract(at), fract(at), corner)",
+        to: "vec2(equal(corner, step(0.5, fract(at))))",
         tests: &["shift::"],
     },
     Fault {

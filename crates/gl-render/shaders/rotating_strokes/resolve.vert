@@ -46,9 +46,9 @@ const float SPREAD_PX = 16.0;
 const float GATHERED = 0.3;
 const float GATHER_PX = 60.0;
 const float NEAR_PEAK = 0.7;
-// By how much luminance, display-linear, the strokes of a highlight are lighter than those below: none where it is less than
-// the first, since a faint sheen is no highlight, and all from the second on.
-const vec2 SHEEN = vec2(0.05, 0.12);
+// By how much luminance, display-linear, the strokes of a highlight are lighter than those below where all of them are there. A
+// faint sheen has none.
+const float LIGHTER = 0.08;
 
 // How far from itself a contour stroke looks for the end of its body, pixels of the scene's own size.
 const float OUTLINE_PX = 20.0;
@@ -346,7 +346,7 @@ void main() {
     // Only the picture has highlights, not the stroke's own lit albedo. On thin parts single pixels glint by chance.
     if (kind == LIGHTS) {
         there *= found.w * (1.0 - smoothstep(0.0, THIN, thinness(place.xy, own, 1.0)));
-        there *= smoothstep(SHEEN.x, SHEEN.y, added_by_highlight(at_px, own.y));
+        there *= smoothstep(0.0, LIGHTER, added_by_highlight(at_px, own.y));
     }
     float thin = kind == LIGHTS ? 0.0 : smoothstep(0.0, THIN, thinness(at_px, own, free));
     float known = kind == LIGHTS ? 1.0 : found.w * (1.0 - thin);

@@ -18,7 +18,7 @@ pub(crate) fn open(gpu: &Gpu, style: &Style) -> Result<Box<dyn StyleRenderer>, G
     })
 }
 
-/// The share of the highlights that the colour of the reference picture has. Of a highlight that passes over a body the
+/// The share of strong highlights that the colour of the reference picture has. Of a highlight that passes over a body the
 /// strokes below take a part, so that they stay calm; the strokes of highlights, where there are any, add the rest.
 pub(crate) fn highlight_in_color(frame: &Frame) -> f32 {
     match frame.style {
