@@ -49,6 +49,7 @@ mod references;
 mod roll_and_lateral;
 mod rotating_strokes;
 mod scenes_in_motion;
+mod seen;
 mod shift;
 mod shipped_scenes;
 mod shot_looks;

@@ -1,9 +1,12 @@
-//! Tests of the colours of strokes that another part of their own body covers, from strokes read back.
+//! Tests of the colours of strokes, from strokes read back: where another part of their own body covers them, and along the
+//! border between two colours.
+
+use std::collections::HashMap;
 
 use glam::DVec3;
 use impasto_gl_render::context::Driver;
 use impasto_painting::{FrameOptions, prepare};
-use impasto_scene::document::MaterialOverride;
+use impasto_scene::document::{Lens, MaterialOverride, Style};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::mesh_file::{Material, MeshFile};
 use impasto_tests::pictures::renderer;
@@ -59,4 +62,62 @@ fn a_covered_stroke_has_the_colour_that_is_seen_also_where_its_middle_is_beyond_
         *if stroke.center_px[0] < -4.0 { &mut beyond } else { &mut inside } += 1;
     }
     assert!(inside > 20 && beyond > 5, "{inside} strokes inside, {beyond} beyond");
+}
+
+/// The largest change of a stroke's green while the camera moves by two pixels in sixteen steps, over a sheet that is black
+/// on the left and white on the right. Pixels have `samples` samples a side.
+fn largest_step_along_a_border(samples: u32) -> f32 {
+    let mut board = shapes::object("board", 3000);
+    board.material = Some(MaterialOverride { unlit: true, ..Default::default() });
+    let mut scene = shapes::scene(vec![board]);
+    scene.camera.lens = Lens::Orthographic { height: 3.0, near: 0.05, far: 100.0 };
+    scene.timeline.last = 16;
+    scene.camera.keys = [0.0, 16.0]
+        .map(|frame| {
+            let x = frame / 8.0 / 120.0;
+            shapes::camera_key(frame, [x, 0.0, 4.0], [x, 0.0, 0.0])
+        })
+        .into();
+    let Style::RotatingStrokes(settings) = &mut scene.style else { panic!("strokes are the default") };
+    settings.samples = samples;
+    scene.strokes.layers = shapes::body_layer_alone();
+    let mut loaded = LoadedScene::clone(&shapes::loaded(scene, [shapes::sheet(2)]));
+    for file in loaded.meshes.values_mut() {
+        let mut painted = MeshFile::clone(file);
+        painted.materials =
+            vec![Material::plain("left".to_owned(), [0.0; 3]), Material::plain("right".to_owned(), [1.0; 3])];
+        for triangle in 0..painted.mesh.triangles.len() {
+            let [a, b, c] = painted.mesh.corners(triangle);
+            painted.mesh.material_of_triangle[triangle] = u32::from((a + b + c).x > 0.0);
+        }
+        *file = painted.into();
+    }
+    let painting = prepare(loaded.into()).unwrap();
+    let mut renderer = renderer(Driver::Egl);
+    let mut before: HashMap<_, f32> = HashMap::new();
+    let mut largest = 0.0f32;
+    for number in 0..=16 {
+        let frame = painting.at(f64::from(number), &FrameOptions::new([640, 360]));
+        renderer.render(&frame).unwrap();
+        let resolved = renderer.resolved_strokes();
+        let now: HashMap<_, f32> = frame
+            .sources
+            .iter()
+            .zip(&resolved)
+            .filter(|(_, drawn)| drawn.alpha > 0.05)
+            .map(|(source, drawn)| ((source.place, source.particle), drawn.color_linear[1]))
+            .collect();
+        let steps = now.iter().filter_map(|(source, green)| Some((green - before.get(source)?).abs()));
+        largest = steps.fold(largest, f32::max);
+        before = now;
+    }
+    largest
+}
+
+/// A whole column of pixels changes its colour at once where it has one sample, half of it where it has two.
+#[test]
+fn a_border_between_two_colours_moves_within_pixels() {
+    let [coarse, fine] = [1, 2].map(largest_step_along_a_border);
+    assert!(coarse > 0.1, "the border is hardly seen: {coarse}");
+    assert!(fine < 0.6 * coarse, "a stroke's colour leaps by {fine}, with one sample by {coarse}");
 }

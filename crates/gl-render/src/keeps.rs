@@ -23,18 +23,24 @@ impl Keeps {
     /// What to keep of a picture of this size whose paint will not be read: everything, unless the picture is huge.
     /// `surfaces` says whether its surfaces will be read.
     pub fn of_size(size_px: [u32; 2], surfaces: bool) -> Self {
-        let is_huge = size_px.map(u64::from).iter().product::<u64>() > HUGE_PX;
-        match (is_huge, surfaces) {
+        match (Self::is_huge(size_px), surfaces) {
             (false, _) => Self::Everything,
             (true, true) => Self::Surfaces,
             (true, false) => Self::Picture,
         }
     }
 
+    /// Whether a picture of this size is huge.
+    pub(crate) fn is_huge(size_px: [u32; 2]) -> bool {
+        size_px.map(u64::from).iter().product::<u64>() > HUGE_PX
+    }
+
     /// The most memory that drawing a picture in this style takes, bytes per pixel. A pixel has `samples` samples along
     /// each axis.
     pub fn bytes_per_px(self, style: &Style, samples: u32) -> u64 {
         let fine = if samples > 1 { u64::from(samples * samples) * 12 } else { 0 };
+        // Of a huge picture, the colours of samples are not drawn.
+        let colors = if samples > 1 { u64::from(samples * samples) * 4 } else { 0 };
         // Bytes of the target that is found from the samples: depth and body in the middle of each pixel, and the share
         // of the pixel that shows something else.
         let surface = if samples > 1 { 8 } else { 0 };
@@ -49,7 +55,7 @@ impl Keeps {
         // Bytes for strokes, for what is read back, and for what the driver needs beside.
         let else_taken = 8;
         let drawn = match self {
-            Self::Everything => unlit + lit + fine + surface + paint + picture,
+            Self::Everything => unlit + lit + fine + colors + surface + paint + picture,
             Self::Picture if !reads_unlit => lit + fine.max(surface + paint + picture),
             Self::Surfaces | Self::Picture => unlit + lit + fine.max(surface + paint + picture),
         };

@@ -12,9 +12,6 @@ pub(crate) const LENS_UNIFORMS: [&str; 5] =
 /// The uniforms of a shader that only computes the rays of pixels.
 pub(crate) const RAY_UNIFORMS: [&str; 4] = ["world_from_view", "gaze_px", "px_per_unit_at_1", "orthographic"];
 
-/// The uniforms of a shader that only computes how large things show.
-pub(crate) const SCALE_UNIFORMS: [&str; 3] = ["size_px", "px_per_unit_at_1", "orthographic"];
-
 /// The uniforms of a shader that works in view space.
 pub(crate) const VIEW_LENS_UNIFORMS: [&str; 4] = ["size_px", "gaze_px", "px_per_unit_at_1", "orthographic"];
 

@@ -29,6 +29,7 @@ mod palettes;
 mod reference;
 mod reference_targets;
 mod renderer;
+mod samples;
 mod shader_files;
 pub mod shader_folder;
 mod shadow;

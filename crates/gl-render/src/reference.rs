@@ -12,24 +12,30 @@ use crate::gl::{
     DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program, ProgramSource, Texture, VertexArray,
     Vertices,
 };
+use crate::keeps::Keeps;
 use crate::lens::{LENS_UNIFORMS, LensSetup, VIEW_LENS_UNIFORMS};
 use crate::lighting::{LIGHT_UNIFORMS, LightSetup};
 use crate::materials::noise_displace::{self, NoiseDisplace};
 use crate::meshes::{DrawnBody, MeshCache};
 use crate::noise_tiles::NoiseTiles;
 use crate::reference_targets::{ReferenceTargets, SURFACE_TEXTURES};
+use crate::samples::{SamplePass, Samples};
 use crate::shader_files::{REFERENCE, SHARED};
 use crate::shadow::ShadowMap;
 use crate::styles;
 use crate::watch::Watch;
 
-/// The passes, in order: shadow, surface, openness (ambient occlusion), light, then the bodies that noise colours.
+/// The passes, in order: shadow, surface, samples, openness (ambient occlusion), light, then the bodies that noise colours.
 pub(crate) struct ReferencePass {
     gpu: Gpu,
     shadow: ShadowMap,
     surface: BodyProgram,
     openness: Program,
     light: Program,
+    /// Created when the first picture with several samples in a pixel is drawn.
+    samples: Option<SamplePass>,
+    /// The samples of the last picture, if they served for its light; taken once.
+    drawn: Option<Samples>,
     /// Created when the first draft is drawn.
     draft_light: Option<Program>,
     /// Created when it is first wanted.
@@ -48,6 +54,8 @@ impl ReferencePass {
             surface: BodyProgram::new(gpu, FILES, SURFACE)?,
             openness: Program::new(gpu, FILES, &OPENNESS)?,
             light: Program::new(gpu, FILES, &LIGHT)?,
+            samples: None,
+            drawn: None,
             draft_light: None,
             light_parts: None,
             screen: VertexArray::empty(gpu)?,
@@ -76,6 +84,14 @@ impl ReferencePass {
         watch.passed("shadow")?;
         self.draw_surfaces(frame, &bodies, targets)?;
         watch.passed("surface")?;
+        // The pixels of a huge picture are far smaller than a stroke: its samples come later, when there is room.
+        self.drawn = match styles::samples(frame, self.gpu.limits().max_side_px) {
+            per_side if per_side > 1 && !Keeps::is_huge(frame.size_px) => {
+                Some(self.ready_samples()?.draw(frame, &bodies, (per_side, true))?)
+            }
+            _ => None,
+        };
+        watch.passed("samples")?;
 
         self.gpu.begin_pass(&targets.unlit()?.openness_pass, DrawState::default());
         let bound = lens
@@ -97,15 +113,44 @@ impl ReferencePass {
         let bound = targets
             .set(lights.set(lens.set(light.bind(), &LENS_UNIFORMS)))?
             .set("highlight_in_color", styles::highlight_in_color(frame));
+        let bound = match &self.drawn {
+            Some(Samples { depth_and_id, root_albedo: Some(root_albedo), per_side }) => bound
+                .texture("fine", depth_and_id)
+                .texture("root_albedo", root_albedo)
+                .set("samples", *per_side as i32),
+            _ => bound
+                .texture("fine", &targets.depth_and_id)
+                .texture("root_albedo", &targets.depth_and_id)
+                .set("samples", 1),
+        };
         self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
         watch.passed("light")?;
         self.noise.draw(frame, &bodies, &self.tiles, targets, watch)?;
         Ok(lights)
     }
 
+    /// The samples of the last picture, which is of this frame; `None` where pixels have only one. Draws them now, unless
+    /// they served for its light.
+    pub(crate) fn take_samples(
+        &mut self,
+        frame: &Frame,
+        bodies: &[DrawnBody<'_>],
+    ) -> Result<Option<Samples>, GlError> {
+        if let Some(samples) = self.drawn.take() {
+            return Ok(Some(samples));
+        }
+        match styles::samples(frame, self.gpu.limits().max_side_px) {
+            1 => Ok(None),
+            per_side => self.ready_samples()?.draw(frame, bodies, (per_side, false)).map(Some),
+        }
+    }
+
     /// Lets go of the targets that it holds.
     pub(crate) fn let_go(&mut self) {
         self.noise.let_go();
+        if let Some(samples) = &mut self.samples {
+            samples.let_go();
+        }
     }
 
     /// Draws the light on the surfaces of the last picture, apart from their colours. Returns first the light that
@@ -131,11 +176,21 @@ impl ReferencePass {
 
     /// Creates at once every program that is otherwise created when it is first needed.
     pub(crate) fn ready_all(&mut self) -> Result<(), GlError> {
+        self.ready_samples()?.ready_all()?;
         self.ready_drafts()?;
         self.ready_light_parts()?;
         self.shadow.program().ready_all()?;
         self.surface.ready_all()?;
         self.noise.ready_all()
+    }
+
+    /// The pass for samples; creates it unless it exists.
+    fn ready_samples(&mut self) -> Result<&mut SamplePass, GlError> {
+        let pass = match self.samples.take() {
+            Some(pass) => pass,
+            None => SamplePass::new(&self.gpu)?,
+        };
+        Ok(self.samples.insert(pass))
     }
 
     /// Creates the program for the parts of light, unless it exists.
@@ -260,7 +315,12 @@ const OPENNESS: ProgramSource<'static> = ProgramSource::screen(
 
 const LIGHT: ProgramSource<'static> = ProgramSource::screen(
     "reference/light.frag",
-    &[&LENS_UNIFORMS, &LIGHT_UNIFORMS, &SURFACE_TEXTURES, &["highlight_in_color"]],
+    &[
+        &LENS_UNIFORMS,
+        &LIGHT_UNIFORMS,
+        &SURFACE_TEXTURES,
+        &["highlight_in_color", "fine", "root_albedo", "samples"],
+    ],
 );
 
 const LIGHT_PARTS: ProgramSource<'static> = ProgramSource::screen(

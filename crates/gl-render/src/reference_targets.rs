@@ -17,7 +17,7 @@ pub(crate) struct ReferenceTargets {
     pub(crate) normal: Rc<Texture>,
     /// Depth along the gaze, and the body's index plus 1; 0 where nothing is.
     pub(crate) depth_and_id: Rc<Texture>,
-    /// How strong the highlight is.
+    /// How strong the highlight is: 0 for a faint sheen, up to 1.
     pub(crate) glint: Rc<Texture>,
     /// What `color` leaves out of the highlights, display-linear.
     pub(crate) highlight: Rc<Texture>,

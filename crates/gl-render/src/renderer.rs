@@ -2,6 +2,7 @@
 
 mod data;
 
+use std::cell::Cell;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
@@ -284,8 +285,22 @@ impl Renderer {
         if self.keeps == Keeps::Picture && !style.reads_unlit() {
             reference.let_unlit_go();
         }
+        let samples = self.reference.take_samples(frame, &bodies)?;
+        if self.keeps.lets_go() {
+            // Frees the depth of the samples.
+            gpu.finish();
+            self.reference.let_go();
+        }
         let (gathers, keeps) = (self.gathers, self.keeps);
-        let input = StyleInput { frame, reference, lights, bodies: &bodies, gathers, keeps };
+        let input = StyleInput {
+            frame,
+            reference,
+            lights,
+            samples: Cell::new(samples),
+            bodies: &bodies,
+            gathers,
+            keeps,
+        };
         let mut output = Output { gpu, size_px: frame.size_px, painted: &mut self.painted };
         style.draw(&input, &mut output, watch)?;
         let seen = Seen { view: frame.view, exposure: frame.exposure };

@@ -58,6 +58,7 @@ pub(crate) const REFERENCE: &[ShaderFile] = shader_files![
     "reference/lighting.glsl",
     "reference/surface.vert",
     "reference/surface.frag",
+    "reference/sample.frag",
     "reference/shadow.vert",
     "reference/shadow.frag",
     "reference/openness.frag",

@@ -1,5 +1,7 @@
 //! The trait that every style's renderer implements, and the input that such a renderer draws from.
 
+use std::cell::Cell;
+
 use impasto_painting::Frame;
 
 use crate::drawn::PaintSurface;
@@ -10,6 +12,7 @@ use crate::keeps::Keeps;
 use crate::lighting::LightSetup;
 use crate::meshes::DrawnBody;
 use crate::reference_targets::ReferenceTargets;
+use crate::samples::Samples;
 use crate::watch::Watch;
 
 /// What a style draws a frame from.
@@ -17,6 +20,8 @@ pub(crate) struct StyleInput<'a> {
     pub(crate) frame: &'a Frame,
     pub(crate) reference: &'a ReferenceTargets,
     pub(crate) lights: &'a LightSetup,
+    /// Taken once, by a style that reads them.
+    pub(crate) samples: Cell<Option<Samples>>,
     /// The bodies of the frame, in its order.
     pub(crate) bodies: &'a [DrawnBody<'a>],
     /// Whether the paint's layers and its surface are wanted too, where the style has them.

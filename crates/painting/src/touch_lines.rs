@@ -47,7 +47,7 @@ struct LinePoint {
     facing: f64,
     /// How much deeper the surface gets, in pixels of depth per pixel along x and y.
     slope: DVec2,
-    /// Absolute cosine between the normal and the gaze, at least `LEAST_SLANT`.
+    /// How far the surface faces the eye, as in `shared/lens.glsl` (`facing_at_px`), without sign; at least `LEAST_SLANT`.
     slant: f64,
     /// Unit.
     normal_in_world: DVec3,
@@ -113,12 +113,16 @@ impl PaintingView<'_> {
             None => (place.position, place.normal),
         };
         let depth = body.map.depth(position);
-        let facing = body.map.facing(body.map.jacobian(position), normal);
+        let jacobian = body.map.jacobian(position);
+        let facing = body.map.facing(jacobian, normal);
         let in_world = body.world_from_model.matrix3.inverse().transpose() * normal;
         let normal_in_world = in_world.normalize_or_zero();
         let in_view = self.view_from_world * normal_in_world;
-        let slant = in_view.z.abs().max(LEAST_SLANT);
-        let slope = in_view.truncate() / if in_view.z < 0.0 { -slant } else { slant };
+        let towards_eye = body.world_from_model.matrix3 * jacobian[0].cross(jacobian[1]);
+        let gaze = self.view_from_world * towards_eye.normalize_or_zero();
+        let leans = in_view.dot(gaze) / gaze.z;
+        let slant = leans.abs().max(LEAST_SLANT);
+        let slope = in_view.truncate() / if leans < 0.0 { -slant } else { slant };
         let half = DVec2::from(self.half_px.map(f64::from));
         LinePoint {
             share,

@@ -136,7 +136,7 @@ pub(super) const FAULTS: &[Fault] = &[
     Fault {
         name: "hidden strokes show",
         file: "rotating_strokes/resolve.vert",
-        from: "return (1.0 - by_own / float(RING)) * smoothstep(0.0, WHOLE, visible);",
+        from: "return (1.0 - by_own / float(PLACES)) * smoothstep(0.0, WHOLE, visible);",
         to: "return smoothstep(0.0, WHOLE, visible);",
         tests: &[GOLDENS],
     },
@@ -155,9 +155,23 @@ pub(super) const FAULTS: &[Fault] = &[
         tests: &["highlights::"],
     },
     Fault {
+        name: "planes that are seen flat are turned over",
+        file: "shared/lens.glsl",
+        from: "return normal_in_view.z - dot(normal_in_view.xy, gaze);",
+        to: "return normal_in_view.z - 0.001 * dot(normal_in_view.xy, gaze);",
+        tests: &["seen::"],
+    },
+    Fault {
+        name: "a border between two colours leaps from pixel to pixel",
+        file: "reference/light.frag",
+        from: "surface.rgb = mean_albedo(at, surface, here.y);",
+        to: "surface.rgb = mix(surface.rgb, mean_albedo(at, surface, here.y), 0.01);",
+        tests: &["stroke_colors::"],
+    },
+    Fault {
         name: "a faint sheen loses a part",
         file: "reference/light.frag",
-        from: "smoothstep(STRONG.x, STRONG.y, lighter)",
+        from: "smoothstep(STRONG.x, STRONG.y, light.glint)",
         to: "1.0",
         tests: &["highlights::"],
     },

@@ -1,19 +1,63 @@
 // Lights every pixel of the surfaces. A style may ask for a part of the strong highlights apart from the colour.
 #include "shared/lens.glsl"
+#define SHADOW_OF_SAMPLES
 #include "reference/lighting.glsl"
 uniform sampler2D albedo_and_lit;
 uniform sampler2D normal;        // rgb: normal in world space, a: gloss
 uniform sampler2D depth_and_id;
 uniform sampler2D openness;      // ambient occlusion: 0 enclosed .. 1 open; half the picture's size
+uniform sampler2D fine;          // depth and body id of every sample
+uniform sampler2D root_albedo;   // square root of the colour of every sample, and `is_lit`
+uniform int samples;             // per pixel along each axis; 1: pixels stand for them
 uniform float highlight_in_color; // the share of a strong highlight that `color` has, 0..1
 
 layout(location = 0) out vec4 color;
-layout(location = 1) out vec4 glint;
+layout(location = 1) out vec4 glint;     // how strong the highlight is, 0..1
 layout(location = 2) out vec4 highlight; // what `color` leaves out, display-linear
 
-// By how much luminance a highlight makes the surface lighter: from the first on it is in part a strong one, from the second
-// wholly. `color` has all of a faint sheen.
-const vec2 STRONG = vec2(0.10, 0.28);
+// A highlight of `Light::glint` up to the first is a faint sheen, as on plaster, and one from the second on is strong. `color` has
+// all of a sheen.
+const vec2 STRONG = vec2(0.15, 0.40);
+
+// Where the surface is seen flat, a pixel covers more of it than a texel of the shadow map, and one place alone would light up or
+// not by chance: a mean over the samples of the body.
+float shadow_at(LitPoint at) {
+    float alone = sunlit(at.position, at.normal, 3, 1.9);
+    if (samples == 1) return alone;
+    float id = texelFetch(depth_and_id, ivec2(gl_FragCoord.xy), 0).y;
+    float farthest = 0.0;
+    vec3 places[16];
+    int count = 0;
+    for (int index = 0; index < samples * samples; index++) {
+        ivec2 sample_at = ivec2(gl_FragCoord.xy) * samples + ivec2(index % samples, index / samples);
+        vec2 there = texelFetch(fine, sample_at, 0).xy;
+        if (there.y != id) continue;
+        places[count] = world_from_px((vec2(sample_at) + 0.5) / float(samples), there.x);
+        farthest = max(farthest, distance(places[count], at.position));
+        count++;
+    }
+    float wide = smoothstep(0.5, 1.0, farthest / (shadow_texel * max(away_from_lamp(at.position), 1e-6)));
+    if (wide == 0.0) return alone;
+    float mean = 0.0;
+    for (int index = 0; index < count; index++) mean += sunlit(places[index], at.normal, 2, 1.5) / float(count);
+    return mix(alone, mean, wide);
+}
+
+// The colour of the body in this pixel: a mean over the samples that show it. Without it, a border between two colours of a
+// body would leap from pixel to pixel as it moves.
+vec3 mean_albedo(ivec2 at, vec4 surface, float id) {
+    vec3 root = sqrt(surface.rgb);
+    vec4 sum = vec4(0.0);
+    for (int index = 0; index < samples * samples; index++) {
+        ivec2 sample_at = at * samples + ivec2(index % samples, index / samples);
+        vec4 there = texelFetch(root_albedo, sample_at, 0);
+        if (texelFetch(fine, sample_at, 0).y != id || abs(there.a - surface.a) > 0.5) continue;
+        // The sample has 8 bits: where its colour is that of the pixel, the pixel knows it better.
+        bool same = all(lessThan(abs(there.rgb - min(root, 1.0)), vec3(0.006)));
+        sum += vec4(same ? surface.rgb : there.rgb * there.rgb, 1.0);
+    }
+    return sum.a > 0.0 ? sum.rgb / sum.a : surface.rgb;
+}
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
@@ -23,6 +67,7 @@ void main() {
     highlight = vec4(0.0);
     if (here.y == 0.0) return;
     vec4 surface = texelFetch(albedo_and_lit, at, 0);
+    if (samples > 1) surface.rgb = mean_albedo(at, surface, here.y);
     if (surface.a == 0.0) {
         color = vec4(surface.rgb, 1.0);
         return;
@@ -36,10 +81,8 @@ void main() {
     point.gloss = normal_and_gloss.w;
     Light light = light_on(point);
     vec3 matt = surface.rgb * light.diffuse;
-    vec3 whole = exposed(matt + light.highlight);
-    float lighter = dot(whole - exposed(matt), vec3(0.2126, 0.7152, 0.0722));
-    float share = mix(1.0, highlight_in_color, smoothstep(STRONG.x, STRONG.y, lighter));
+    glint.r = smoothstep(STRONG.x, STRONG.y, light.glint);
+    float share = mix(1.0, highlight_in_color, glint.r);
     color = vec4(exposed(matt + share * light.highlight), 1.0);
-    highlight.rgb = max(whole - color.rgb, 0.0);
-    glint.r = light.glint;
+    highlight.rgb = max(exposed(matt + light.highlight) - color.rgb, 0.0);
 }

@@ -13,9 +13,15 @@ uniform vec2 shadow_bias;        // x: constant depth; y: depth that is divided 
 uniform vec3 ambient_above;
 uniform vec3 ambient_below;
 
-float sunlit(vec3 position, vec3 normal) {
-    // The distance from a lamp, along the axis of its map; 1 for a sun.
-    float away = (shadow_from_world * vec4(position, 1.0)).w;
+// The distance from a lamp, along the axis of its map; 1 for a sun.
+float away_from_lamp(vec3 position) {
+    return (shadow_from_world * vec4(position, 1.0)).w;
+}
+
+// How much arrives of the light that casts shadows, 0..1: a mean over places up to `spread` texels away on the map, a grid of
+// `side` x `side`.
+float sunlit(vec3 position, vec3 normal, int side, float spread) {
+    float away = away_from_lamp(position);
     if (away <= 0.0) return 1.0;
     // An offset along the normal keeps the surface from shadowing itself: the more slanted the light, the farther the
     // point then is from the surface, measured along the light's ray.
@@ -24,16 +30,17 @@ float sunlit(vec3 position, vec3 normal) {
     vec3 at = clip.xyz / clip.w * 0.5 + 0.5;
     float bias = shadow_bias.x + shadow_bias.y / (away * away);
     if (any(lessThan(at, vec3(0.0))) || any(greaterThan(at, vec3(1.0)))) return 1.0;
-    vec2 texel = 1.9 / vec2(textureSize(shadow_depth, 0));
-    float sum = 0.0;
 #ifdef DRAFT
     // Interpolates between four texels.
     return texture(shadow_depth, vec3(at.xy, at.z - bias));
 #else
-    for (int y = -1; y <= 1; y++)
-        for (int x = -1; x <= 1; x++)
-            sum += texture(shadow_depth, vec3(at.xy + vec2(x, y) * texel, at.z - bias));
-    return sum / 9.0;
+    vec2 reach = spread / vec2(textureSize(shadow_depth, 0));
+    float sum = 0.0;
+    for (int index = 0; index < side * side; index++) {
+        vec2 step = 2.0 * vec2(index % side, index / side) / float(side - 1) - 1.0;
+        sum += texture(shadow_depth, vec3(at.xy + step * reach, at.z - bias));
+    }
+    return sum / float(side * side);
 #endif
 }
 
@@ -61,6 +68,15 @@ struct Light {
     float shadowed;              // how much arrives of the light that casts shadows, 0..1
 };
 
+// How much arrives at a point of the light that casts shadows. `light.frag` has its own, which knows the samples of the pixel.
+#ifdef SHADOW_OF_SAMPLES
+float shadow_at(LitPoint at);
+#else
+float shadow_at(LitPoint at) {
+    return sunlit(at.position, at.normal, 3, 1.9);
+}
+#endif
+
 Light light_on(LitPoint at) {
     vec3 light = mix(ambient_below, ambient_above, 0.5 + 0.5 * at.normal.y) * at.openness;
     vec3 highlight = vec3(0.0);
@@ -80,7 +96,7 @@ Light light_on(LitPoint at) {
         float within = clamp(radiance_and_slope.w * dot(cone.xyz, -direction) + cone.w, 0.0, 1.0);
         float arriving = within * within / squared;
         if (index == shadowed_light) {
-            shadowed = sunlit(at.position, at.normal);
+            shadowed = shadow_at(at);
             arriving *= shadowed;
         }
         // Enclosed places get a little less direct light too.

@@ -75,7 +75,7 @@ void main() {
         turn *= clamp((mat3(view_from_world) * facing).z, 0.0, 1.0);
         float of_form = clamp((turn - TURN.x) / (TURN.y - TURN.x), 0.0, 1.0);
         detail.r += max(EDGE * of_color, of_form);
-        detail.b += min(texelFetch(glint, at, 0).r, 1.0);
+        detail.b += texelFetch(glint, at, 0).r;
         if (index == 4) continue;
         ivec2 outward = (ivec2(index & 1, index >> 1) * 2 - 1) * rim_px;
         vec2 there = texelFetch(depth_and_id, clamp(at + outward, ivec2(0), last), 0).xy;

@@ -24,13 +24,11 @@ layout(location = 10) in vec4 middle_of_line; // px from the line's middle to th
 layout(location = 11) in vec3 lean;
 #endif
 
-uniform vec2 size_px;
+#include "shared/lens.glsl"
 #ifndef LINE
 uniform mat4 view_from_world;
 uniform int kind;                // layer of paint
 #endif
-uniform float units_per_px_at_1; // world units per pixel at depth 1; at any depth if rays are parallel
-uniform float orthographic;
 uniform float mark_rows;         // texels across a mark
 uniform sampler2D mark_bounds;   // a row for each mark: the box around all texels with more paint than a given amount
 #ifndef DRAFT
@@ -71,25 +69,22 @@ const float WET_PICKUP = 0.25;
 const float BYTE = 1.0 / 255.0;
 
 #ifndef DRAFT
-// The mean colour below on the stroke's own body (not premultiplied), and its alpha: five places, each between four pixels, so
-// that none comes or goes at once as the view moves. Past the body's border lies paint of the thing beside it: the alpha is
-// less where places lie there, and 0 where two of the five do.
-vec4 paint_below(vec2 center_px, float spread_px) {
+// The mean colour below on the stroke's own body (not premultiplied), and its alpha: twenty places over the first half of the
+// stroke. Past the body's border lies paint of the thing beside it: no place there counts, and the fewer are left, the less the
+// alpha. They lie far apart, so that what passes before the stroke comes to one after the other, over many frames.
+vec4 paint_below(vec2 center_px, mat2 turn) {
+    const int PLACES = 20;
     vec4 sum = vec4(0.0);
     float share = 0.0;
-    for (int index = 0; index < 20; index++) {
-        int place = index >> 2;
-        vec2 away = place == 4 ? vec2(0.0) : vec2(place & 1, place >> 1) * 2.0 - 1.0;
-        vec2 at = center_px + away * spread_px - 0.5;
-        ivec2 offset = ivec2(index & 1, (index >> 1) & 1);
-        ivec2 texel = clamp(ivec2(floor(at)) + offset, ivec2(0), ivec2(size_px) - 1);
+    for (int index = 0; index < PLACES; index++) {
+        vec2 place_at = vec2(-0.3, 0.0) + (fract(float(index + 1) * vec2(0.75487767, 0.56984029)) - 0.5) * vec2(0.4, 0.8);
+        ivec2 texel = clamp(ivec2(floor(center_px + turn * (place_at * size.xy))), ivec2(0), ivec2(size_px) - 1);
         // No colour of one body is smeared over another.
         if (texelFetch(depth_and_id, texel, 0).y != float(marks.y)) continue;
-        vec2 near = mix(1.0 - fract(at), fract(at), vec2(offset));
-        sum += texelFetch(below, texel, 0) * near.x * near.y;
-        share += 0.2 * near.x * near.y;
+        sum += texelFetch(below, texel, 0);
+        share += 1.0 / float(PLACES);
     }
-    return vec4(sum.rgb / max(sum.a, 1e-4), 0.2 * sum.a * smoothstep(0.6, 1.0, share));
+    return vec4(sum.rgb / max(sum.a, 1e-4), sum.a / float(PLACES) * smoothstep(0.3, 1.0, share));
 }
 #endif
 
@@ -128,8 +123,9 @@ vec4 painted_part(float least, float level, float bow, float flip) {
 // underpainting, which covers all, and contour lines, which follow the border.
 vec4 plane_of_stroke(vec2 center_px) {
     vec3 n = mat3(view_from_world) * normal_and_bow.xyz;
-    float slant = max(abs(n.z), 0.05);
-    vec2 slope = n.xy / (n.z < 0.0 ? -slant : slant);
+    float facing = facing_at_px(n, place.xy);
+    float slant = max(abs(facing), 0.05);
+    vec2 slope = n.xy / (facing < 0.0 ? -slant : slant);
     bool goes_on = kind == UNDERPAINTING || kind == CONTOUR;
     // At a slant, a small bend of the surface is a large difference of depth, so more is allowed.
     float may_leave_px = goes_on ? 1e9 : (0.07 * size.x + 2.5) * max(0.7 / slant, 1.0);
@@ -170,7 +166,7 @@ void main() {
 #ifdef DRAFT
     picked_up = vec4(0.0);
 #else
-    vec4 under = pickup > 0.0 ? paint_below(center_px - along * (0.3 * size.x), 0.15 * size.y) : vec4(0.0);
+    vec4 under = pickup > 0.0 ? paint_below(center_px, mat2(along, -along.y, along.x)) : vec4(0.0);
     picked_up = vec4(under.rgb, pickup * smoothstep(0.3, 0.9, under.a));
 #endif
 

@@ -46,9 +46,6 @@ const float SPREAD_PX = 16.0;
 const float GATHERED = 0.3;
 const float GATHER_PX = 60.0;
 const float NEAR_PEAK = 0.7;
-// By how much luminance, display-linear, the strokes of a highlight are lighter than those below where all of them are there. A
-// faint sheen has none.
-const float LIGHTER = 0.08;
 
 // How far from itself a contour stroke looks for the end of its body, pixels of the scene's own size.
 const float OUTLINE_PX = 20.0;
@@ -64,12 +61,26 @@ const float WHOLE = 0.75;
 // the second wholly. The same values as in `detail.frag`.
 const vec2 LEAP = vec2(0.01, 0.03);
 
-// How far a tap is hidden, 0..1: by the stroke's own body (`by_own`) or by others that stand before the stroke's plane.
+// How far a place is hidden, 0..1: by the stroke's own body (`by_own`) or by others that stand before the stroke's plane.
 float hidden_at(vec2 offset_px, float bias, bool by_own) {
     vec2 tap_px = clamp(place.xy + offset_px, vec2(0.5), size_px - 0.5);
     vec2 there = surface_at(tap_px);
     if (there.y == 0.0 || (there.y == float(marks.y)) != by_own) return 0.0;
     return smoothstep(bias, 3.0 * bias, plane_depth(tap_px - place.xy) - there.x);
+}
+
+// The same between the four nearest pixels: what hides the place does so bit by bit as it comes.
+float hidden_between(vec2 offset_px, float bias, bool by_own) {
+    vec2 at = place.xy + offset_px - 0.5;
+    vec2 corner = floor(at);
+    vec2 part = at - corner;
+    float hidden = 0.0;
+    for (int index = 0; index < 4; index++) {
+        vec2 step = vec2(index & 1, index >> 1);
+        vec2 near = mix(1.0 - part, part, step);
+        hidden += near.x * near.y * hidden_at(corner + step + 0.5 - place.xy, bias, by_own);
+    }
+    return hidden;
 }
 
 // The share of the stroke that other bodies hide, by taps on a grid over `spread` times its length and width.
@@ -88,28 +99,25 @@ float hidden_by_others(mat2 turn, float bias, ivec2 grid, vec2 spread) {
 // never cut off.
 float seen(mat2 turn) {
     float unit = units_per_px(place.z);
-    float slant = max(abs((mat3(view_from_world) * normal_and_bow.xyz).z), 0.2);
+    float slant = max(abs(facing_at_px(mat3(view_from_world) * normal_and_bow.xyz, place.xy)), 0.2);
     float radius_px = clamp(0.28 * sqrt(size.x * size.y), max(3.0, 7.0 * px_scale), 14.0 * max(px_scale, 1.0));
     float bias = unit * (2.5 + 0.5 * radius_px / slant);
 #ifdef DRAFT
-    // Every other tap of each ring, and the middle.
-    const int STEP = 2;
-    const int RING = 9;
+    const int PLACES = 9;
     const ivec2 GRID = ivec2(3, 2);
 #else
-    const int STEP = 1;
-    const int RING = 17;
+    const int PLACES = 17;
     const ivec2 GRID = ivec2(5, 3);
     const ivec2 FINE_GRID = ivec2(13, 5);
 #endif
     float by_own = 0.0;
-    for (int tap = 0; tap < RING; tap++) {
-        int index = tap * STEP;
-        float angle = (float(index) + (index < 8 ? 0.0 : 0.5)) * 0.78539816;
-        float ring_px = index < 8 ? radius_px : index < 16 ? 0.55 * radius_px : 0.0;
-        vec2 offset_px = turn * vec2(cos(angle), sin(angle)) * ring_px;
-        by_own += hidden_at(offset_px, bias, true);
-        if (reach.x >= FREE) by_own += hidden_at(offset_px, bias, false);
+    for (int index = 0; index < PLACES; index++) {
+        // On a spiral, so that an edge comes to one after the other, wherever it comes from.
+        float away_px = 1.1 * radius_px * sqrt((float(index) + 0.5) / float(PLACES));
+        float angle = 2.39996323 * float(index);
+        vec2 offset_px = turn * vec2(cos(angle), sin(angle)) * away_px;
+        by_own += hidden_between(offset_px, bias, true);
+        if (reach.x >= FREE) by_own += hidden_between(offset_px, bias, false);
     }
 #ifdef DRAFT
     float by_others = hidden_by_others(turn, bias, GRID, vec2(1.0));
@@ -120,7 +128,7 @@ float seen(mat2 turn) {
     if (by_others > 0.0 && by_others < 1.0) by_others = hidden_by_others(turn, bias, FINE_GRID, vec2(1.0));
 #endif
     float visible = 1.0 - by_others;
-    return (1.0 - by_own / float(RING)) * smoothstep(0.0, WHOLE, visible);
+    return (1.0 - by_own / float(PLACES)) * smoothstep(0.0, WHOLE, visible);
 }
 
 vec3 albedo_of(uint albedo_bytes) {
@@ -189,7 +197,7 @@ vec2 peak_px(float id) {
 // to be as steep as that.
 vec2 plane_slope() {
     vec3 n = mat3(view_from_world) * normal_and_bow.xyz;
-    float facing = n.z - (1.0 - orthographic) * dot(n.xy, (place.xy - gaze_px) / px_per_unit_at_1);
+    float facing = facing_at_px(n, place.xy);
     vec2 slope = (facing < 0.0 ? -n.xy : n.xy) / (px_per_unit_at_1 * max(abs(facing), 0.1));
     return mix(-slope, slope / place.z, orthographic);
 }
@@ -344,10 +352,7 @@ void main() {
     blur_px *= kind == LIGHTS ? 1.0 : 1.0 + 1.5 * (1.0 - free);
     vec4 found = own_color(at_px, own.y, turn * blur_px, free);
     // Only the picture has highlights, not the stroke's own lit albedo. On thin parts single pixels glint by chance.
-    if (kind == LIGHTS) {
-        there *= found.w * (1.0 - smoothstep(0.0, THIN, thinness(place.xy, own, 1.0)));
-        there *= smoothstep(0.0, LIGHTER, added_by_highlight(at_px, own.y));
-    }
+    if (kind == LIGHTS) there *= found.w * (1.0 - smoothstep(0.0, THIN, thinness(place.xy, own, 1.0)));
     float thin = kind == LIGHTS ? 0.0 : smoothstep(0.0, THIN, thinness(at_px, own, free));
     float known = kind == LIGHTS ? 1.0 : found.w * (1.0 - thin);
     vec3 color = known == 1.0 ? found.rgb : mix(color_of_own(), found.rgb, known);

@@ -45,8 +45,9 @@ vec2 surface_at(vec2 at_px) {
 // The depth of the stroke's own plane this far from its centre.
 float plane_depth(vec2 offset_px) {
     vec3 n = mat3(view_from_world) * normal_and_bow.xyz;
-    float slant = max(abs(n.z), 0.2);
-    return place.z + dot(n.xy, offset_px) * units_per_px(place.z) / (n.z < 0.0 ? -slant : slant);
+    float facing = facing_at_px(n, place.xy);
+    float slant = max(abs(facing), 0.2);
+    return place.z + dot(n.xy, offset_px) * units_per_px(place.z) / (facing < 0.0 ? -slant : slant);
 }
 
 // How far the stroke's centre is free of other parts of its own body, 0..1. Where it is free, only pixels of its own
@@ -65,7 +66,7 @@ float freedom(vec2 center_px, float id) {
     const int PLACES = 7;
 #endif
     float ring_px = max(0.5 * size.y, LEAST_RING_PX * min(2.0 * px_scale, 1.0));
-    float facing = max(abs((mat3(view_from_world) * normal_and_bow.xyz).z), 0.05);
+    float facing = max(abs(facing_at_px(mat3(view_from_world) * normal_and_bow.xyz, place.xy)), 0.05);
     // The flatter the gaze, the less the stroke's normal says of the depth away from the centre. At the rim of a body the
     // centre alone tells: there the near side covers the far one.
     float doubt = 0.5 / facing;
@@ -119,18 +120,6 @@ bool is_in_picture(ivec2 texel) {
 vec3 color_of(ivec2 texel) {
     vec3 color = texelFetch(reference_color, texel, 0).rgb;
     return kind == LIGHTS ? color + texelFetch(highlight, texel, 0).rgb : color;
-}
-
-// How much lighter the highlight makes the body here: the luminance of what `highlight` adds, a mean over the place.
-float added_by_highlight(vec2 at_px, float id) {
-    vec2 sum = vec2(0.0);
-    for (int index = 0; index < 9; index++) {
-        vec2 tap_px = at_px + (vec2(index % 3, index / 3) - 1.0) * max(3.0 * px_scale, 1.0);
-        if (surface_at(tap_px).y != id) continue;
-        ivec2 texel = clamp(ivec2(floor(tap_px)), ivec2(0), textureSize(highlight, 0) - 1);
-        sum += vec2(dot(texelFetch(highlight, texel, 0).rgb, vec3(0.2126, 0.7152, 0.0722)), 1.0);
-    }
-    return sum.x / max(sum.y, 1.0);
 }
 
 // The sum of the colours of the four nearest pixels, by bilinear weights; w is the sum of these weights. Only pixels of

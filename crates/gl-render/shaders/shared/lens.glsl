@@ -14,6 +14,13 @@ vec3 view_from_px(vec2 at_px, float depth) {
     return vec3((at_px - gaze_px) * units_per_px(depth), -depth);
 }
 
+// How far a surface with this normal in view space faces the eye through a pixel; below 0 it shows its back. Towards
+// another pixel, its plane gets deeper by dot(normal.xy, offset_px) * units_per_px(depth) over this.
+float facing_at_px(vec3 normal_in_view, vec2 at_px) {
+    vec2 gaze = (1.0 - orthographic) * (at_px - gaze_px) / px_per_unit_at_1;
+    return normal_in_view.z - dot(normal_in_view.xy, gaze);
+}
+
 vec3 world_from_px(vec2 at_px, float depth) {
     return (world_from_view * vec4(view_from_px(at_px, depth), 1.0)).xyz;
 }

@@ -51,7 +51,8 @@ vec2 surface_at(vec2 at_px) {
 float seen(mat2 turn) {
     vec3 n = mat3(view_from_world) * normal_and_bow.xyz;
     float unit = units_per_px(place.z);
-    float slant = max(abs(n.z), 0.2);
+    float facing = facing_at_px(n, place.xy);
+    float slant = max(abs(facing), 0.2);
     float radius_px = max(0.28 * sqrt(size.x * size.y), 2.0);
     float bias = unit * (2.5 + 0.5 * radius_px / slant);
     float sum = 0.0;
@@ -60,7 +61,7 @@ float seen(mat2 turn) {
         float ring_px = index < 6 ? radius_px : index < 12 ? 0.55 * radius_px : 0.0;
         vec2 tap_px = clamp(place.xy + turn * vec2(cos(angle), sin(angle)) * ring_px, vec2(0.5), size_px - 0.5);
         vec2 there = surface_at(tap_px);
-        float own = place.z + dot(n.xy, tap_px - place.xy) * unit / (n.z < 0.0 ? -slant : slant);
+        float own = place.z + dot(n.xy, tap_px - place.xy) * unit / (facing < 0.0 ? -slant : slant);
         float hidden = there.y == 0.0 ? 0.0 : smoothstep(bias, 3.0 * bias, own - there.x);
         sum += 1.0 - hidden;
     }

@@ -18,6 +18,14 @@ pub(crate) fn open(gpu: &Gpu, style: &Style) -> Result<Box<dyn StyleRenderer>, G
     })
 }
 
+/// How many samples the style wants in each pixel along each axis.
+pub(crate) fn samples(frame: &Frame, max_side_px: u32) -> u32 {
+    match frame.style {
+        Style::RotatingStrokes(_) => frame.samples(max_side_px),
+        Style::SumiE(_) | Style::Reference => 1,
+    }
+}
+
 /// The share of strong highlights that the colour of the reference picture has. Of a highlight that passes over a body the
 /// strokes below take a part, so that they stay calm; the strokes of highlights, where there are any, add the rest.
 pub(crate) fn highlight_in_color(frame: &Frame) -> f32 {

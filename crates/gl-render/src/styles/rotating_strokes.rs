@@ -219,6 +219,7 @@ impl RotatingStrokes {
         let mut bound = paint_inputs(program, (input, covered), (targets, marks))
             .set("view_from_world", frame.view.view_from_world)
             .set("kind", layer.kind as i32);
+        bound = LensSetup::new(&frame.view, frame.size_px).set(bound, &["gaze_px", "px_per_unit_at_1"]);
         if let Some(data) = data {
             bound = bound.set("first_stroke", layer.first as i32);
             data.begin_noting();
@@ -345,7 +346,6 @@ impl RotatingStrokes {
 impl StyleRenderer for RotatingStrokes {
     fn ready_all(&mut self) -> Result<(), GlError> {
         let gpu = self.gpu.clone();
-        self.coverage.ready_all()?;
         for quality in [Quality::Exact, Quality::Draft] {
             self.ready(quality)?.ready_shaped(&gpu, quality)?;
             self.ready(quality)?.ready_line(&gpu, quality)?;
@@ -384,8 +384,7 @@ impl StyleRenderer for RotatingStrokes {
             self.data.insert(data).begin(frame)?;
         }
         self.strokes.upload_marks(frame)?;
-        let samples = frame.samples(self.gpu.limits().max_side_px);
-        let mut covered = self.coverage.draw(input, samples, watch)?;
+        let mut covered = self.coverage.draw(input, watch)?;
         self.find_detail(input, &covered, watch)?;
         if input.keeps.lets_go() {
             self.gpu.finish();

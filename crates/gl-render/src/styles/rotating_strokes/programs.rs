@@ -137,7 +137,7 @@ const PAINT_UNIFORMS: &[&str] =
     &["size_px", "mark_rows", "mark_bounds", "brush_marks", "surface", "units_per_px_at_1", "orthographic"];
 
 /// What a billboard needs, and a line does not.
-const OF_BILLBOARDS: &[&str] = &["view_from_world", "kind"];
+const OF_BILLBOARDS: &[&str] = &["view_from_world", "kind", "gaze_px", "px_per_unit_at_1"];
 
 const OF_EXACT: &[&str] = &["below", "depth_and_id"];
 

@@ -2,7 +2,7 @@
 
 use crate::body_program::BodyProgram;
 use crate::gl::{GlError, Gpu, Program, ProgramSource, ShaderFile};
-use crate::lens::{RAY_UNIFORMS, SCALE_UNIFORMS};
+use crate::lens::{RAY_UNIFORMS, VIEW_LENS_UNIFORMS};
 use crate::shader_files::{SHARED, SUMI_E};
 
 /// The files that the style's shaders may include.
@@ -96,7 +96,7 @@ const RESOLVE: ProgramSource<'static> = ProgramSource {
         "sumi_e/resolve.vert",
         None,
         &[
-            &SCALE_UNIFORMS,
+            &VIEW_LENS_UNIFORMS,
             &["view_from_world", "depth_and_id", "shares", "soft", "pigments", "ink", "seal", "kind"],
         ],
     )

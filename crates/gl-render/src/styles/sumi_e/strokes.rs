@@ -8,7 +8,7 @@ use impasto_painting::frame::{LayerRun, SumiE as Settings};
 use super::programs::PainterPrograms;
 use super::targets::PainterTargets;
 use crate::gl::{Blend, DrawState, GlError, Gpu, Halt, Texture};
-use crate::lens::{LensSetup, SCALE_UNIFORMS};
+use crate::lens::{LensSetup, VIEW_LENS_UNIFORMS};
 use crate::palettes::palette_texture;
 use crate::stroke_buffers::StrokeBuffers;
 use crate::style_renderer::StyleInput;
@@ -76,7 +76,7 @@ impl InkStrokes {
         let lens = LensSetup::new(&frame.view, frame.size_px);
         for &layer in &frame.layers {
             let bound = lens
-                .set(programs.resolve.bind(), &SCALE_UNIFORMS)
+                .set(programs.resolve.bind(), &VIEW_LENS_UNIFORMS)
                 .texture("depth_and_id", &input.reference.depth_and_id)
                 .texture("shares", shares)
                 .texture("soft", &targets.soft)
