@@ -192,33 +192,45 @@ float thinness(vec2 center_px, vec2 own, float free) {
     return sum / 24.0;
 }
 
+// The sum of the colours on a ring round the stroke's centre: `count` taps, the first at this angle in the stroke's frame.
+vec4 own_colors_on_ring(vec2 center_px, float id, mat2 ring_px, float free, int count, float first) {
+    vec4 sum = vec4(0.0);
+    for (int index = 0; index < count; index++) {
+        float angle = first + 6.2831853 * float(index) / float(count);
+        sum += own_color_at(center_px + ring_px * vec2(cos(angle), sin(angle)), id, free);
+    }
+    return sum;
+}
+
 // Mean colour on the stroke's own body: a Gaussian with this standard deviation, on rings and the centre, longer
 // along the stroke, so that a shadow that sweeps over it takes several frames. The less of the body is found there, the
-// more a wider surrounding counts. Where only scraps of the body are seen, single taps would decide: the less the stroke is
-// `free`, the more two further rings count. w is how much of the colour is known, 0..1.
+// more a wider surrounding counts. Two further rings count for broad strokes, between whose taps a leg could pass unseen, and where
+// only scraps of the body are seen, so that no single tap decides: the more it is covered by itself (the less the stroke is
+// `free`) or hidden by others. w is how much of the colour is known, 0..1.
 vec4 own_color(vec2 center_px, float id, mat2 sigma_px, float free) {
-#ifdef DRAFT
-    const int ring_count = 1;
-#else
-    int ring_count = free < 1.0 ? 4 : 2;
-#endif
-    // Of each ring: how many standard deviations wide it is, and the weight of a tap.
-    vec2 rings[4] = vec2[4](vec2(1.0, 0.60), vec2(1.9, 0.17), vec2(0.55, 0.86 * (1.0 - free)), vec2(1.45, 0.35 * (1.0 - free)));
     const float CENTER = 0.7;
-    // The weight of a body that all taps find, a quarter of which is enough.
-    float full = CENTER;
-    for (int ring = 0; ring < ring_count; ring++) full += 6.0 * rings[ring].y;
-    float enough = 0.25 * full;
+    const vec2 RINGS = vec2(0.60, 0.17);
+    const vec2 FURTHER_RINGS = vec2(0.43, 0.17);
     vec4 sum = vec4(0.0);
     float need = 1.0;
+    float enough = 1.0;
     for (int widening = 0; widening < 3 && need > 0.0; widening++) {
-        vec4 found = own_color_at(center_px, id, free) * CENTER;
-        for (int index = 0; index < 6 * ring_count; index++) {
-            vec2 ring = rings[index / 6];
-            float angle = 1.0471976 * (float(index % 6) + ((index / 6) % 2 == 0 ? 0.0 : 0.5));
-            vec2 tap_px = center_px + sigma_px * vec2(cos(angle), sin(angle)) * ring.x;
-            found += own_color_at(tap_px, id, free) * ring.y;
+        vec4 found = CENTER * own_color_at(center_px, id, free);
+        found += RINGS.x * own_colors_on_ring(center_px, id, sigma_px, free, 6, 0.0);
+        // The weight of a body that all taps find, a quarter of which is enough.
+        float full = CENTER + 6.0 * RINGS.x;
+#ifndef DRAFT
+        found += RINGS.y * own_colors_on_ring(center_px, id, 1.9 * sigma_px, free, 6, 0.52359878);
+        full += 6.0 * RINGS.y;
+        float further = max(max(1.0 - free, 2.0 - 2.0 * found.a / full), smoothstep(1.5, 4.0, length(sigma_px[1])));
+        if (further > 0.0) {
+            further = min(further, 1.0);
+            found += further * FURTHER_RINGS.x * own_colors_on_ring(center_px, id, 0.55 * sigma_px, free, 12, 0.26179939);
+            found += further * FURTHER_RINGS.y * own_colors_on_ring(center_px, id, 1.45 * sigma_px, free, 12, 0.0);
+            full += further * 12.0 * (FURTHER_RINGS.x + FURTHER_RINGS.y);
         }
+#endif
+        if (widening == 0) enough = 0.25 * full;
         sum += found * need;
         need = clamp(1.0 - sum.a / enough, 0.0, 1.0);
         sigma_px = sigma_px * 2.2;
