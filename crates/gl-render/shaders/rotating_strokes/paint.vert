@@ -69,9 +69,10 @@ const float WET_PICKUP = 0.25;
 const float BYTE = 1.0 / 255.0;
 
 #ifndef DRAFT
-// The mean colour below on the stroke's own body (not premultiplied), and its alpha: twenty places over the first half of the
-// stroke. Past the body's border lies paint of the thing beside it: no place there counts, and the fewer are left, the less the
-// alpha. They lie far apart, so that what passes before the stroke comes to one after the other, over many frames.
+// The mean colour below on the stroke's own body (not premultiplied), and how much of it is picked up: twenty places over the
+// first half of the stroke. Past the body's border lies paint of the thing beside it: no place there counts, and in proportion as
+// fewer are left, less is picked up; nor is anything where hardly any paint lies. They lie far apart, so that what passes before the
+// stroke comes to one after the other, over many frames.
 vec4 paint_below(vec2 center_px, mat2 turn) {
     const int PLACES = 20;
     vec4 sum = vec4(0.0);
@@ -84,7 +85,8 @@ vec4 paint_below(vec2 center_px, mat2 turn) {
         sum += texelFetch(below, texel, 0);
         share += 1.0 / float(PLACES);
     }
-    return vec4(sum.rgb / max(sum.a, 1e-4), sum.a / float(PLACES) * smoothstep(0.3, 1.0, share));
+    float covered = sum.a / max(share * float(PLACES), 1e-4);
+    return vec4(sum.rgb / max(sum.a, 1e-4), share * smoothstep(0.3, 0.9, covered));
 }
 #endif
 
@@ -167,7 +169,7 @@ void main() {
     picked_up = vec4(0.0);
 #else
     vec4 under = pickup > 0.0 ? paint_below(center_px, mat2(along, -along.y, along.x)) : vec4(0.0);
-    picked_up = vec4(under.rgb, pickup * smoothstep(0.3, 0.9, under.a));
+    picked_up = vec4(under.rgb, pickup * under.a);
 #endif
 
     // A constant level keeps the mark the same at every angle.
