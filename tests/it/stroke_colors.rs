@@ -5,8 +5,9 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 use impasto_gl_render::context::Driver;
-use impasto_painting::{FrameOptions, prepare};
-use impasto_scene::document::{Lens, MaterialOverride, Style};
+use impasto_painting::frame::Stroke;
+use impasto_painting::{FrameOptions, Painting, prepare};
+use impasto_scene::document::{Lens, Light, LightKind, MaterialOverride, Scene, Style};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::mesh_file::{Material, MeshFile};
 use impasto_tests::pictures::renderer;
@@ -64,6 +65,37 @@ fn a_covered_stroke_has_the_colour_that_is_seen_also_where_its_middle_is_beyond_
     assert!(inside > 20 && beyond > 5, "{inside} strokes inside, {beyond} beyond");
 }
 
+/// The largest change of a stroke's green from frame to frame, of the first object's strokes whose centre is `near`.
+fn largest_step(painting: &Painting, near: impl Fn([f32; 2]) -> bool) -> f32 {
+    let mut renderer = renderer(Driver::Egl);
+    let mut before: HashMap<_, f32> = HashMap::new();
+    let mut largest = 0.0f32;
+    for number in 0..=16 {
+        let frame = painting.at(f64::from(number), &FrameOptions::new([640, 360]));
+        renderer.render(&frame).unwrap();
+        let resolved = renderer.resolved_strokes();
+        let counts = |stroke: &Stroke| stroke.body_id == 1 && near(stroke.center_px);
+        let now: HashMap<_, f32> = frame
+            .sources
+            .iter()
+            .zip(&frame.strokes)
+            .zip(&resolved)
+            .filter(|((_, stroke), drawn)| counts(stroke) && drawn.alpha > 0.05)
+            .map(|((source, _), drawn)| ((source.place, source.particle), drawn.color_linear[1]))
+            .collect();
+        let steps = now.iter().filter_map(|(source, green)| Some((green - before.get(source)?).abs()));
+        largest = steps.fold(largest, f32::max);
+        before = now;
+    }
+    largest
+}
+
+fn with_samples(scene: &mut Scene, samples: u32) {
+    let Style::RotatingStrokes(settings) = &mut scene.style else { panic!("strokes are the default") };
+    settings.samples = samples;
+    scene.strokes.layers = shapes::body_layer_alone();
+}
+
 /// The largest change of a stroke's green while the camera moves by two pixels in sixteen steps, over a sheet that is black
 /// on the left and white on the right. Pixels have `samples` samples a side.
 fn largest_step_along_a_border(samples: u32) -> f32 {
@@ -78,9 +110,7 @@ fn largest_step_along_a_border(samples: u32) -> f32 {
             shapes::camera_key(frame, [x, 0.0, 4.0], [x, 0.0, 0.0])
         })
         .into();
-    let Style::RotatingStrokes(settings) = &mut scene.style else { panic!("strokes are the default") };
-    settings.samples = samples;
-    scene.strokes.layers = shapes::body_layer_alone();
+    with_samples(&mut scene, samples);
     let mut loaded = LoadedScene::clone(&shapes::loaded(scene, [shapes::sheet(2)]));
     for file in loaded.meshes.values_mut() {
         let mut painted = MeshFile::clone(file);
@@ -92,26 +122,7 @@ fn largest_step_along_a_border(samples: u32) -> f32 {
         }
         *file = painted.into();
     }
-    let painting = prepare(loaded.into()).unwrap();
-    let mut renderer = renderer(Driver::Egl);
-    let mut before: HashMap<_, f32> = HashMap::new();
-    let mut largest = 0.0f32;
-    for number in 0..=16 {
-        let frame = painting.at(f64::from(number), &FrameOptions::new([640, 360]));
-        renderer.render(&frame).unwrap();
-        let resolved = renderer.resolved_strokes();
-        let now: HashMap<_, f32> = frame
-            .sources
-            .iter()
-            .zip(&resolved)
-            .filter(|(_, drawn)| drawn.alpha > 0.05)
-            .map(|(source, drawn)| ((source.place, source.particle), drawn.color_linear[1]))
-            .collect();
-        let steps = now.iter().filter_map(|(source, green)| Some((green - before.get(source)?).abs()));
-        largest = steps.fold(largest, f32::max);
-        before = now;
-    }
-    largest
+    largest_step(&prepare(loaded.into()).unwrap(), |[x, _]| (x - 320.0).abs() < 20.0)
 }
 
 /// A whole column of pixels changes its colour at once where it has one sample, half of it where it has two.
@@ -120,4 +131,43 @@ fn a_border_between_two_colours_moves_within_pixels() {
     let [coarse, fine] = [1, 2].map(largest_step_along_a_border);
     assert!(coarse > 0.1, "the border is hardly seen: {coarse}");
     assert!(fine < 0.6 * coarse, "a stroke's colour leaps by {fine}, with one sample by {coarse}");
+}
+
+/// The same over a floor that is seen flat and lies in the shade of two roofs, but for a strip between them that is
+/// 0.8 pixels high in the picture.
+fn largest_step_along_a_strip_of_light(samples: u32) -> f32 {
+    let flat = |near: f64, far: f64, y: f64| {
+        shapes::moved(&shapes::sheet(4), move |at| {
+            DVec3::new(6.0 * at.x, y, 0.5 * (near + far) + 0.5 * (near - far) * -at.y)
+        })
+    };
+    let mut scene = shapes::scene(vec![
+        shapes::object("floor", 3000),
+        shapes::object("near roof", 1),
+        shapes::object("far roof", 1),
+    ]);
+    scene.lights = vec![Light {
+        direction: Some([0.0, -1.0, 0.0]),
+        intensity: 4.0,
+        ..Light::new("sun", LightKind::Sun)
+    }];
+    scene.timeline.last = 16;
+    scene.camera.keys = [0.0, 16.0]
+        .map(|frame| {
+            // The horizon stands, and the ground moves up or down by a few pixels.
+            let y = 0.5 + frame / 16.0 * 0.05;
+            shapes::camera_key(frame, [0.0, y, 4.0], [0.0, y, 0.0])
+        })
+        .into();
+    with_samples(&mut scene, samples);
+    let meshes = [flat(3.0, -6.0, 0.0), flat(3.0, -1.0, 2.0), flat(-1.07, -6.0, 2.0)];
+    largest_step(&prepare(shapes::loaded(scene, meshes)).unwrap(), |[_, y]| (y - 120.0).abs() < 12.0)
+}
+
+/// A strip of light that is thinner than a pixel is half as bright in each pixel, and not bright in some and absent in others.
+#[test]
+fn a_thin_strip_of_light_stays_even() {
+    let [coarse, fine] = [1, 4].map(largest_step_along_a_strip_of_light);
+    assert!(coarse > 0.03, "the strip is hardly seen: {coarse}");
+    assert!(fine < 0.7 * coarse, "a stroke's colour leaps by {fine}, with one sample by {coarse}");
 }

@@ -17,8 +17,8 @@ pub(super) const FAULTS: &[Fault] = &[
     Fault {
         name: "shadows a ninth too light",
         file: "reference/lighting.glsl",
-        from: "return sum / 9.0;",
-        to: "return sum / 8.0;",
+        from: "return sum / float(side * side);",
+        to: "return sum / float(side * side - 1);",
         tests: &[GOLDENS],
     },
     Fault {
@@ -166,6 +166,13 @@ pub(super) const FAULTS: &[Fault] = &[
         file: "reference/light.frag",
         from: "surface.rgb = mean_albedo(at, surface, here.y);",
         to: "surface.rgb = mix(surface.rgb, mean_albedo(at, surface, here.y), 0.01);",
+        tests: &["stroke_colors::"],
+    },
+    Fault {
+        name: "a thin strip of light goes on and off",
+        file: "reference/light.frag",
+        from: "return mix(alone, mean, wide);",
+        to: "return mix(alone, mean, 0.01 * wide);",
         tests: &["stroke_colors::"],
     },
     Fault {
