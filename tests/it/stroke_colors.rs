@@ -1,5 +1,5 @@
-//! Tests of the colours of strokes, from strokes read back: where another part of their own body covers them, and along the
-//! border between two colours.
+//! Tests of the colours of strokes, from strokes read back: where another part of their own body covers them, along the
+//! border between two colours, and over a thin strip of light.
 
 use std::collections::HashMap;
 

@@ -1,6 +1,6 @@
 //! Programs that draw bodies; the shader code that they share is `shared/body.glsl`.
 
-use glam::Mat3;
+use glam::{Mat3, Vec3};
 use impasto_core::screen_map::is_uneven;
 use impasto_painting::Frame;
 use impasto_painting::frame::FrameBody;
@@ -12,6 +12,18 @@ use crate::meshes::Part;
 const POSE: [&str; 1] = ["world_from_model"];
 /// The uniform that only some of them read.
 const NORMALS: [&str; 1] = ["world_from_normal"];
+
+/// The uniforms that [`set_color`] sets.
+pub(crate) const COLOR: [&str; 3] = ["albedo", "albedo_texture", "is_lit"];
+
+/// Sets the unlit colour of a part of a body: the uniforms [`COLOR`].
+pub(crate) fn set_color<'a>(bound: Bound<'a>, body: &FrameBody, part: &Part) -> Bound<'a> {
+    let material = body.surface.materials.get(part.material);
+    bound
+        .set("albedo", Vec3::from(material.map_or([0.8; 3], |material| material.albedo)))
+        .texture("albedo_texture", &part.texture)
+        .set("is_lit", f32::from(material.is_none_or(|material| !material.unlit)))
+}
 
 /// The uniforms of `shared/cutout.glsl`.
 const CUTOUT: [&str; 2] = ["cut_texture", "cutoff"];

@@ -2,12 +2,12 @@
 
 use std::rc::Rc;
 
-use glam::{Vec3, Vec4};
+use glam::Vec4;
 use half::f16;
 use impasto_painting::frame::{FrameBody, FrameView};
 use impasto_painting::{Frame, Quality};
 
-use crate::body_program::BodyProgram;
+use crate::body_program::{BodyProgram, COLOR, set_color};
 use crate::gl::{
     DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program, ProgramSource, Texture, VertexArray,
     Vertices,
@@ -255,16 +255,9 @@ impl ReferencePass {
             };
             for (number, part) in mesh.parts.iter().enumerate() {
                 let material = body.surface.materials.get(part.material);
-                let albedo = material.map_or([0.8; 3], |material| material.albedo);
-                let is_lit = material.is_none_or(|material| !material.unlit);
-                let bound = self
-                    .surface
-                    .bind(body, part)
+                let bound = set_color(self.surface.bind(body, part), body, part)
                     .set("view_from_world", view.view_from_world)
                     .set("clip_from_view", view.clip_from_view)
-                    .set("albedo", Vec3::from(albedo))
-                    .texture("albedo_texture", &part.texture)
-                    .set("is_lit", f32::from(is_lit))
                     .set("body_id", (index + 1) as f32)
                     .set("gloss", material.map_or(0.0, |material| material.gloss))
                     .set("eye", eye);
@@ -296,16 +289,7 @@ const FILES: &[&[crate::gl::ShaderFile]] = &[SHARED, REFERENCE];
 const SURFACE: ProgramSource<'static> = ProgramSource::new(
     "reference/surface.vert",
     Some("reference/surface.frag"),
-    &[&[
-        "view_from_world",
-        "clip_from_view",
-        "albedo",
-        "albedo_texture",
-        "is_lit",
-        "body_id",
-        "gloss",
-        "eye",
-    ]],
+    &[&["view_from_world", "clip_from_view", "body_id", "gloss", "eye"], &COLOR],
 );
 
 const OPENNESS: ProgramSource<'static> = ProgramSource::screen(

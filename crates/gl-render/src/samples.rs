@@ -3,10 +3,9 @@
 
 use std::rc::Rc;
 
-use glam::Vec3;
 use impasto_painting::Frame;
 
-use crate::body_program::BodyProgram;
+use crate::body_program::{BodyProgram, COLOR, set_color};
 use crate::gl::{DrawState, Filter, Format, Framebuffer, GlError, Gpu, ProgramSource, ShaderFile, Texture};
 use crate::meshes::DrawnBody;
 use crate::shader_files::{REFERENCE, SHARED};
@@ -74,15 +73,9 @@ impl SamplePass {
         let visible = bodies.iter().enumerate().filter(|(_, drawn)| !drawn.body.hidden);
         for (index, drawn) in visible {
             for part in &drawn.mesh.parts {
-                let material = drawn.body.surface.materials.get(part.material);
-                let bound = self
-                    .program
-                    .bind(drawn.body, part)
+                let bound = set_color(self.program.bind(drawn.body, part), drawn.body, part)
                     .set("view_from_world", frame.view.view_from_world)
                     .set("clip_from_view", frame.view.clip_from_view)
-                    .set("albedo", Vec3::from(material.map_or([0.8; 3], |material| material.albedo)))
-                    .texture("albedo_texture", &part.texture)
-                    .set("is_lit", f32::from(material.is_none_or(|material| !material.unlit)))
                     .set("body_id", (index + 1) as f32);
                 self.gpu.draw(bound, &drawn.array, part.vertices())?;
             }
@@ -111,5 +104,5 @@ const FILES: &[&[ShaderFile]] = &[SHARED, REFERENCE];
 const SAMPLE: ProgramSource<'static> = ProgramSource::new(
     "reference/surface.vert",
     Some("reference/sample.frag"),
-    &[&["view_from_world", "clip_from_view", "albedo", "albedo_texture", "is_lit", "body_id"]],
+    &[&["view_from_world", "clip_from_view", "body_id"], &COLOR],
 );

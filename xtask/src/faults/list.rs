@@ -171,8 +171,8 @@ pub(super) const FAULTS: &[Fault] = &[
     Fault {
         name: "a thin strip of light goes on and off",
         file: "reference/light.frag",
-        from: "return mix(alone, mean, wide);",
-        to: "return mix(alone, mean, 0.01 * wide);",
+        from: "float wide = smoothstep(0.5, 1.0, farthest /",
+        to: "float wide = 0.01 * smoothstep(0.5, 1.0, farthest /",
         tests: &["stroke_colors::"],
     },
     Fault {

@@ -22,8 +22,7 @@ const vec2 STRONG = vec2(0.15, 0.40);
 // Where the surface is seen flat, a pixel covers more of it than a texel of the shadow map, and one place alone would light up or
 // not by chance: a mean over the samples of the body.
 float shadow_at(LitPoint at) {
-    float alone = sunlit(at.position, at.normal, 3, 1.9);
-    if (samples == 1) return alone;
+    if (samples == 1) return shadow_of_point(at);
     float id = texelFetch(depth_and_id, ivec2(gl_FragCoord.xy), 0).y;
     float farthest = 0.0;
     vec3 places[16];
@@ -37,10 +36,10 @@ float shadow_at(LitPoint at) {
         count++;
     }
     float wide = smoothstep(0.5, 1.0, farthest / (shadow_texel * max(away_from_lamp(at.position), 1e-6)));
-    if (wide == 0.0) return alone;
+    if (wide == 0.0) return shadow_of_point(at);
     float mean = 0.0;
     for (int index = 0; index < count; index++) mean += sunlit(places[index], at.normal, 2, 1.5) / float(count);
-    return mix(alone, mean, wide);
+    return wide < 1.0 ? mix(shadow_of_point(at), mean, wide) : mean;
 }
 
 // The colour of the body in this pixel: a mean over the samples that show it. Without it, a border between two colours of a

@@ -68,12 +68,16 @@ struct Light {
     float shadowed;              // how much arrives of the light that casts shadows, 0..1
 };
 
+float shadow_of_point(LitPoint at) {
+    return sunlit(at.position, at.normal, 3, 1.9);
+}
+
 // How much arrives at a point of the light that casts shadows. `light.frag` has its own, which knows the samples of the pixel.
 #ifdef SHADOW_OF_SAMPLES
 float shadow_at(LitPoint at);
 #else
 float shadow_at(LitPoint at) {
-    return sunlit(at.position, at.normal, 3, 1.9);
+    return shadow_of_point(at);
 }
 #endif
 
