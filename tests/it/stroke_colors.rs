@@ -164,7 +164,8 @@ fn largest_step_along_a_strip_of_light(samples: u32) -> f32 {
     largest_step(&prepare(shapes::loaded(scene, meshes)).unwrap(), |[_, y]| (y - 120.0).abs() < 12.0)
 }
 
-/// A strip of light that is thinner than a pixel is half as bright in each pixel, and not bright in some and absent in others.
+/// A strip of light that is thinner than a pixel makes each pixel a little lighter, by its share, where a pixel has 4 x 4 samples. With one
+/// sample it lights some pixels wholly, and others not at all.
 #[test]
 fn a_thin_strip_of_light_stays_even() {
     let [coarse, fine] = [1, 4].map(largest_step_along_a_strip_of_light);
