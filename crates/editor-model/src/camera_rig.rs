@@ -13,7 +13,7 @@ mod tests;
 /// Orbit per pixel of drag, radians.
 const ORBIT_RAD_PER_PX: f64 = 0.5 * std::f64::consts::PI / 300.0;
 /// Factor on the distance per step of the wheel.
-const ZOOM_PER_STEP: f64 = 0.85;
+pub const ZOOM_PER_STEP: f64 = 0.85;
 /// The gaze stays this far from straight up and down, where a look-at camera has no up direction.
 const POLE_GAP_RAD: f64 = 0.0087;
 /// Views from above and below are off the axis by this, radians, so that the camera still has an up direction.

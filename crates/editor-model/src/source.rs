@@ -7,8 +7,9 @@ use std::sync::Arc;
 use impasto_scene::document::Scene;
 use impasto_scene::load::salvage::{Loss, Salvaged};
 use impasto_scene::loaded::LoadedScene;
+use impasto_scene::locate::Located;
 use impasto_scene::mesh_file::MeshFile;
-use impasto_scene::problem::{Problem, TextPosition};
+use impasto_scene::problem::Problem;
 
 use crate::stamp::hash;
 
@@ -44,14 +45,15 @@ impl Source {
     /// The source of the saved scene, whose text is `text`: of what could not be read, meshes are left. `None` if all
     /// meshes could be used.
     pub(crate) fn saved(&self, text: String, scene: &Scene) -> Option<Self> {
+        let located = Located::of(&text);
         let in_text = |loss: &Loss| {
             let mesh = loss.mesh.as_ref()?;
             // A mesh that no object names now is listed again when an edit is taken back.
             let object = scene.objects.iter().position(|object| object.mesh == *mesh);
+            let field_path = object.map(|object| format!("objects[{object}].mesh"));
             let problem = Problem {
-                place: place_of_mesh(&text, mesh),
-                field_path: object
-                    .map_or_else(Box::default, |object| format!("objects[{object}].mesh").into()),
+                place: located.as_ref().zip(field_path.as_ref()).map(|(text, path)| text.place_of(path)),
+                field_path: field_path.unwrap_or_default().into(),
                 ..loss.problem.clone()
             };
             // A fix is of the text as it was.
@@ -90,13 +92,4 @@ impl Source {
     pub(crate) fn has_stand_in(&self, mesh: &str) -> bool {
         self.stand_ins.contains_key(mesh)
     }
-}
-
-/// Where a saved scene first names a mesh.
-fn place_of_mesh(text: &str, mesh: &str) -> Option<TextPosition> {
-    const FIELD: &str = "mesh: ";
-    let before = &text[..text.find(&format!("{FIELD}{mesh:?}"))? + FIELD.len()];
-    let line_start = before.rfind('\n').map_or(0, |end| end + 1);
-    let line = before.matches('\n').count() + 1;
-    Some(TextPosition { line, column: before[line_start..].chars().count() + 1 })
 }

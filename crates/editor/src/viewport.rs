@@ -134,9 +134,10 @@ pub fn viewport(ui: &mut Ui, layout: &Layout, input: &ViewportInput<'_>) -> View
     let background = if input.now.is_some() && is_dark { tokens.field } else { tokens.app };
     painter.rect_filled(area, 0.0, background);
     for (index, framing) in layout.framings().iter().enumerate() {
-        if let Some((texture, ..)) = input.pictures.of(index) {
+        if let Some((texture, view, _)) = input.pictures.of(index) {
             let uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-            painter.image(texture, framing.viewport(), uv, Color32::WHITE);
+            let place = framing.place_of(view.size_px, view.shot_height_px);
+            painter.with_clip_rect(framing.viewport()).image(texture, place, uv, Color32::WHITE);
         }
     }
     draw_marks(ui, first, input.camera, input.marks);

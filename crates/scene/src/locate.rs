@@ -57,6 +57,11 @@ pub(crate) struct Refused {
 }
 
 impl Located {
+    /// The values of a text; `None` if it is too long or cannot be scanned.
+    pub fn of(text: &str) -> Option<Self> {
+        (text.len() as u64 <= limits::MAX_SCENE_BYTES).then(|| Self::scan(text).ok())?
+    }
+
     /// Scans a whole file. The text must not be longer than [`limits::MAX_SCENE_BYTES`].
     pub(crate) fn scan(text: &str) -> Result<Self, Refused> {
         let root = scan::file(text)?;

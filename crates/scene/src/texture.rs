@@ -62,6 +62,9 @@ pub fn decode(path: &Path, bytes: &[u8]) -> Result<Decoded, Problem> {
         format_of(path, bytes).ok_or_else(|| broken("the format of the picture is unknown".to_owned()))?;
     let decoder_error = |error: image::ImageError| match error {
         image::ImageError::Limits(_) => over_limit(path, None),
+        image::ImageError::Decoding(_) | image::ImageError::IoError(_) => {
+            broken("the picture can not be decoded: it is damaged or cut short".to_owned())
+        }
         other => broken(format!("the picture can not be decoded: {}", one_line(&other.to_string()))),
     };
     if let Some(size_px) = claimed_png_size(bytes)

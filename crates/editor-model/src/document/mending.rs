@@ -177,7 +177,10 @@ impl Document {
             }
             _ => read.loaded,
         };
-        let change = SceneChange::between(self.scene(), &loaded.scene).unwrap_or_default();
+        let change = SceneChange::between(self.scene(), &loaded.scene);
+        // The same text and the same scene: only its files were read again, so nothing is to be saved.
+        let is_same = change.is_none() && self.source.as_ref().is_some_and(|source| source.text == text);
+        let stays_saved = is_same && !self.is_edited();
         let sources = [self.source.clone(), after.clone()];
         self.preview = None;
         self.loaded = Arc::new(loaded);
@@ -185,8 +188,11 @@ impl Document {
         self.revision += 1;
         let before = self.selection.clone();
         self.select(before.clone());
-        self.history.push(words.clone(), change, [before, self.selection.clone()]);
+        self.history.push(words.clone(), change.unwrap_or_default(), [before, self.selection.clone()]);
         self.history.mark_sources(sources);
+        if stays_saved {
+            self.history.mark_saved();
+        }
         Ok(Step { text: words, note: None })
     }
 

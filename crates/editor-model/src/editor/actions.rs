@@ -1,5 +1,6 @@
 //! Carries out actions, whether they come from keys, menus or the command search.
 
+use impasto_scene::document::Region;
 use impasto_scene::motion;
 
 use super::{Busy, Editor, Request, reference_frame};
@@ -323,12 +324,21 @@ impl Editor {
 
     fn frame(&mut self, selected: bool, view: &View) {
         let scene = &self.document.shown().scene;
+        let selection = self.document.selection();
+        let regions: Vec<_> = scene
+            .regions
+            .iter()
+            .filter(|region| selection.contains(&Item::Region(region.name.clone())))
+            .collect();
         let chosen: Vec<usize> = (0..scene.objects.len())
             .filter(|&object| {
                 let object = &scene.objects[object];
                 let is_scenery = impasto_scene::built_in_mesh::is_built_in(&object.mesh);
                 match selected {
-                    true => self.document.selection().contains(&Item::Object(object.name.clone())),
+                    true => {
+                        let is_of = |region: &&Region| region.on.object() == Some(object.name.as_str());
+                        selection.contains(&Item::Object(object.name.clone())) || regions.iter().any(is_of)
+                    }
                     false => !object.hidden && !is_scenery,
                 }
             })

@@ -1,6 +1,7 @@
 //! Pointer events over the viewport: navigation, selection, dragging, and the tools of Paint.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
+use impasto_scene::built_in_mesh::is_built_in;
 
 use super::painted::PaintedView;
 use super::{Busy, Editor, Request};
@@ -157,7 +158,7 @@ impl Editor {
             return self.cancel(view);
         }
         if let Some(way) = self.keymap.navigation(button, event.held) {
-            let about = self.about(event.at_px, view);
+            let about = self.turns_about(event.at_px, view);
             self.busy = match self.keys_the_shot() {
                 true => Busy::ShotView(way, about, self.shot()),
                 false => Busy::Navigating(way, about),
@@ -248,7 +249,7 @@ impl Editor {
     /// Whether an object has a built-in mesh, as the floor and the wall of a new scene.
     fn is_scenery(&self, name: &str) -> bool {
         let object = self.document.scene().objects.iter().find(|object| object.name == name);
-        object.is_some_and(|object| impasto_scene::built_in_mesh::is_built_in(&object.mesh))
+        object.is_some_and(|object| is_built_in(&object.mesh))
     }
 
     fn released(&mut self, button: Button, event: &PointerEvent, view: &View) {
@@ -288,7 +289,9 @@ impl Editor {
     }
 
     fn zoom(&mut self, steps: f64, at_px: DVec2, view: &View) {
-        let toward = self.about(at_px, view);
+        let toward = self
+            .model_at(at_px, view)
+            .unwrap_or_else(|| view.at_depth_of(at_px, self.subject(view).unwrap_or(self.camera().target)));
         let shot = self.shot();
         if self.keys_the_shot() {
             let mut free = FreeView::new(shot);
@@ -306,17 +309,41 @@ impl Editor {
         self.session.mode == Mode::Animate && self.session.lock_to_view && self.looking == Looking::Shot
     }
 
-    /// The point that the view turns about: the surface under the pointer; if there is none, the middle of the selected
-    /// object; else the point under the pointer that is as deep as the camera's target.
-    fn about(&self, at_px: DVec2, view: &View) -> glam::DVec3 {
-        if let Some(hit) = self.hit(at_px, view) {
-            return hit.position_in_world;
-        }
-        let selected = self.active_object().and_then(|object| {
-            let [low, high] = self.picker.bounds_in_world([object], &self.poses())?;
+    /// The point that a drag turns the view about: the model's surface under the pointer, or else the subject.
+    fn turns_about(&self, at_px: DVec2, view: &View) -> DVec3 {
+        let subject = || self.subject(view).unwrap_or_else(|| view.at_depth_of(at_px, self.camera().target));
+        self.model_at(at_px, view).unwrap_or_else(subject)
+    }
+
+    /// The surface under the pointer; `None` for a built-in backdrop, since who points at it means the models before it.
+    fn model_at(&self, at_px: DVec2, view: &View) -> Option<DVec3> {
+        let hit = self.hit(at_px, view)?;
+        let object = self.document.shown().scene.objects.get(hit.object)?;
+        (!is_built_in(&object.mesh)).then_some(hit.position_in_world)
+    }
+
+    /// The middle of the selected object, or else of all models, if the picture shows it.
+    fn subject(&self, view: &View) -> Option<DVec3> {
+        let objects = &self.document.shown().scene.objects;
+        let models = || {
+            (0..objects.len())
+                .filter(|&object| !objects[object].hidden && !is_built_in(&objects[object].mesh))
+        };
+        let middle = |objects: Vec<usize>| {
+            let [low, high] = self.picker.bounds_in_world(objects, &self.poses())?;
             Some((low + high) * 0.5)
-        });
-        selected.unwrap_or_else(|| view.at_depth_of(at_px, self.camera().target))
+        };
+        let selected = self.active_object().filter(|&object| !is_built_in(&objects[object].mesh));
+        let subject =
+            selected.and_then(|object| middle(vec![object])).or_else(|| middle(models().collect()))?;
+        let at_px = view.project(subject)?;
+        (at_px.cmpge(DVec2::ZERO) & at_px.cmple(view.size_px)).all().then_some(subject)
+    }
+
+    /// The surface under the pointer, or else the subject, or a point at the depth of the camera's target.
+    fn about(&self, at_px: DVec2, view: &View) -> DVec3 {
+        let hit = self.hit(at_px, view).map(|hit| hit.position_in_world);
+        hit.or_else(|| self.subject(view)).unwrap_or_else(|| view.at_depth_of(at_px, self.camera().target))
     }
 
     pub(super) fn hit(&self, at_px: DVec2, view: &View) -> Option<crate::picking::Hit> {
@@ -393,7 +420,7 @@ impl Editor {
     }
 }
 
-fn navigate(free: &mut FreeView, way: Navigation, about: glam::DVec3, delta_px: DVec2, view: &View) {
+fn navigate(free: &mut FreeView, way: Navigation, about: DVec3, delta_px: DVec2, view: &View) {
     match way {
         Navigation::Orbit => free.orbit(delta_px, about),
         Navigation::Pan => free.pan(delta_px, about, view.size_px),

@@ -9,6 +9,7 @@ use impasto_scene::document::LightKind;
 use impasto_scene::load::LoadOptions;
 
 use super::*;
+use crate::camera_rig::ZOOM_PER_STEP;
 use crate::command::{Arrange, Edit, Regions};
 use crate::keymap::{Action, Button};
 use crate::session::Axes;
@@ -321,6 +322,50 @@ fn a_drag_that_misses_selects_the_wall_and_does_not_move_it() {
         }
         assert!(*editor.document().scene() != before);
     }
+}
+
+#[test]
+fn framing_a_region_frames_its_object() {
+    let mut editor = with_apple();
+    let apple = editor.document().scene().objects.iter().find(|object| object.name.contains("apple"));
+    let apple = apple.expect("there is an apple").name.clone();
+    let region = editor.document().scene().regions.iter().find(|of| of.on.object() == Some(apple.as_str()));
+    let region = region.expect("the apple has a region").name.clone();
+    let framed = |editor: &mut Editor, item: Item| {
+        act(editor, Action::LookThrough);
+        editor.select(Selection::only(item));
+        act(editor, Action::FrameSelected);
+        editor.camera()
+    };
+    let shot = editor.camera();
+    let by_object = framed(&mut editor, Item::Object(apple));
+    assert_ne!(by_object, shot);
+    assert_eq!(framed(&mut editor, Item::Region(region)), by_object);
+}
+
+#[test]
+fn over_a_backdrop_the_view_zooms_and_turns_about_the_models_before_it() {
+    let mut editor = with_apple();
+    let (object, mesh) = ("wall".to_owned(), "impasto:backdrop".to_owned());
+    assert!(editor.run(&Command::Arrange(Arrange::ReplaceMesh { object, mesh })));
+    prepared(&mut editor);
+    editor.select(Selection::default());
+    let models = |editor: &Editor| {
+        let objects = &editor.document().scene().objects;
+        let all = (0..objects.len()).filter(|&index| !objects[index].mesh.starts_with("impasto:"));
+        let [low, high] = editor.picker().bounds_in_world(all, &editor.poses()).expect("they have surfaces");
+        (low + high) * 0.5
+    };
+    let (at, middle) = (on_the_wall(&editor), models(&editor));
+    let before = view(&editor).px_per_unit(middle);
+    event(&mut editor, PointerKind::Wheel(2.0), at, HERE);
+    let grown = view(&editor).px_per_unit(middle) / before;
+    let wanted = ZOOM_PER_STEP.powi(-2);
+    assert!((grown / wanted - 1.0).abs() < 1e-6, "grew {grown} times in two steps, not {wanted}");
+    let place = view(&editor).project(middle).expect("it shows");
+    drag(&mut editor, Button::Middle, [at, at + DVec2::new(90.0, 20.0)], HERE);
+    let moved = view(&editor).project(middle).expect("it shows").distance(place);
+    assert!(moved < 1e-6, "the models moved by {moved} pixels");
 }
 
 #[test]

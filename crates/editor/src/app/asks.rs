@@ -58,11 +58,7 @@ impl EditorApp {
             Ask::Prefer(preference) => self.prefer(preference, ctx),
             Ask::Open(path) => self.open_asking(&path),
             Ask::Copy(words) => ctx.copy_text(words),
-            Ask::ChooseMesh(object) => {
-                self.files.mesh_of = Some(object);
-                let start = self.editor.document().folder().to_owned();
-                self.files.dialogs.open(ctx, FileAsk::LocateMesh, &start);
-            }
+            Ask::ChooseMesh(object) => self.choose_mesh(object),
             Ask::Recapture(frame) => self.sheets.recapture = Some(frame),
             Ask::StopWork(WorkKind::Reading) => self.stop_reading(),
             Ask::StopWork(WorkKind::Preparing) => {

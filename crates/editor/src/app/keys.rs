@@ -6,7 +6,7 @@ use impasto_editor_model::keymap::{Key, Modifiers};
 use impasto_editor_model::picking::View;
 use impasto_editor_model::timeline::TimelineEvent;
 
-use crate::widgets::key_of;
+use crate::widgets::{key_of, leaves_space};
 
 /// The modifiers that are held, as the keymap has them.
 pub(super) fn held(held: egui::Modifiers) -> Modifiers {
@@ -32,7 +32,8 @@ pub(super) fn hand_on(ui: &mut Ui, editor: &mut Editor, view: &View, numpad: &[(
             key,
             Key::Space | Key::Enter | Key::Left | Key::Right | Key::Up | Key::Down | Key::Escape | Key::Tab
         );
-        if control_focused && used_by_controls {
+        let is_left = key == Key::Space && leaves_space(ui.ctx());
+        if control_focused && used_by_controls && !is_left {
             continue;
         }
         if key != Key::Tab && editor.key(key, held, typing, view) {

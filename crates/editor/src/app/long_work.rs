@@ -17,7 +17,7 @@ use impasto_scene::problem::Report;
 
 use super::EditorApp;
 use crate::files::incoming::{Adopted, Step, adopt_mesh, name_of};
-use crate::panels::problems::TroubleOf;
+use crate::panels::problems::{TroubleOf, note_read};
 use crate::panels::work::{Work, WorkKind};
 use crate::window::Waker;
 
@@ -38,8 +38,14 @@ enum Outcome {
     Opened(PathBuf, Result<Box<Document>, Report>),
     /// A mesh that was read from this path.
     Mesh(PathBuf, MeshFor, Result<(Adopted, Arc<MeshFile>), String>),
-    /// The document, repaired or read again; first, what another program changed, if that was the reason.
-    Mended(Option<News>, Box<Mended>),
+    /// The document, repaired or read again.
+    Mended {
+        mended: Box<Mended>,
+        /// What another program changed, if that was the reason.
+        news: Option<News>,
+        /// The text that was read in place of the file's.
+        text: Option<String>,
+    },
 }
 
 struct Reading {
@@ -136,16 +142,18 @@ impl EditorApp {
             return self.toast(words, None, true);
         }
         let words = format!("Reading {}\u{2026}", self.editor.document().name());
+        let text = if let Mend::ReadText(text) = &mend { Some(text.clone()) } else { None };
         let mending = self.editor.mending(mend);
-        self.long.read(words, self.editor.document(), move || Outcome::Mended(None, Box::new(mending())));
+        let outcome = move || Outcome::Mended { mended: Box::new(mending()), news: None, text };
+        self.long.read(words, self.editor.document(), outcome);
     }
 
     /// Starts to read what another program changed. False if that would lose edits, so that the user has to be asked.
     pub(super) fn take_in(&mut self, news: News) -> bool {
         let Some(taking_in) = self.editor.taking_in(news) else { return false };
         let words = format!("Reading {}\u{2026}", self.editor.document().name());
-        self.long
-            .read(words, self.editor.document(), move || Outcome::Mended(Some(news), Box::new(taking_in())));
+        let outcome = move || Outcome::Mended { mended: Box::new(taking_in()), news: Some(news), text: None };
+        self.long.read(words, self.editor.document(), outcome);
         true
     }
 
@@ -249,16 +257,16 @@ impl EditorApp {
                 }
                 self.opened(&path, opened.map(|document| *document));
             }
-            Outcome::Mended(..) | Outcome::Mesh(..) if document.folder() != reading.folder => {}
-            Outcome::Mended(news, mended) => match (self.editor.take(*mended), news) {
+            Outcome::Mended { .. } | Outcome::Mesh(..) if document.folder() != reading.folder => {}
+            Outcome::Mended { mended, news, text } => match (self.editor.take(*mended), news) {
                 (Took::Unread(words), Some(news)) => self.trouble(TroubleOf::ChangedOutside(news), words),
                 (Took::In(false) | Took::Unread(_), None) => {}
                 (Took::In(_), news) => {
+                    text.iter().for_each(|text| note_read(&self.ctx, text));
                     self.settled(&TroubleOf::ChangedOutside(News::Files));
                     if news != Some(News::Files) {
                         self.settled(&TroubleOf::ChangedOutside(News::Scene));
                     }
-                    self.sheets.problems |= news.is_some() && self.editor.document().loss_count() > 0;
                 }
                 (Took::Late, Some(news)) => self.changed_outside(news),
                 (Took::Late, None) => {
@@ -274,12 +282,17 @@ impl EditorApp {
                 }
                 self.editor.hold_mesh(&adopted.name, file);
                 match what_for {
-                    MeshFor::Import => self.editor.import(&adopted.name),
+                    MeshFor::Import => drop(self.editor.import(&adopted.name)),
                     MeshFor::Replace(object) => {
                         let command = Arrange::ReplaceMesh { object, mesh: adopted.name };
-                        self.editor.run(&Command::Arrange(command))
+                        self.editor.run(&Command::Arrange(command));
+                        let of = TroubleOf::ChangedOutside(News::Files);
+                        if self.troubles.iter().any(|trouble| trouble.of == of) {
+                            // The mesh that was missing may be the one that was replaced.
+                            self.changed_outside(News::Files);
+                        }
                     }
-                };
+                }
             }
             Outcome::Mesh(path, _, Err(words)) => {
                 // Pictures and presets that came together with the mesh were meant for it.

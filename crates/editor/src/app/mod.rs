@@ -37,6 +37,7 @@ use impasto_editor_model::document::Document;
 use impasto_editor_model::editor::{Editor, Offer, Said, reference_frame};
 use impasto_editor_model::keymap::{Digits, Key, Keymap, Modifiers, Preset};
 use impasto_gl_render::ShaderTexts;
+use impasto_scene::built_in_mesh::is_built_in;
 use impasto_scene::problem::Report;
 
 use crate::files::dialogs::FileDialogs;
@@ -87,6 +88,8 @@ pub(crate) struct EditorApp {
     telling: Telling,
     /// What failed and is not settled yet.
     troubles: Vec<Trouble>,
+    /// How many losses the document had in the previous pass.
+    losses_told: usize,
     likely_meshes: LikelyMeshes,
     presets: PresetFlow,
 }
@@ -158,6 +161,7 @@ impl EditorApp {
             folds: Folds::default(),
             telling: Telling::new(options.tell),
             troubles: Vec::new(),
+            losses_told: 0,
             likely_meshes: LikelyMeshes::default(),
             presets: PresetFlow::new(picture::driver_of(driver), opened.waker.clone()),
         };
@@ -199,8 +203,8 @@ impl EditorApp {
                 self.forget_document();
                 let scene = document.scene();
                 let regions = scene.regions.len();
-                let triangles: usize =
-                    document.loaded().meshes.values().map(|file| file.mesh.triangles.len()).sum();
+                let own = document.loaded().meshes.iter().filter(|(name, _)| !is_built_in(name));
+                let triangles: usize = own.map(|(_, file)| file.mesh.triangles.len()).sum();
                 let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
                 let warnings = document.loaded().warnings.len();
                 let losses = document.loss_count();
@@ -271,9 +275,14 @@ impl EditorApp {
         let mut asks: Vec<Ask> = Vec::new();
         self.likely_meshes.follow(self.editor.document());
         let works = self.works(ui.ctx());
+        // What is lost again, as after an undo, is told again.
+        let losses = self.editor.document().loss_count();
+        self.sheets.problems |= losses > self.losses_told;
+        self.losses_told = losses;
         let shown = PanelInput {
             document: self.editor.document(),
             session: &self.editor.session,
+            has_column: !self.folds.column && !self.folds.everything,
             time: self.editor.time(),
             painting: self.editor.painting(),
             keymap: &self.editor.keymap,

@@ -1,5 +1,9 @@
 //! Lists failures in the window until they are settled, and does what settles them.
 
+use impasto_editor_model::watch::News;
+use impasto_scene::built_in_mesh::is_built_in;
+use impasto_scene::mesh_format::file_and_node;
+
 use super::EditorApp;
 use super::long_work::MeshFor;
 use crate::files::file_ask::FileAsk;
@@ -17,6 +21,12 @@ impl EditorApp {
                 "A crash would lose what is not saved",
                 &[Settle::SaveAs, Settle::Retry, Settle::Dismiss],
             ),
+            TroubleOf::ChangedOutside(News::Files) if self.object_without_mesh().is_some() => {
+                // What else could be done is for a command line.
+                let words = words.split("; put the file there").next().unwrap_or_default().to_owned();
+                let mend = "What was read last stays. Locate the mesh, or put it back and retry";
+                (words, mend, &[Settle::Locate, Settle::Retry, Settle::Dismiss])
+            }
             TroubleOf::ChangedOutside(_) => {
                 (words, "What was read last stays", &[Settle::Retry, Settle::Dismiss])
             }
@@ -42,12 +52,32 @@ impl EditorApp {
         self.troubles.retain(|trouble| trouble.of != *of);
     }
 
+    /// The first object whose mesh is not on disk.
+    fn object_without_mesh(&self) -> Option<String> {
+        let document = self.editor.document();
+        let mut objects = document.scene().objects.iter().filter(|object| !is_built_in(&object.mesh));
+        let lacks = |mesh: &str| document.file_at_hand(file_and_node(mesh).0).is_none();
+        objects.find(|object| lacks(&object.mesh)).map(|object| object.name.clone())
+    }
+
+    /// Lets the user choose another mesh for an object.
+    pub(super) fn choose_mesh(&mut self, object: String) {
+        self.files.mesh_of = Some(object);
+        let start = self.editor.document().folder().to_owned();
+        self.files.dialogs.open(&self.ctx, FileAsk::LocateMesh, &start);
+    }
+
     /// Does what a button of the list says.
     pub(super) fn settle(&mut self, index: usize, settle: Settle) {
         let Some(of) = self.troubles.get(index).map(|trouble| trouble.of.clone()) else { return };
         match (settle, &of) {
             (Settle::Dismiss, _) => self.settled(&of),
             (Settle::SaveAs, _) => self.save_asking(FileAsk::SaveAs),
+            (Settle::Locate, _) => match self.object_without_mesh() {
+                Some(object) => self.choose_mesh(object),
+                // It is there again.
+                None => self.settle(index, Settle::Retry),
+            },
             (Settle::Retry, TroubleOf::Save(None)) => self.save_own_asking(),
             (Settle::Retry, TroubleOf::Save(target)) => drop(self.save(target.as_deref())),
             (Settle::Retry, TroubleOf::Copy) => self.keep_before_risk(),

@@ -6,7 +6,7 @@ use impasto_editor_model::Item;
 use impasto_editor_model::keymap::Action;
 use impasto_editor_model::session::{DirectionLines, Mode};
 
-use super::{Ask, PanelInput, file_name, row, text_width, tree, within};
+use super::{Ask, PanelInput, file_name, problems, row, text_width, tree, within};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::MenuRow;
@@ -24,6 +24,8 @@ pub(super) enum Line {
     Add,
     /// Puts the command that renders the scene on the clipboard.
     CopyRenderCommand,
+    /// Shows the list of what is wrong.
+    Problems,
     /// Shows the first-run sheet.
     FirstRun,
     /// Shows the sheet that changes keys.
@@ -32,7 +34,7 @@ pub(super) enum Line {
     Sub(&'static str, &'static [Line]),
 }
 
-use Line::{Add, CopyRenderCommand, Do, FirstRun, KeySheet, Recent, Separator, Sub};
+use Line::{Add, CopyRenderCommand, Do, FirstRun, KeySheet, Problems, Recent, Separator, Sub};
 
 const MENUS: [(&str, &[Line]); 4] = [
     (
@@ -104,6 +106,7 @@ const MENUS: [(&str, &[Line]); 4] = [
             Do(Action::ToggleColumn),
             Do(Action::MaximiseViewport),
             Do(Action::NextArea),
+            Problems,
         ],
     ),
     ("Help", &[Do(Action::Palette), Do(Action::Shortcuts), FirstRun]),
@@ -225,6 +228,13 @@ pub(super) fn list(ui: &mut Ui, lines: &[Line], shown: &PanelInput<'_>, asks: &m
                     asks.push(Ask::KeySheet);
                 }
             }
+            Problems => {
+                let listed = listed_problems(shown);
+                let reason = listed.as_ref().err().copied();
+                if usable(ui, reason, MenuRow { words: words_of(*line), ..MenuRow::default() }) {
+                    asks.extend(listed);
+                }
+            }
             FirstRun => {
                 if usable(ui, None, MenuRow { words: words_of(*line), ..MenuRow::default() }) {
                     asks.push(Ask::Welcome);
@@ -240,9 +250,15 @@ fn copied_command(shown: &PanelInput<'_>) -> Result<Ask, &'static str> {
     Ok(Ask::Copy(render_command(&file.to_string_lossy())))
 }
 
+/// The request to show the list of problems, or why there is none.
+fn listed_problems(shown: &PanelInput<'_>) -> Result<Ask, &'static str> {
+    (problems::count(shown) > 0).then_some(Ask::ShowProblems).ok_or("Nothing is wrong")
+}
+
 /// What the menus hold beside actions: the words, and the request or why it cannot be made.
-pub(super) fn others(shown: &PanelInput<'_>) -> [(&'static str, Result<Ask, &'static str>); 3] {
+pub(super) fn others(shown: &PanelInput<'_>) -> [(&'static str, Result<Ask, &'static str>); 4] {
     [
+        (words_of(Problems), listed_problems(shown)),
         (words_of(CopyRenderCommand), copied_command(shown)),
         (words_of(FirstRun), Ok(Ask::Welcome)),
         (words_of(KeySheet), Ok(Ask::KeySheet)),
@@ -256,6 +272,7 @@ fn words_of(line: Line) -> &'static str {
         Sub(name, _) => name,
         Recent => "Open recent",
         CopyRenderCommand => "Copy render command",
+        Problems => "List of problems",
         FirstRun => "First run sheet",
         KeySheet => "Change keys",
         Separator => "",
@@ -327,6 +344,7 @@ pub(super) fn is_on(shown: &PanelInput<'_>, action: Action) -> bool {
         Action::CycleDirections => session.overlays.direction_lines != DirectionLines::Off,
         Action::ToggleTrust => session.overlays.trust,
         Action::Compare => session.compare,
+        Action::ToggleColumn => shown.has_column,
         Action::Curves => session.shows_curves(),
         _ => false,
     }

@@ -62,6 +62,8 @@ pub struct PanelInput<'a> {
     pub document: &'a Document,
     /// Mode, tools, view.
     pub session: &'a Session,
+    /// Whether the right column is shown.
+    pub has_column: bool,
     /// Playback and selected keys.
     pub time: &'a TimeHand,
     /// The painting as it was last prepared, perhaps from an earlier version of the document; `None` before the first.
@@ -91,6 +93,7 @@ impl<'a> PanelInput<'a> {
         Self {
             document,
             session,
+            has_column: true,
             time,
             painting: None,
             keymap,

@@ -14,7 +14,7 @@ use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Button};
 
-pub use source::{forget_text, restore_text, unread_text};
+pub use source::{forget_text, note_read, restore_text, unread_text};
 pub use trouble::{Settle, Trouble, TroubleOf};
 
 const HEIGHT: f32 = 232.0;

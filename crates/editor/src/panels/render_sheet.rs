@@ -67,8 +67,8 @@ pub fn render_sheet(
     shown: &RenderShown<'_>,
     settings: &mut RenderSettings,
 ) -> Option<RenderAsk> {
-    // A menu takes `Esc` and `Enter` for itself.
-    let has_menu = egui::Popup::is_any_open(ctx);
+    // A menu takes `Esc` and `Enter` for itself, and so does a field, which they take the focus from.
+    let is_theirs = egui::Popup::is_any_open(ctx) || ctx.memory(|memory| memory.focused()).is_some();
     sheet(ctx, "Render settings", WIDTH, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
         let runs = shown.progress.is_some_and(|progress| progress.outcome.is_none());
@@ -99,10 +99,9 @@ pub fn render_sheet(
         ask = foot(ui, shown, &plan).or(ask);
         let (escape, enter) =
             ui.input(|input| (input.key_pressed(egui::Key::Escape), input.key_pressed(egui::Key::Enter)));
-        let is_typing = has_menu || ui.memory(|memory| memory.focused()).is_some();
         match ask {
-            None if escape && !is_typing => Some(if runs { RenderAsk::WorkOn } else { RenderAsk::Close }),
-            None if enter && !is_typing && !runs && plan.is_ok() => Some(RenderAsk::Render),
+            None if escape && !is_theirs => Some(if runs { RenderAsk::WorkOn } else { RenderAsk::Close }),
+            None if enter && !is_theirs && !runs && plan.is_ok() => Some(RenderAsk::Render),
             ask => ask,
         }
     })

@@ -57,7 +57,7 @@ fn left(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
         ui.add_space(4.0);
     }
     ui.add_space(6.0);
-    document(ui, shown);
+    document(ui, shown, asks);
 }
 
 /// The button for undo or redo; its tooltip names the entry of the history.
@@ -81,7 +81,7 @@ fn undo_button(
 }
 
 /// The document's name; it is cut off with an ellipsis if it would reach the mode switch.
-fn document(ui: &mut Ui, shown: &PanelInput<'_>) {
+fn document(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let tokens = Tokens::of(ui);
     let (name, edited) = (shown.document.name(), shown.document.is_edited());
     let off = shown.document.saving_loses();
@@ -96,7 +96,7 @@ fn document(ui: &mut Ui, shown: &PanelInput<'_>) {
     job.wrap = egui::text::TextWrapping::truncate_at_width((ui.available_width() - mark).max(24.0));
     let galley = ui.painter().layout_job(job);
     let size = vec2(galley.size().x + mark, measure::BUTTON);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    let (rect, response) = ui.allocate_exact_size(size, if off { Sense::click() } else { Sense::hover() });
     let name_right = rect.left() + galley.size().x;
     let at = Align2::LEFT_CENTER.anchor_size(rect.left_center(), galley.size()).min;
     ui.painter().galley(at, galley, tokens.text);
@@ -114,8 +114,12 @@ fn document(ui: &mut Ui, shown: &PanelInput<'_>) {
     let also = |is: bool, words: &str| if is { format!(", {words}") } else { String::new() };
     let spoken = format!("{name}{}{}", also(edited, "edited"), also(off, "saving over it is off"));
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_value(spoken));
-    if let Some(file) = shown.document.file() {
-        response.on_hover_text(file.display().to_string());
+    let file = shown.document.file().map(|file| file.display().to_string()).unwrap_or_default();
+    if off {
+        let words = format!("{file}\nClick for the list of problems.");
+        asks.extend(response.on_hover_text(words).clicked().then_some(Ask::ShowProblems));
+    } else if !file.is_empty() {
+        response.on_hover_text(file);
     }
 }
 

@@ -1,7 +1,7 @@
 //! The welcome sheet: three steps to begin with, a few settings, and what to open.
 
 use egui::{Align, Align2, Layout, Rect, RichText, Sense, Ui, vec2};
-use impasto_editor_model::keymap::{Action, Keymap, Preset};
+use impasto_editor_model::keymap::{Action, Keymap, Modifiers, Preset, Scope};
 
 use super::{row, row_from_right, within};
 use crate::icons::{self, Icon};
@@ -58,10 +58,22 @@ pub fn welcome(ctx: &egui::Context, choices: &mut Choices) -> Option<Left> {
         let line = ui.available_rect_before_wrap();
         ui.painter().hline(line.x_range(), line.top(), (1.0, Tokens::of(ui).div));
         ui.add_space(18.0);
-        let left = buttons(ui, choices);
+        let keymap = Keymap { preset: choices.keys, ..Keymap::default() };
+        let left = buttons(ui, choices).or(opens(ui, &keymap).then_some(Left::OpenScene));
         let escape = ui.input(|input| input.key_pressed(egui::Key::Escape));
         left.or((close || escape).then_some(Left::Closed))
     })
+}
+
+/// Whether the key was pressed that opens a scene, which the first card shows.
+fn opens(ui: &Ui, keymap: &Keymap) -> bool {
+    let opens = |event: &egui::Event| {
+        let egui::Event::Key { key, pressed: true, modifiers, .. } = event else { return false };
+        let held = Modifiers { ctrl: modifiers.command, shift: modifiers.shift, alt: modifiers.alt };
+        widgets::key_of(*key)
+            .is_some_and(|key| keymap.action_for(key, held, Scope::Arrange) == Some(Action::OpenScene))
+    };
+    ui.input(|input| input.events.iter().any(opens))
 }
 
 fn head(ui: &mut Ui) -> bool {

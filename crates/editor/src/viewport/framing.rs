@@ -74,6 +74,17 @@ impl Framing {
         self.size_px()[1] as f32 * self.shot.height() / self.viewport.height()
     }
 
+    /// Where a picture of this size belongs, whose shot is this high, so that its shot covers this one: the whole viewport,
+    /// unless the picture was drawn before the viewport got its size.
+    pub fn place_of(&self, size_px: [u32; 2], shot_height_px: f32) -> Rect {
+        if size_px == self.size_px() {
+            return self.viewport;
+        }
+        let points_per_px = self.shot.height() / shot_height_px;
+        let size = Vec2::from(size_px.map(|side| side as f32)) * points_per_px;
+        Rect::from_center_size(self.viewport.center(), size)
+    }
+
     /// Converts a place in the window to points from the viewport's upper left corner.
     pub fn from_window(&self, at: Pos2) -> DVec2 {
         let from = at - self.viewport.min;
@@ -99,6 +110,18 @@ mod tests {
         assert_eq!(high.shot().width(), 950.0);
         assert_eq!(high.shot().center(), high.viewport().center());
         assert!((high.shot_height_px() - 950.0 * 9.0 / 16.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn an_older_picture_keeps_its_shape_until_the_new_one_comes() {
+        let [before, now] = [framing(950.0, 650.0), framing(950.0, 430.0)];
+        assert_eq!(now.place_of(now.size_px(), now.shot_height_px()), now.viewport());
+        let place = now.place_of(before.size_px(), before.shot_height_px());
+        assert!((place.aspect_ratio() - 950.0 / 650.0).abs() < 1e-3);
+        assert_eq!(place.center(), now.viewport().center());
+        // Its shot covers that of the viewport.
+        let shot_high = place.height() * before.shot().height() / before.viewport().height();
+        assert!((shot_high - now.shot().height()).abs() < 0.1, "{shot_high}");
     }
 
     #[test]

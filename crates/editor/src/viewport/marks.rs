@@ -56,7 +56,7 @@ impl Marks<'_> {
         if self.grid {
             overlay::floor_grid(sheet);
         }
-        self.regions.iter().for_each(|tint| overlay::region_tint(sheet, tint));
+        overlay::region_tints(sheet, self.regions);
         if let Some(amounts) = self.amounts {
             overlay::amount_tint(sheet, amounts);
         }

@@ -33,7 +33,7 @@ pub use missing_mesh::{MissingMesh, missing_mesh};
 pub use motion_path::{MotionPath, motion_path};
 pub use needle::{needle, needle_tag};
 pub use outline::{Outline, outline};
-pub use region_tint::{RegionTint, region_tint};
+pub use region_tint::{RegionTint, region_tints};
 pub use ring::ring;
 pub use shot_border::shot_border;
 pub use sight::Sight;

@@ -3,15 +3,13 @@
 
 use egui::{Event, MouseWheelUnit, PointerButton, Ui};
 use glam::DVec2;
+use impasto_editor_model::camera_rig::ZOOM_PER_STEP;
 use impasto_editor_model::editor::{PointerEvent, PointerKind};
 use impasto_editor_model::keymap::{Button, Modifiers};
 
 use super::framing::Framing;
 use crate::widgets::press_closes_menu;
 use crate::window::pressures;
-
-/// A pinch by this factor counts as one step of the wheel.
-const PINCH_STEP: f64 = 1.1;
 
 /// What is known of the pointer, kept from one pass to the next.
 #[derive(Clone, Debug, Default)]
@@ -96,7 +94,8 @@ impl Pointer {
                     push(PointerKind::Wheel(steps), self.last_px, plain(modifiers));
                 }
                 Event::Zoom(factor) if self.inside => {
-                    let steps = f64::from(factor).ln() / PINCH_STEP.ln();
+                    // What is spread between two fingers stays between them.
+                    let steps = -f64::from(factor).ln() / ZOOM_PER_STEP.ln();
                     push(PointerKind::Wheel(steps), self.last_px, held);
                 }
                 Event::WindowFocused(false) => {

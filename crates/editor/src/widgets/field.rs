@@ -28,7 +28,8 @@ pub struct NumberField<'a> {
     value: &'a mut f64,
     range: RangeInclusive<f64>,
     limits: RangeInclusive<f64>,
-    label: bool,
+    /// What stands at its left.
+    label: Option<&'a str>,
     letter: &'a str,
     unit: &'a str,
     step: f64,
@@ -82,7 +83,7 @@ impl<'a> NumberField<'a> {
             value,
             limits: range.clone(),
             range,
-            label: true,
+            label: Some(name),
             letter: "",
             unit: "",
             step: 1.0,
@@ -98,9 +99,14 @@ impl<'a> NumberField<'a> {
         }
     }
 
+    /// Shows these words in place of the name, which may be longer than there is room for.
+    pub fn label(self, words: &'a str) -> Self {
+        Self { label: Some(words), ..self }
+    }
+
     /// Leaves out the label: only screen readers say the name.
     pub fn unlabelled(self, width: f32) -> Self {
-        Self { label: false, width: Some(width), ..self }
+        Self { label: None, width: Some(width), ..self }
     }
 
     /// The numbers that typing, the wheel and the arrows can reach, if these are more than a drag can reach.
@@ -195,6 +201,9 @@ impl<'a> NumberField<'a> {
                 memory.typed = Some(self.shown());
                 memory.dragged = None;
             }
+            if response.clicked() {
+                self.type_in(ui, id, frame, &mut memory, &mut editor);
+            }
         }
         reset |= self.reset(ui, row);
         began |= reset;
@@ -210,11 +219,11 @@ impl<'a> NumberField<'a> {
 
     /// The row, and the box in it.
     fn place(&self, ui: &mut Ui) -> (Rect, Rect) {
-        if !self.label {
+        let Some(label) = self.label else {
             let width = self.width.unwrap_or(78.0);
             let (row, _) = ui.allocate_exact_size(vec2(width, measure::FIELD), Sense::hover());
             return (row, row);
-        }
+        };
         let below = if self.error.is_some() { 18.0 } else { 0.0 };
         let size = vec2(ui.available_width(), measure::FIELD + below);
         let (mut row, _) = ui.allocate_exact_size(size, Sense::hover());
@@ -225,7 +234,7 @@ impl<'a> NumberField<'a> {
         frame.max.x = (frame.max.x - measure::ROW_END).max(frame.min.x + 48.0);
         let room = measure::LABEL - measure::GAP;
         // The unit stands in the box, so the label leaves it out.
-        let label = self.name.strip_suffix(self.unit).map_or(self.name, str::trim_end);
+        let label = label.strip_suffix(self.unit).map_or(label, str::trim_end);
         draw::words_within(ui, row.left_center(), label, type_face::body(), tokens.weak, room);
         if let Some(error) = self.error {
             let at = pos2(frame.left(), row.bottom() + 10.0);
@@ -314,7 +323,7 @@ impl<'a> NumberField<'a> {
 
     fn reset(&mut self, ui: &mut Ui, row: Rect) -> bool {
         let Some(default) =
-            self.default.filter(|default| self.label && self.text_of(*default) != self.shown())
+            self.default.filter(|default| self.label.is_some() && self.text_of(*default) != self.shown())
         else {
             return false;
         };

@@ -229,13 +229,12 @@ fn attributes(options: &Options, screen: Option<egui::Vec2>) -> winit::window::W
     named(attributes, &options.app_id)
 }
 
-/// Reduces the size of a window to fit on the screen. A size that does not fit is reduced a little further, to leave
-/// room for the system's title bar and panels.
+/// Reduces the size of a window to fit on the screen, with room for the system's title bar and panels.
 fn on_screen(size: egui::Vec2, screen: Option<egui::Vec2>) -> egui::Vec2 {
     const FRAME: egui::Vec2 = egui::vec2(0.0, 40.0);
     match screen {
-        Some(screen) if size.x > screen.x || size.y > screen.y => size.min(screen - FRAME),
-        _ => size,
+        Some(screen) => size.min(screen - FRAME),
+        None => size,
     }
 }
 
@@ -443,7 +442,7 @@ mod tests {
         // 1920 x 1080 pixels at a scale of 2, and a small screen.
         assert_eq!(on_screen(usual.size, Some(vec2(960.0, 540.0))), vec2(960.0, 500.0));
         assert_eq!(on_screen(usual.least_size, Some(vec2(640.0, 480.0))), vec2(640.0, 440.0));
-        assert_eq!(on_screen(usual.size, Some(usual.size)), usual.size);
+        assert_eq!(on_screen(usual.size, Some(usual.size)), vec2(1280.0, 760.0));
         assert_eq!(on_screen(usual.size, None), usual.size);
     }
 }

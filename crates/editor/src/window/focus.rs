@@ -2,7 +2,7 @@
 
 use egui::{Context, Event, Id, Key, Modifiers, Plugin, RawInput, Ui};
 
-use crate::widgets::note_open_menu;
+use crate::widgets::{note_open_menu, take_kept};
 
 /// Keeps egui's keyboard focus from taking the editor's keys: add it to the context as a plugin.
 ///
@@ -14,15 +14,6 @@ pub struct FocusRules;
 /// The modifiers of a `Tab` that was pressed in this pass while nothing had the focus.
 pub fn tab_pressed(ctx: &Context) -> Option<Modifiers> {
     ctx.data(|data| data.get_temp(tab_id())).flatten()
-}
-
-/// Lets a control that is dragged or clicked in this pass keep the focus, for its arrow keys.
-pub fn keep_focus(ctx: &Context, control: Id) {
-    ctx.data_mut(|data| data.insert_temp(kept_id(), Some(control)));
-}
-
-fn kept_id() -> Id {
-    Id::unique("control that keeps the focus")
 }
 
 fn tab_id() -> Id {
@@ -50,7 +41,7 @@ impl Plugin for FocusRules {
     }
 
     fn on_end_pass(&mut self, ui: &mut Ui) {
-        let kept = ui.data_mut(|data| data.remove_temp::<Option<Id>>(kept_id())).flatten();
+        let kept = take_kept(ui.ctx());
         let clicked = ui.input(|input| input.pointer.any_pressed() || input.pointer.any_released());
         if clicked && !ui.ctx().text_edit_focused() {
             ui.memory_mut(|memory| {

@@ -15,7 +15,7 @@ use impasto_system::{FOR_EGL, FOR_WAYLAND, FOR_X11, mend};
 use winit::event_loop::EventLoopProxy;
 
 pub use event_loop::run;
-pub use focus::{FocusRules, keep_focus, tab_pressed};
+pub use focus::{FocusRules, tab_pressed};
 pub use gl::force_software;
 pub use numpad::numpad_pressed;
 pub use pen::{Pens, PressureAxis, keep_pressures, pressures};

@@ -10,7 +10,7 @@ use impasto_editor::panels::problems::{Settle, Trouble, TroubleOf};
 use impasto_editor::panels::{Ask, PanelInput, problems, status_line, top_bar};
 use impasto_editor::theme::{self, Theme, Tokens};
 use impasto_editor_model::editor::{Editor, Mend, Request};
-use impasto_editor_model::keymap::{self, Keymap};
+use impasto_editor_model::keymap::{self, Action, Keymap};
 use impasto_editor_model::picking::View;
 use impasto_editor_model::{Document, Session};
 
@@ -70,6 +70,11 @@ impl Page {
         }
     }
 
+    fn undo(&mut self) {
+        let view = View { camera: self.editor.camera(), size_px: glam::DVec2::ONE };
+        self.editor.act(Action::Undo, &view);
+    }
+
     fn ui(&mut self, ui: &mut egui::Ui) {
         let whole = ui.ctx().content_rect();
         let ui = &mut ui.new_child(egui::UiBuilder::new().max_rect(whole));
@@ -100,7 +105,13 @@ impl Page {
         }
         for ask in asks {
             match ask {
-                Ask::Mend(mend) => drop(self.editor.mend(&mend)),
+                Ask::Mend(mend) => {
+                    if self.editor.mend(&mend)
+                        && let Mend::ReadText(text) = &mend
+                    {
+                        problems::note_read(ui.ctx(), text);
+                    }
+                }
                 Ask::ChooseMesh(object) => self.chosen.push(object),
                 Ask::SaveCopy => self.copies += 1,
                 Ask::ShowProblems => self.is_open = !self.is_open,
@@ -208,6 +219,22 @@ fn what_is_wrong_is_mended_by_name_until_saving_is_on_again() {
     assert!(!harness.state().is_open, "the panel is open with nothing to list");
     let page = harness.state();
     assert_eq!(std::fs::read_to_string(&page.path).expect("there"), TEXT, "the file was touched");
+}
+
+#[test]
+fn a_text_that_was_read_is_no_unread_edit_once_it_is_taken_back() {
+    let mut harness = harness();
+    click(&mut harness, "Use leaf.obj");
+    click(&mut harness, "Fix all that are certain");
+    let source = harness.state().editor.document().source().expect("a source").text.clone();
+    type_instead(&mut harness, &source.replace("\"long\"", "40"));
+    click(&mut harness, "Read this text");
+    assert_eq!(harness.state().editor.document().loss_count(), 0);
+    harness.state_mut().undo();
+    harness.run_steps(SETTLED);
+    assert_eq!(harness.state().editor.document().loss_count(), 1);
+    assert_eq!(problems::unread_text(&harness.ctx, harness.state().editor.document()), None);
+    assert!(harness.query_by_label("Read this text").is_none());
 }
 
 #[test]

@@ -13,6 +13,7 @@ use impasto_editor::viewport::{
 };
 use impasto_editor::window::keep_pressures;
 use impasto_editor_model::Session;
+use impasto_editor_model::camera_rig::ZOOM_PER_STEP;
 use impasto_editor_model::editor::{PointerEvent, PointerKind};
 use impasto_editor_model::keymap::{Action, Button, CommandId, Keymap};
 use impasto_editor_model::session::{Mode, Overlays, Shading};
@@ -188,7 +189,7 @@ fn buttons_the_wheel_and_leaving_are_told() {
         source: egui::MouseWheelSource::Unknown,
         modifiers: Modifiers::SHIFT,
     });
-    harness.event(Event::Zoom(1.21));
+    harness.event(Event::Zoom((1.0 / ZOOM_PER_STEP.powi(2)) as f32));
     harness.event(Event::PointerGone);
     harness.run();
     let told: Vec<PointerKind> = harness.state().pointer.iter().map(|event| event.kind).collect();

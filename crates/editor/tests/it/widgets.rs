@@ -198,6 +198,28 @@ fn a_number_can_be_typed() {
 }
 
 #[test]
+fn what_is_typed_in_the_pass_of_the_click_is_not_lost() {
+    let mut harness = harness(Theme::Dark);
+    harness.run();
+    let at = harness.get_by_label("Length").rect().center();
+    harness.drag_at(at);
+    harness.step();
+    let release = egui::Event::PointerButton {
+        pos: at,
+        button: egui::PointerButton::Primary,
+        pressed: false,
+        modifiers: egui::Modifiers::NONE,
+    };
+    harness.input_mut().events.extend([release, egui::Event::Text("62".to_owned())]);
+    harness.step();
+    let typed = harness.get_by_role(Role::TextInput).value();
+    assert_eq!(typed.as_deref(), Some("62"));
+    harness.key_press(Key::Enter);
+    harness.run();
+    assert_eq!(harness.state().length_px, 62.0);
+}
+
+#[test]
 fn what_is_no_number_or_beyond_the_limits_is_marked_and_not_taken() {
     for (typed, mended) in [("four", Key::Escape), ("1000", Key::Escape), ("80", Key::Escape)] {
         let mut harness = harness(Theme::Dark);

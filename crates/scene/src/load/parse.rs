@@ -277,7 +277,8 @@ fn does_not_fit(path: &Path, located: &Located, span: (usize, usize), error: &ro
         Some((path, node)) => (named(path), node),
         None => (field_path, located.innermost(offset).1),
     };
-    let value = shorten(located.text_of(node));
+    let value: String = located.text_of(node).chars().take(1000).collect();
+    let value = shorten(&value.split_whitespace().collect::<Vec<_>>().join(" "));
     let said = shorten(&lower_first(&error.to_string()));
     let field = field_path.trim_matches('`').rsplit('.').next().unwrap_or("");
     let field = field.split('[').next().unwrap_or("");

@@ -170,7 +170,8 @@ fn a_picture_that_cannot_be_used_is_refused_in_one_sentence_and_not_copied() {
     fs::write(home.at("cut.png"), &whole[..whole.len() / 2]).expect("written");
     let words = refused("cut.png");
     assert!(
-        words.starts_with("cut.png: the picture can not be decoded") && !words.contains("left out"),
+        words.starts_with("cut.png: the picture can not be decoded: it is damaged or cut short;")
+            && !words.contains("left out"),
         "{words}"
     );
     assert!(refused("nowhere.png").contains("nowhere.png"));

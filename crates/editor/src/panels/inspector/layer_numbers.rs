@@ -128,7 +128,13 @@ pub(super) fn shown(of: &'static LayerNumber) -> Option<Number<'static>> {
     Some(match of.number.field {
         "length_px" => px("Layer length", 1.0..=160.0),
         "width_px" => px("Layer width", 0.5..=60.0),
-        "coverage" => Number { unit: "\u{d7}", range: 0.0..=8.0, step: (0.1, 2), ..share("Layer coverage") },
+        "coverage" => Number {
+            label: Some("Coverage"),
+            unit: "\u{d7}",
+            range: 0.0..=8.0,
+            step: (0.1, 2),
+            ..share("Layer coverage")
+        },
         "thickness" => Number { range: 0.0..=2.0, ..share("Thickness") },
         "dryness" => share("Layer dryness"),
         "pickup" => share("Layer pickup"),

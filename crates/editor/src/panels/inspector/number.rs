@@ -13,8 +13,10 @@ use crate::widgets::NumberField;
 /// How a number is shown and edited.
 #[derive(Clone, Debug)]
 pub(super) struct Number<'a> {
-    /// The label, which is also the name for screen readers.
+    /// The name for screen readers.
     pub(super) name: &'a str,
+    /// The label, where the name is too long for one.
+    pub(super) label: Option<&'a str>,
     /// What it belongs to, where several things of one selection have numbers of this name.
     pub(super) of: &'a str,
     /// What the number does, one sentence.
@@ -47,6 +49,7 @@ impl<'a> Number<'a> {
     pub(super) fn new(name: &'a str, effect: &'a str) -> Self {
         Self {
             name,
+            label: None,
             of: "",
             effect,
             unit: "",
@@ -87,6 +90,7 @@ impl Asker<'_, '_> {
             .step(number.step.0, number.step.1)
             .warn(number.warns)
             .limits(number.limits.clone().unwrap_or(number.range.clone()))
+            .label(number.label.unwrap_or(number.name))
             .tip("", number.effect);
         if number.scene_decides {
             field = field.refused(&refused);

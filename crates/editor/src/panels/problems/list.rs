@@ -105,7 +105,7 @@ fn of_problem(row: &ProblemRow, can_fix: bool) -> Row<'_> {
         is_error: problem.severity.is_fatal(),
         place: problem.place,
         // Where a file was looked for is left to the tooltip.
-        message: sentence(problem.message.split(" (tried ").next().unwrap_or_default()),
+        message: sentence(&in_one_line(problem.message.split(" (tried ").next().unwrap_or_default())),
         second: second.replace('*', ""),
         whole: format!(
             "{}\n{}\n{}",
@@ -243,6 +243,11 @@ fn with_code(words: &str, font: FontId, colour: Color32) -> LayoutJob {
         job.append(part, 0.0, TextFormat::simple(font, colour));
     }
     job
+}
+
+/// The words with single spaces between them: a piece of the file that is quoted brings its line breaks along.
+fn in_one_line(words: &str) -> String {
+    words.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// Makes a sentence of the words: adds a full stop, and a capital unless they begin with the name of a file.

@@ -69,6 +69,13 @@ pub fn unread_text(ctx: &Context, document: &Document) -> Option<String> {
     (memory.is_edited() && memory.typed != source.text).then_some(memory.typed)
 }
 
+/// Notes that this text was read into the scene, so that it is no edit any more, whatever is taken back later.
+pub fn note_read(ctx: &Context, text: &str) {
+    if Memory::load(ctx).typed == text {
+        forget_text(ctx);
+    }
+}
+
 /// Shows this text as edited and not yet read, for a document that was opened from a copy of unsaved work.
 pub fn restore_text(ctx: &Context, document: &Document, typed: String) {
     Memory { typed, begun_from: document.source().cloned(), go_to: None }.store(ctx);

@@ -53,6 +53,8 @@ impl TroubleOf {
 pub enum Settle {
     /// Do again what failed.
     Retry,
+    /// Choose another file in place of the one that is missing.
+    Locate,
     /// Save the scene elsewhere.
     SaveAs,
     /// Take it off the list.
@@ -64,6 +66,7 @@ impl Settle {
     pub(super) fn words(self) -> (&'static str, &'static str) {
         match self {
             Self::Retry => ("Retry", "Retry"),
+            Self::Locate => ("Locate\u{2026}", "Locate"),
             Self::SaveAs => ("Save as\u{2026}", "Save as"),
             Self::Dismiss => ("Dismiss", "Dismiss"),
         }

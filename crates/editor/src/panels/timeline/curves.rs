@@ -16,8 +16,7 @@ use super::key_menu::KeyMenu;
 use super::lanes::{is_selected, item, key_node};
 use crate::panels::{Ask, PanelInput};
 use crate::theme::{Tokens, measure, type_face};
-use crate::widgets::{Tip, ease_line};
-use crate::window::keep_focus;
+use crate::widgets::{Tip, ease_line, keep_focus, leave_space};
 
 /// Room above and below the curves, points.
 const MARGIN: f32 = 14.0;
@@ -364,6 +363,7 @@ impl Handle<'_> {
         painter.circle(centre, radius, tokens.panel, Stroke::new(2.0, tokens.accent_text));
         if response.has_focus() {
             painter.circle_stroke(centre, 9.5, Stroke::new(2.0, tokens.accent_text));
+            leave_space(ui.ctx(), response.id);
         }
         if response.double_clicked() {
             memory.drag = None;

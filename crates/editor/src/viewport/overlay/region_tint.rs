@@ -1,6 +1,6 @@
 //! Draws regions tinted in their colours, with their names.
 
-use egui::{Color32, Mesh, Rect, Shape, pos2};
+use egui::{Color32, Mesh, Rect, Shape, Vec2, vec2};
 use glam::DVec2;
 
 use super::Sheet;
@@ -91,13 +91,52 @@ fn nearest(runs: &[[usize; 3]], to: DVec2) -> DVec2 {
     places.min_by(|one, other| near(one).total_cmp(&near(other))).unwrap_or(to)
 }
 
-/// Draws a region in its colour, with its edge and its name.
-pub fn region_tint(sheet: &Sheet<'_>, tint: &RegionTint) {
+/// Draws regions in their colours, with their edges and names.
+pub fn region_tints(sheet: &Sheet<'_>, tints: &[RegionTint]) {
+    for tint in tints {
+        fill_and_edge(sheet, tint);
+    }
+    let sizes: Vec<Vec2> = tints.iter().map(|tint| words_size(sheet, &tint.name)).collect();
+    let wanted: Vec<Rect> = (tints.iter().zip(&sizes))
+        .map(|(tint, &size)| Rect::from_center_size(sheet.at(tint.middle_points), size))
+        .collect();
+    let cells: Vec<usize> =
+        tints.iter().map(|tint| tint.runs.iter().map(|[_, first, end]| end - first).sum()).collect();
+    for (tint, place) in tints.iter().zip(apart(&wanted, &cells)) {
+        if let Some(place) = place {
+            let at = place.center();
+            ink::edged_words(sheet.painter, at, &tint.name, type_face::head(), Color32::WHITE);
+        }
+    }
+}
+
+fn words_size(sheet: &Sheet<'_>, name: &str) -> Vec2 {
+    sheet.painter.layout_no_wrap(name.to_owned(), type_face::head(), Color32::WHITE).size()
+}
+
+/// Places for names that do not cover each other, for each where it is wanted and how many cells its region has. That of
+/// the largest region stays; others move up or down by up to three lines, and where no place is free, a name is left out.
+fn apart(wanted: &[Rect], cells: &[usize]) -> Vec<Option<Rect>> {
+    let mut order: Vec<usize> = (0..wanted.len()).collect();
+    order.sort_by_key(|&index| std::cmp::Reverse(cells[index]));
+    let mut places = vec![None; wanted.len()];
+    for index in order {
+        let line = vec2(0.0, wanted[index].height());
+        places[index] = [0.0, 1.0, -1.0, 2.0, -2.0, 3.0, -3.0]
+            .map(|lines| wanted[index].translate(lines * line))
+            .into_iter()
+            .find(|place| !places.iter().flatten().any(|other: &Rect| other.intersects(place.shrink(0.5))));
+    }
+    places
+}
+
+/// Draws a region in its colour, with its edge.
+fn fill_and_edge(sheet: &Sheet<'_>, tint: &RegionTint) {
     let side = 1.0 / tint.cells_per_point as f32;
     let fill = tint.colour.gamma_multiply(FILL);
     let mut mesh = Mesh::default();
     for &[row, first, end] in &tint.runs {
-        let at = |column: usize, row: usize| sheet.rect.min + egui::vec2(column as f32, row as f32) * side;
+        let at = |column: usize, row: usize| sheet.rect.min + vec2(column as f32, row as f32) * side;
         mesh.add_colored_rect(Rect::from_min_max(at(first, row), at(end, row + 1)), fill);
     }
     sheet.painter.add(Shape::mesh(mesh));
@@ -105,6 +144,26 @@ pub fn region_tint(sheet: &Sheet<'_>, tint: &RegionTint) {
     for line in tint.edge.in_window(sheet) {
         edge.line(sheet.painter, &line);
     }
-    let at = sheet.at(tint.middle_points);
-    ink::edged_words(sheet.painter, pos2(at.x, at.y), &tint.name, type_face::head(), Color32::WHITE);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_make_room_for_each_other() {
+        let at = |x: f32, y: f32| Rect::from_center_size(egui::pos2(x, y), vec2(60.0, 16.0));
+        let wanted = [at(100.0, 100.0), at(110.0, 103.0), at(300.0, 100.0), at(90.0, 98.0)];
+        let places: Vec<Rect> = apart(&wanted, &[5, 90, 1, 40]).into_iter().flatten().collect();
+        // The largest region and one that is alone keep their places.
+        assert_eq!([places[1], places[2]], [wanted[1], wanted[2]]);
+        for (index, place) in places.iter().enumerate() {
+            assert_eq!(place.center().x, wanted[index].center().x);
+            for other in &places[index + 1..] {
+                assert!(!place.intersects(other.shrink(0.5)), "{place} covers {other}");
+            }
+        }
+        // Of nine in one place, two have no room within three lines.
+        assert_eq!(apart(&[at(0.0, 0.0); 9], &[1; 9]).iter().flatten().count(), 7);
+    }
 }

@@ -4,7 +4,7 @@ use egui::{Key, Rect, Response, Role, Stroke, StrokeKind, Ui, UiBuilder, WidgetI
 
 use super::{Memory, NumberField};
 use crate::theme::{Tokens, type_face};
-use crate::widgets::draw;
+use crate::widgets::{draw, keep_focus};
 
 impl NumberField<'_> {
     /// Shows the text field. Returns whether typing has ended, and whether `Esc` ended it.
@@ -28,6 +28,13 @@ impl NumberField<'_> {
         let before = if self.centred || self.letter.is_empty() { 0 } else { super::LETTER as i8 };
         self.draw_letter(ui, frame);
         let align = if self.centred { egui::Align::Center } else { egui::Align::Min };
+        let is_text = |event: &egui::Event| matches!(event, egui::Event::Text(_));
+        let at_once = fresh && ui.input(|input| input.events.iter().any(is_text));
+        if at_once {
+            // What is typed in this same pass replaces the number, as later, when all of it is selected.
+            ui.memory_mut(|memory| memory.request_focus(edit_id));
+            typed.clear();
+        }
         let output = egui::TextEdit::singleline(&mut typed)
             .id(edit_id)
             .frame(egui::Frame::NONE)
@@ -41,7 +48,11 @@ impl NumberField<'_> {
         response
             .widget_info(|| WidgetInfo { label: Some(name.to_owned()), ..WidgetInfo::new(Role::TextInput) });
         // Without a default to bring back, a double click selects the whole number and not just a part of it.
-        if fresh || self.default.is_none() && is_double_click_in(ui, frame) {
+        if at_once {
+            // For the field, the click that showed it was one elsewhere.
+            response.request_focus();
+            keep_focus(ui.ctx(), edit_id);
+        } else if fresh || self.default.is_none() && is_double_click_in(ui, frame) {
             response.request_focus();
             let mut state = output.state;
             let all = egui::text::CCursorRange::two(

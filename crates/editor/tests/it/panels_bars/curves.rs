@@ -5,6 +5,7 @@ use egui::{Key, Pos2, pos2, vec2};
 use egui_kittest::kittest::Queryable as _;
 use egui_kittest::{Harness, SnapshotResults};
 use impasto_editor::theme::Theme;
+use impasto_editor::widgets::leaves_space;
 use impasto_editor_model::command::{Command, Time};
 use impasto_editor_model::{Item, Selection};
 use impasto_scene::document::Ease;
@@ -142,10 +143,11 @@ fn arrows_move_a_handle_that_was_clicked_or_dragged() {
         harness.run();
         let after = place(&harness, "First handle");
         assert!(after.y < before.y - 0.2 && (after.x - before.x).abs() < 0.5, "{before} to {after}");
+        assert!(leaves_space(&harness.ctx), "Space would not play");
     }
     // A click elsewhere gives up the focus.
     click(&mut harness, "Curves");
-    assert!(harness.ctx.memory(|memory| memory.focused()).is_none());
+    assert!(harness.ctx.memory(|memory| memory.focused()).is_none() && !leaves_space(&harness.ctx));
 }
 
 #[test]
