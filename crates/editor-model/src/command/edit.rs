@@ -4,6 +4,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use impasto_scene::document::{ObjectKey, Scene};
 use impasto_scene::motion;
 
+use super::time::keys_of_shot;
 use super::touches::touch_mut;
 use super::{Done, counted, object_mut, posable_object, region_mut, unlocked_object, unlocked_region};
 use crate::euler;
@@ -176,9 +177,14 @@ fn duplicate(scene: &mut Scene, items: &[Item]) -> Result<Done, Refusal> {
 }
 
 fn duplicate_object(scene: &mut Scene, name: &str) -> Result<String, Refusal> {
-    let mut copy = object_mut(scene, name)?.clone();
+    let object = object_mut(scene, name)?.clone();
+    let mut copy = object.clone();
     copy.name = names::unique(name, scene.objects.iter().map(|object| object.name.as_str()));
     copy.locked = false;
+    // The shot does not know the copy, so that the copy gets as keys what the shot says of the object.
+    if scene.is_moved_by_shot(&object) {
+        copy.keys = keys_of_shot(scene, &object);
+    }
     let new = copy.name.clone();
     let of_it: Vec<_> =
         scene.regions.iter().filter(|region| region.on.object() == Some(name)).cloned().collect();

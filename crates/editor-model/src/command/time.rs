@@ -1,6 +1,6 @@
 //! Commands on keys and on the timeline.
 
-use impasto_scene::document::{CameraKey, Ease, Key, Lens, ObjectKey, Scene};
+use impasto_scene::document::{CameraKey, Ease, Key, Lens, Object, ObjectKey, Scene};
 use impasto_scene::motion::{self, CameraPose};
 
 use super::keys::{self, KeyOf, KeyedValue};
@@ -152,21 +152,27 @@ fn own_keys(scene: &mut Scene, of: &KeyOf) -> Result<Done, Refusal> {
             if !scene.is_moved_by_shot(&object) {
                 return Err(Refusal::new(format!("{name} has keys of its own already")));
             }
-            let mut keys: Vec<ObjectKey> = Vec::new();
-            for &frame in &frames {
-                let key = motion::key_at(scene, &object, frame);
-                let near = keys.last().map_or([0.0; 3], |key| key.rotation_deg);
-                let rotation_deg = euler::degrees(euler::matrix(key.rotation_deg), near);
-                keys.push(ObjectKey { frame, rotation_deg, ease: Ease::Linear, ..key });
-            }
-            let numbers = |key: &ObjectKey| {
-                key.translation.into_iter().chain(key.rotation_deg).chain(key.scale.0).collect()
-            };
-            unlocked_object(scene, name)?.keys = thinned(keys, numbers);
+            let keys = keys_of_shot(scene, &object);
+            unlocked_object(scene, name)?.keys = keys;
         }
         _ => return Err(Refusal::new(format!("{} has keys of its own already", of.name()))),
     }
     Ok(Done::new(format!("Own keys for {}", of.name())))
+}
+
+/// How the shot moves an object, as keys.
+pub(super) fn keys_of_shot(scene: &Scene, object: &Object) -> Vec<ObjectKey> {
+    let mut keys: Vec<ObjectKey> = Vec::new();
+    for frame in scene.timeline.first..=scene.timeline.last {
+        let frame = frame as f64;
+        let key = motion::key_at(scene, object, frame);
+        let near = keys.last().map_or([0.0; 3], |key| key.rotation_deg);
+        let rotation_deg = euler::degrees(euler::matrix(key.rotation_deg), near);
+        keys.push(ObjectKey { frame, rotation_deg, ease: Ease::Linear, ..key });
+    }
+    let numbers =
+        |key: &ObjectKey| key.translation.into_iter().chain(key.rotation_deg).chain(key.scale.0).collect();
+    thinned(keys, numbers)
 }
 
 /// The keys (one per frame) without those that lie on a straight line between their neighbours.

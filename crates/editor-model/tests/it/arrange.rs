@@ -7,6 +7,7 @@ use impasto_editor_model::command::{Arrange, Command, Edit, SceneEdit, Touches};
 use impasto_editor_model::{Document, Item};
 use impasto_scene::document::{Object, Scene, Touch, TouchPoint};
 use impasto_scene::load::LoadOptions;
+use impasto_scene::motion::poses_at;
 use impasto_scene::new_scene::Ground;
 
 const AT: [f64; 3] = [0.4, 0.3, -0.2];
@@ -79,4 +80,30 @@ fn a_ground_that_is_chosen_takes_the_place_of_the_old_one_and_keeps_its_color() 
     let lock = Edit::SetLocked(vec![Item::Object(old.name.clone())], true);
     document.apply(&Command::Edit(lock)).expect("it can be locked");
     assert!(document.apply(&set(Ground::Plain)).is_err(), "a locked ground stays");
+}
+
+#[test]
+fn a_copy_of_what_a_shot_brings_stands_and_moves_as_it_does() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/lane.ron");
+    let mut document = Document::open(&path, &LoadOptions::default()).expect("a shipped scene opens");
+    let names: Vec<String> = document.scene().objects.iter().map(|object| object.name.clone()).collect();
+    let of_shot = |name: &String| {
+        let scene = document.scene();
+        scene.objects.iter().any(|object| object.name == *name && scene.is_moved_by_shot(object))
+    };
+    let moved: Vec<String> = names.into_iter().filter(of_shot).collect();
+    assert!(moved.len() > 3, "the shot moves {moved:?}");
+    for name in moved {
+        document.apply(&Command::Edit(Edit::Duplicate(vec![Item::Object(name.clone())]))).expect("copied");
+        let scene = document.scene();
+        let index = scene.objects.iter().position(|object| object.name == name).expect("there");
+        let copy = scene.objects.len() - 1;
+        for frame in [0.0, 13.0, 48.0] {
+            let poses = poses_at(scene, frame);
+            let gap = (poses[copy].translation - poses[index].translation).length();
+            assert!(gap < 1e-4, "the copy of {name} is {gap} off at frame {frame}");
+            assert!(poses[copy].abs_diff_eq(poses[index], 1e-3), "the copy of {name} is turned at {frame}");
+        }
+        document.undo();
+    }
 }

@@ -12,6 +12,8 @@ use crate::panels::problems::{Settle, Trouble, TroubleOf};
 impl EditorApp {
     /// Lists a failure and shows the list.
     pub(super) fn trouble(&mut self, of: TroubleOf, words: String) {
+        // What else could be done about a missing file is for a command line.
+        let words = words.replace(", or name its folder with --asset-dir", "");
         let (words, mend, settles): (_, _, &'static [Settle]) = match &of {
             TroubleOf::Save(_) => {
                 (words, "Your work is still here, and not in the file", &[Settle::SaveAs, Settle::Retry])
@@ -22,7 +24,6 @@ impl EditorApp {
                 &[Settle::SaveAs, Settle::Retry, Settle::Dismiss],
             ),
             TroubleOf::ChangedOutside(News::Files) if self.object_without_mesh().is_some() => {
-                // What else could be done is for a command line.
                 let words = words.split("; put the file there").next().unwrap_or_default().to_owned();
                 let mend = "What was read last stays. Locate the mesh, or put it back and retry";
                 (words, mend, &[Settle::Locate, Settle::Retry, Settle::Dismiss])

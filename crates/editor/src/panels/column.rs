@@ -26,17 +26,29 @@ pub fn column(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let (width, tree_height): (f32, f32) = if is_wide { (336.0, 330.0) } else { (280.0, 252.0) };
     // The wide and the narrow column each remember where their lines were dragged to.
     let (whole, top) = if is_wide { ("wide column", "wide tree") } else { ("column", "tree") };
+    let low = if is_wide { "low wide tree" } else { "low tree" };
     let frame = Frame::new().fill(Tokens::of(ui).panel);
     Panel::right(whole).default_size(width).size_range(240.0..=480.0).frame(frame).show(ui, |ui| {
         // In a low window the inspector keeps a part of the height.
         let most = (ui.available_height() * MOST_TREE).clamp(64.0, 640.0);
+        // What a low window leaves of the tree is not remembered for a higher one.
+        let top = if most < tree_height { low } else { top };
         let top = Panel::top(top).default_size(tree_height.min(most)).size_range(most.min(96.0)..=most);
         let top = top.resizable(true);
         top.frame(frame).show_separator_line(false).show(ui, |ui| {
+            clip(ui);
             area(ui, Area::Tree, |ui| tree(ui, shown, asks));
         });
         CentralPanel::default().frame(frame).show(ui, |ui| {
+            clip(ui);
+            let whole = ui.max_rect();
+            ui.painter().hline(whole.x_range(), whole.top() + 0.5, (1.0, Tokens::of(ui).div));
             area(ui, Area::Inspector, |ui| inspector(ui, shown, asks));
         });
     });
+}
+
+/// Keeps rows that are scrolled out of a part from showing in the other.
+fn clip(ui: &mut Ui) {
+    ui.set_clip_rect(ui.clip_rect().intersect(ui.max_rect()));
 }

@@ -80,6 +80,9 @@ fn undo_button(
     }
 }
 
+/// The least room for the document's name beside what is said of it, points.
+const LEAST_NAME: f32 = 48.0;
+
 /// The document's name; it is cut off with an ellipsis if it would reach the mode switch.
 fn document(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let tokens = Tokens::of(ui);
@@ -90,8 +93,14 @@ fn document(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
         (false, true) => "edited",
         (false, false) => "",
     };
-    let mark = if words.is_empty() { 0.0 } else { 22.0 + text_width(ui, words, type_face::small()) };
-    let mark = if off { mark + 4.0 } else { mark };
+    let of_words = text_width(ui, words, type_face::small()) + if off { 4.0 } else { 0.0 };
+    // Where there is no room for the words, the dot or the lock says them.
+    let has_room = ui.available_width() >= LEAST_NAME + 22.0 + of_words;
+    let mark = match words {
+        "" => 0.0,
+        _ if has_room => 22.0 + of_words,
+        _ => 22.0,
+    };
     let mut job = egui::text::LayoutJob::simple_singleline(name.clone(), type_face::body(), tokens.text);
     job.wrap = egui::text::TextWrapping::truncate_at_width((ui.available_width() - mark).max(24.0));
     let galley = ui.painter().layout_job(job);
@@ -105,9 +114,11 @@ fn document(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
         let font = type_face::icon(measure::SMALL_ICON);
         let (glyph, colour) = (icons::LOCKED.glyph(), tokens.vermilion);
         ui.painter().text(beside(14.0), Align2::CENTER_CENTER, glyph, font, colour);
+        let words = if has_room { words } else { "" };
         ui.painter().text(beside(26.0), Align2::LEFT_CENTER, words, type_face::small(), colour);
     } else if edited {
         ui.painter().circle_filled(beside(11.0), 3.5, tokens.ochre);
+        let words = if has_room { words } else { "" };
         ui.painter().text(beside(20.0), Align2::LEFT_CENTER, words, type_face::small(), tokens.weak);
     }
     response.widget_info(|| WidgetInfo::labeled(Role::Status, true, "Document"));

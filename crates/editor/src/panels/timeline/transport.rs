@@ -19,7 +19,10 @@ const FPS: std::ops::RangeInclusive<f64> = 0.001..=1e6;
 
 /// In a window narrower than this, in points, the bar leaves out the time and the shortcut of *Set key*, which are no
 /// controls.
-const NARROW: f32 = 900.0;
+const NARROW: f32 = 1080.0;
+
+/// In a window narrower than this, in points, *Auto key*, *Set key* and the pacing are icons.
+const ICONS_ONLY: f32 = 900.0;
 
 /// In a window narrower than this, in points, *Curves* is an icon.
 const ROOM_FOR_CURVES: f32 = 1200.0;
@@ -64,13 +67,15 @@ pub(in crate::panels) fn transport(ui: &mut Ui, shown: &PanelInput<'_>, asks: &m
 
 /// What follows the playback buttons while the lanes are open: the time, Auto key, Set key and Curves.
 pub(super) fn keying(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
-    let is_narrow = ui.ctx().content_rect().width() < NARROW;
+    let window_wide = ui.ctx().content_rect().width();
+    let (is_narrow, icons_only) = (window_wide < NARROW, window_wide < ICONS_ONLY);
     if !is_narrow {
         seconds(ui, shown);
     }
-    ui.add_space(6.0);
+    ui.add_space(if icons_only { 2.0 } else { 6.0 });
     let on = shown.session.auto_key;
-    let response = Button::new("    Auto key").name("Auto key").on(on).show(ui);
+    let words = if icons_only { " " } else { "    Auto key" };
+    let response = Button::new(words).name("Auto key").on(on).show(ui);
     let tokens = Tokens::of(ui);
     let dot = response.rect.left_center() + vec2(16.0, 0.0);
     if on {
@@ -84,7 +89,10 @@ pub(super) fn keying(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     }
     ui.add_space(8.0);
     let keys = shown.keys_of(Action::SetKey);
-    let response = Button::new("Key").name("Set key").icon(icons::KEY).plain().show(ui);
+    let response = match icons_only {
+        true => widgets::icon_button(ui, icons::KEY, "Set key"),
+        false => Button::new("Key").name("Set key").icon(icons::KEY).plain().show(ui),
+    };
     let effect = "Keys what is selected as it stands at this frame.";
     if (Tip { name: "Set key", key: &keys, effect, range: "" }).on(response).clicked() {
         asks.push(Ask::Act(Action::SetKey));
@@ -158,6 +166,9 @@ pub(super) fn range_fields(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<A
             false => Time::SetRange(to as i64, stored.last),
         }));
     }
+    if ui.ctx().content_rect().width() < ICONS_ONLY {
+        return pacing_icon(ui, shown, asks);
+    }
     ui.label(RichText::new("Range").font(type_face::small()).color(Tokens::of(ui).weak));
     ui.add_space(4.0);
     dropped(ui, shown);
@@ -165,6 +176,17 @@ pub(super) fn range_fields(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<A
     let choices = ["Real time", "Every frame"];
     if widgets::combo(ui, "Pacing", Some(icons::DROPPED), &choices, &mut pacing).changed() {
         let pacing = if pacing == 0 { Pacing::RealTime } else { Pacing::EveryFrame };
+        asks.push(shown.session_with(|session| session.pacing = pacing));
+    }
+}
+
+/// The choice of the pacing as a toggle.
+fn pacing_icon(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
+    let mut real_time = shown.session.pacing == Pacing::RealTime;
+    let response = widgets::icon_toggle(ui, icons::DROPPED, "Pacing", &mut real_time);
+    let effect = "On, frames are dropped to keep real time. Off, every frame is shown.";
+    if (Tip { name: "Real time", key: "", effect, range: "" }).on(response).changed() {
+        let pacing = if real_time { Pacing::RealTime } else { Pacing::EveryFrame };
         asks.push(shown.session_with(|session| session.pacing = pacing));
     }
 }

@@ -1,6 +1,8 @@
 //! The menu beside the scene tree that adds meshes, lights and regions to the scene.
 
-use egui::{Popup, Response, Ui};
+use std::collections::BTreeSet;
+
+use egui::{Popup, Response, ScrollArea, Ui};
 use glam::DVec3;
 use impasto_editor_model::Item;
 use impasto_editor_model::command::{Arrange, Command, Regions};
@@ -25,12 +27,16 @@ pub(super) fn menu(button: &Response, shown: &PanelInput<'_>, asks: &mut Vec<Ask
 pub(in crate::panels) fn entries(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.y = 0.0;
     ui.set_min_width(190.0);
-    for Addition { icon, words, ask } in additions(shown) {
-        if Button::new(&words).icon(icon).plain().show(ui).clicked() {
-            asks.push(ask);
-            ui.close();
+    // The menu is never higher than the window.
+    let most = ui.ctx().content_rect().height() - 80.0;
+    ScrollArea::vertical().max_height(most).show(ui, |ui| {
+        for Addition { icon, words, ask } in additions(shown) {
+            if Button::new(&words).icon(icon).plain().show(ui).clicked() {
+                asks.push(ask);
+                ui.close();
+            }
         }
-    }
+    });
 }
 
 /// Something that can be added to the scene.
@@ -110,12 +116,14 @@ fn regions(shown: &PanelInput<'_>, object: &str) -> Vec<Region> {
         }));
     }
     // A group and a material of the same name usually cover the same faces.
+    let part = |region: &Region| match &region.on {
+        Selector::Group(_, name) | Selector::Material(_, name) => Some(name.clone()),
+        _ => None,
+    };
+    let mut parts = BTreeSet::new();
+    wanted.retain(|region| part(region).is_none_or(|name| parts.insert(name)));
     let taken = |region: &Region| {
         loaded.scene.regions.iter().any(|other| {
-            let part = |region: &Region| match &region.on {
-                Selector::Group(_, name) | Selector::Material(_, name) => Some(name.clone()),
-                _ => None,
-            };
             other.on.object() == Some(object)
                 && (other.on == region.on || part(other).is_some() && part(other) == part(region))
         })
