@@ -98,7 +98,15 @@ impl KeyMenu {
         }
         let first = copied.iter().map(|(_, frame)| *frame).min_by(f64::total_cmp);
         if let Some(first) = first.filter(|first| *first != frame) {
-            let words = format!("Paste {} at {frame}", counted(copied.len()));
+            // Keys are pasted into the lane that they were copied from, which may be another one than this.
+            let of = &copied[0].0;
+            let is_alone = copied.iter().all(|(other, _)| other == of);
+            let of = if is_alone && self.lane.as_ref() != Some(of) {
+                format!(" of {}", of.name())
+            } else {
+                String::new()
+            };
+            let words = format!("Paste {}{of} at {frame}", counted(copied.len()));
             rows.push((words, "", time(Time::CopyKeys(copied.to_vec(), frame - first))));
         }
         if let Some(lane) = self.lane.as_ref().filter(|_| !self.is_on_key) {
