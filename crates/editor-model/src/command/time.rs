@@ -123,11 +123,11 @@ fn counted(keys: &[(KeyOf, f64)]) -> String {
 const SAME: f64 = 1e-9;
 
 fn own_keys(scene: &mut Scene, of: &KeyOf) -> Result<Done, Refusal> {
-    let frames: Vec<f64> = (scene.timeline.first..=scene.timeline.last).map(|frame| frame as f64).collect();
     match of {
         KeyOf::Camera if scene.has_camera_of_shot() => {
             let mut keys: Vec<CameraKey> = Vec::new();
-            for &frame in &frames {
+            for frame in scene.timeline.first..=scene.timeline.last {
+                let frame = frame as f64;
                 let pose = motion::camera_at(scene, frame);
                 let fov_y_deg = match pose.lens {
                     Lens::Perspective { fov_y_deg, .. } => Some(fov_y_deg),

@@ -311,8 +311,8 @@ impl Editor {
 
     /// The point that a drag turns the view about: the model's surface under the pointer, or else the subject.
     fn turns_about(&self, at_px: DVec2, view: &View) -> DVec3 {
-        let subject = || self.subject(view).unwrap_or_else(|| view.at_depth_of(at_px, self.camera().target));
-        self.model_at(at_px, view).unwrap_or_else(subject)
+        let there = self.model_at(at_px, view).or_else(|| self.subject(view));
+        there.unwrap_or_else(|| view.at_depth_of(at_px, self.camera().target))
     }
 
     /// The surface under the pointer; `None` for a built-in backdrop, since who points at it means the models before it.

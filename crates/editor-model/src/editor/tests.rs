@@ -290,6 +290,15 @@ fn a_shot_that_begins_late_opens_at_its_first_frame() {
     assert_eq!(editor.session.frame, 20.0, "a scene that replaces another does not open at its first frame");
 }
 
+/// The apple before a built-in backdrop in place of its wall.
+fn with_backdrop() -> Editor {
+    let mut editor = with_apple();
+    let (object, mesh) = ("wall".to_owned(), "impasto:backdrop".to_owned());
+    assert!(editor.run(&Command::Arrange(Arrange::ReplaceMesh { object, mesh })));
+    prepared(&mut editor);
+    editor
+}
+
 /// A place of the picture where the wall shows.
 fn on_the_wall(editor: &Editor) -> DVec2 {
     let view = view(editor);
@@ -303,10 +312,7 @@ fn on_the_wall(editor: &Editor) -> DVec2 {
 
 #[test]
 fn a_drag_that_misses_selects_the_wall_and_does_not_move_it() {
-    let mut editor = with_apple();
-    let (object, mesh) = ("wall".to_owned(), "impasto:backdrop".to_owned());
-    assert!(editor.run(&Command::Arrange(Arrange::ReplaceMesh { object, mesh })));
-    prepared(&mut editor);
+    let mut editor = with_backdrop();
     for mode in [Action::Arrange, Action::Animate] {
         act(&mut editor, mode);
         let (before, at) = (editor.document().scene().clone(), on_the_wall(&editor));
@@ -345,10 +351,7 @@ fn framing_a_region_frames_its_object() {
 
 #[test]
 fn over_a_backdrop_the_view_zooms_and_turns_about_the_models_before_it() {
-    let mut editor = with_apple();
-    let (object, mesh) = ("wall".to_owned(), "impasto:backdrop".to_owned());
-    assert!(editor.run(&Command::Arrange(Arrange::ReplaceMesh { object, mesh })));
-    prepared(&mut editor);
+    let mut editor = with_backdrop();
     editor.select(Selection::default());
     let models = |editor: &Editor| {
         let objects = &editor.document().scene().objects;

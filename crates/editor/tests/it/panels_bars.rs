@@ -6,7 +6,7 @@ mod timeline;
 
 use crate::headless;
 use egui::accesskit::Role;
-use egui::{Key, vec2};
+use egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, SnapshotOptions, SnapshotResults};
 use impasto_editor::panels::ask_close::{Answer, Question};
@@ -370,6 +370,12 @@ fn the_first_run_sheet_takes_choices() {
         harness.run();
         assert_eq!(harness.state().left, Some(left), "{name}");
     }
+    // The key that the first card shows works here, too.
+    harness.state_mut().shows = Shows::Welcome;
+    harness.run();
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::O);
+    harness.run();
+    assert_eq!(harness.state().left, Some(welcome::Left::OpenScene));
 }
 
 #[test]

@@ -205,6 +205,18 @@ fn every_setting_is_reached_by_name() {
 }
 
 #[test]
+fn enter_in_a_field_belongs_to_the_field() {
+    let mut harness = harness(Page::saved());
+    fill(&mut harness, "Frames", "3-5");
+    harness.key_press(Key::Enter);
+    harness.run();
+    assert_eq!(asked(&mut harness), [], "Enter in the field started the render");
+    harness.key_press(Key::Enter);
+    harness.run();
+    assert_eq!(asked(&mut harness), [RenderAsk::Render]);
+}
+
+#[test]
 fn what_cannot_be_rendered_is_told_where_it_is_typed() {
     let mut harness = harness(Page::saved());
     fill(&mut harness, "Frames", "3-");
