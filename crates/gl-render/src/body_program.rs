@@ -104,7 +104,6 @@ fn program(
     defined: &[&'static str],
 ) -> Result<Program, GlError> {
     let uniforms: Vec<&[&'static str]> = source.uniforms.iter().copied().chain([&POSE[..]]).collect();
-    let optional = [source.optional, &NORMALS, &CUTOUT].concat();
-    let source = ProgramSource { uniforms: &uniforms, optional: &optional, defined, ..*source };
+    let source = ProgramSource { uniforms: &uniforms, optional: &[&NORMALS, &CUTOUT], defined, ..*source };
     Program::new(gpu, files, &source)
 }

@@ -114,6 +114,8 @@ impl ReferencePass {
             .set(lights.set(lens.set(light.bind(), &LENS_UNIFORMS)))?
             .set("highlight_in_color", styles::highlight_in_color(frame));
         let bound = match &self.drawn {
+            // A draft has no samples.
+            _ if frame.quality == Quality::Draft => bound,
             Some(Samples { depth_and_id, root_albedo: Some(root_albedo), per_side }) => bound
                 .texture("fine", depth_and_id)
                 .texture("root_albedo", root_albedo)
@@ -204,8 +206,7 @@ impl ReferencePass {
     /// Creates the program for drafts, unless it exists.
     fn ready_drafts(&mut self) -> Result<(), GlError> {
         if self.draft_light.is_none() {
-            let source = ProgramSource { defined: &["DRAFT"], ..LIGHT };
-            self.draft_light = Some(Program::new(&self.gpu, FILES, &source)?);
+            self.draft_light = Some(Program::new(&self.gpu, FILES, &DRAFT_LIGHT)?);
         }
         Ok(())
     }
@@ -297,15 +298,24 @@ const OPENNESS: ProgramSource<'static> = ProgramSource::screen(
     &[&VIEW_LENS_UNIFORMS, &["normal", "depth_and_id", "view_from_world"]],
 );
 
-const LIGHT: ProgramSource<'static> = ProgramSource::screen(
-    "reference/light.frag",
-    &[
+const LIGHT: ProgramSource<'static> = ProgramSource {
+    uniforms: &[
         &LENS_UNIFORMS,
         &LIGHT_UNIFORMS,
         &SURFACE_TEXTURES,
         &["highlight_in_color", "fine", "root_albedo", "samples"],
     ],
-);
+    defined: &[],
+    ..DRAFT_LIGHT
+};
+
+const DRAFT_LIGHT: ProgramSource<'static> = ProgramSource {
+    defined: &["DRAFT"],
+    ..ProgramSource::screen(
+        "reference/light.frag",
+        &[&LENS_UNIFORMS, &LIGHT_UNIFORMS, &SURFACE_TEXTURES, &["highlight_in_color"]],
+    )
+};
 
 const LIGHT_PARTS: ProgramSource<'static> = ProgramSource::screen(
     "reference/light_parts.frag",

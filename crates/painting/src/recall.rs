@@ -11,11 +11,11 @@ use crate::frame::Frame;
 use crate::order::PaintingOrder;
 use crate::painting::Painting;
 
-/// Of the small strokes that were absent, each picture computes another sixteenth: nobody notices if they appear late.
-const SMALL: u64 = 0x0001_0001_0001_0001;
+/// Of the small strokes that were absent, each picture computes another part in 32: nobody notices if they appear late.
+const SMALL: u64 = 0x0000_0001_0000_0001;
 
-/// Of the large strokes that were absent, each picture computes one half: if they appear late, they leave holes.
-const LARGE: u64 = 0x5555_5555_5555_5555;
+/// Of the large strokes that were absent, each picture computes a quarter: if they appear late, they leave holes.
+const LARGE: u64 = 0x1111_1111_1111_1111;
 
 /// Which strokes the next picture computes: those that were present in the last one, and a share of the others.
 pub struct Recall {
@@ -35,12 +35,12 @@ impl Recall {
         let lacks_underpainting = painting.drafts_lack_underpainting();
         let pattern = |number: u32| match painting.coats[order.entry(number).coat as usize].kind {
             LayerKind::Form | LayerKind::Accents | LayerKind::Contour | LayerKind::Lights => {
-                SMALL << (turn % 16)
+                SMALL << (turn % 32)
             }
             // No coat carries them.
             LayerKind::Touches => 0,
             LayerKind::Underpainting if lacks_underpainting => 0,
-            LayerKind::Body | LayerKind::Scumble | LayerKind::Underpainting => LARGE << (turn % 2),
+            LayerKind::Body | LayerKind::Scumble | LayerKind::Underpainting => LARGE << (turn % 4),
         };
         // A word may hold particles of several layers.
         let word = |numbers: &[u32]| match (pattern(numbers[0]), pattern(numbers[numbers.len() - 1])) {

@@ -26,7 +26,7 @@ const LEAST_FRAME: Duration = Duration::from_millis(8);
 /// An app can hold back new frames ([`Frame::hold`]) for at most this long.
 const MOST_HELD: Duration = Duration::from_millis(100);
 
-/// While an app holds back, pointer moves cause a pass at most this often.
+/// While an app holds back, pointer moves and what egui asks for after each of them cause a pass at most this often.
 const HELD_PASS: Duration = Duration::from_millis(30);
 
 /// Why a frame is due.
@@ -271,7 +271,8 @@ impl<A: App, M: FnOnce(&Opened) -> A> ApplicationHandler<Happening> for Shell<A,
                 let now = open.state.egui_ctx().cumulative_pass_nr();
                 // A request from before the last pass is out of date: a later pass has run since.
                 if now == pass || now == pass + 1 {
-                    let at = at.max(open.last_start + LEAST_FRAME);
+                    let least = if open.holds { HELD_PASS } else { LEAST_FRAME };
+                    let at = at.max(open.last_start + least);
                     self.next = Some(self.next.map_or(at, |next| next.min(at)));
                 }
             }

@@ -1,14 +1,18 @@
 // Lights every pixel of the surfaces. A style may ask for a part of the strong highlights apart from the colour.
 #include "shared/lens.glsl"
+#ifndef DRAFT
 #define SHADOW_OF_SAMPLES
+#endif
 #include "reference/lighting.glsl"
 uniform sampler2D albedo_and_lit;
 uniform sampler2D normal;        // rgb: normal in world space, a: gloss
 uniform sampler2D depth_and_id;
 uniform sampler2D openness;      // ambient occlusion: 0 enclosed .. 1 open; half the picture's size
+#ifndef DRAFT
 uniform sampler2D fine;          // depth and body id of every sample
 uniform sampler2D root_albedo;   // square root of the colour of every sample, and `is_lit`
 uniform int samples;             // per pixel along each axis; 1: pixels stand for them
+#endif
 uniform float highlight_in_color; // the share of a strong highlight that `color` has, 0..1
 
 layout(location = 0) out vec4 color;
@@ -19,6 +23,7 @@ layout(location = 2) out vec4 highlight; // what `color` leaves out, display-lin
 // all of a sheen.
 const vec2 STRONG = vec2(0.15, 0.40);
 
+#ifndef DRAFT
 // Where the surface is seen flat, a pixel covers more of it than a texel of the shadow map, and one place alone would light up or
 // not by chance: a mean over the samples of the body.
 float shadow_at(LitPoint at) {
@@ -57,6 +62,7 @@ vec3 mean_albedo(ivec2 at, vec4 surface, float id) {
     }
     return sum.a > 0.0 ? sum.rgb / sum.a : surface.rgb;
 }
+#endif
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
@@ -66,7 +72,9 @@ void main() {
     highlight = vec4(0.0);
     if (here.y == 0.0) return;
     vec4 surface = texelFetch(albedo_and_lit, at, 0);
+#ifndef DRAFT
     if (samples > 1) surface.rgb = mean_albedo(at, surface, here.y);
+#endif
     if (surface.a == 0.0) {
         color = vec4(surface.rgb, 1.0);
         return;

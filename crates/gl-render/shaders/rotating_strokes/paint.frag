@@ -82,6 +82,9 @@ float past_body(vec2 here, float reach_px) {
     vec2 inward = -from_center_px / max(away_px, 1e-3);
     // Only a soft edge goes over a body in front of the stroke; more paint over the background and over bodies behind.
     if (here.y != 0.0 && here.x < depth - bias) reach_px = 0.35;
+#ifdef DRAFT
+    return body_at(gl_FragCoord.xy + inward * clamp(reach_px, 0.0, away_px)) == own.y ? 1.0 : 0.0;
+#endif
     float on_own = 0.0;
     for (int index = 0; index < 4; index++) {
         float back_px = clamp(reach_px + (float(index) - 1.5) * 0.7, 0.0, away_px);
@@ -125,6 +128,10 @@ void main() {
     float u = quad_at.x;
     vec2 at = vec2(u, 0.5 + (quad_at.y - 0.5) * body.w);
     at.y -= mark.w * ((u - 0.5) * (u - 0.5) - 0.06) * 0.5 * FILL;
+#ifdef DRAFT
+    // One level of detail alone is read faster than two.
+    level = floor(level + 0.5);
+#endif
     vec3 texel = textureLod(brush_marks, vec3(at, mark.x), level).rgb;
     float past_end = max(abs(2.0 * u - 1.0) - own.z, 0.0);
     float least = paint.a;

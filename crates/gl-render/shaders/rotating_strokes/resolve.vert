@@ -6,7 +6,7 @@
 #include "rotating_strokes/layers.glsl"
 uniform float px_scale;          // output pixels per pixel of the scene's own size
 uniform mat4 view_from_world;
-uniform int kind;                // layer of paint
+const int kind = ONLY;           // the layer of paint that this program is for
 layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
 layout(location = 1) in vec4 size;           // length and width in px, facing fade, ln(supply / rank)
 layout(location = 2) in uvec4 marks;         // random bits, body id, albedo (sRGB bytes), mark; A 0: unlit, 128: fixed
@@ -71,6 +71,9 @@ float hidden_at(vec2 offset_px, float bias, bool by_own) {
 
 // The same between the four nearest pixels: what hides the place does so bit by bit as it comes.
 float hidden_between(vec2 offset_px, float bias, bool by_own) {
+#ifdef DRAFT
+    return hidden_at(offset_px, bias, by_own);
+#endif
     vec2 at = place.xy + offset_px - 0.5;
     vec2 corner = floor(at);
     vec2 part = at - corner;

@@ -72,7 +72,7 @@ float freedom(vec2 center_px, float id) {
     float doubt = 0.5 / facing;
     float believed = smoothstep(0.1, 0.35, facing);
 #ifdef DRAFT
-    const int SIDE = 2;
+    const int SIDE = 1;
 #else
     const int SIDE = 4;
 #endif
@@ -176,9 +176,14 @@ float thinness(vec2 center_px, vec2 own, float free) {
     float around_px = AROUND_PX * max(2.0 * px_scale, 1.0);
     // Beyond the picture nothing is known: towards its border less far is looked, and what is found there counts less.
     vec2 room_px = max(min(center_px, vec2(textureSize(depth_and_id, 0)) - center_px), 0.0) / FURTHER;
+#ifdef DRAFT
+    const int DIRECTIONS = 6;
+#else
+    const int DIRECTIONS = 12;
+#endif
     float sum = 0.0;
-    for (int index = 0; index < 12; index++) {
-        float angle = 0.26179939 * float(index);
+    for (int index = 0; index < DIRECTIONS; index++) {
+        float angle = 3.14159265 / float(DIRECTIONS) * float(index);
         vec2 offset_px = vec2(cos(angle), sin(angle)) * around_px;
         vec2 shares = room_px / max(abs(offset_px), 1e-3);
         float fits = min(min(shares.x, shares.y), 1.0);
@@ -186,10 +191,14 @@ float thinness(vec2 center_px, vec2 own, float free) {
         float past = is_past_both(center_px, offset_px, own, free);
         if (past == 0.0) continue;
         float nearer = is_past_both(center_px, 0.55 * offset_px, own, free);
+#ifdef DRAFT
+        float further = 0.0;
+#else
         float further = nearer < past ? is_past_both(center_px, FURTHER * offset_px, own, free) : 0.0;
+#endif
         sum += fits * (min(past, nearer) + min(past, max(nearer, further)));
     }
-    return sum / 24.0;
+    return sum / float(2 * DIRECTIONS);
 }
 
 // The sum of the colours on a ring round the stroke's centre: `count` taps, the first at this angle in the stroke's frame.

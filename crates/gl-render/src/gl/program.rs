@@ -19,8 +19,8 @@ pub(crate) struct ProgramSource<'a> {
     pub captured: &'static [&'static str],
     /// Every uniform that the Rust side sets, in groups.
     pub uniforms: &'a [&'a [&'static str]],
-    /// Further uniforms, which the shader may leave out; setting one that is left out does nothing.
-    pub optional: &'a [&'static str],
+    /// Further uniforms, in groups, which the shader may leave out; setting one that is left out does nothing.
+    pub optional: &'a [&'a [&'static str]],
     /// Names that are `#define`d for the shaders.
     pub defined: &'a [&'static str],
 }
@@ -103,7 +103,7 @@ impl Program {
             id,
             name: name.clone(),
             uniforms: Vec::new(),
-            optional: source.optional.to_vec(),
+            optional: source.optional.concat(),
             is_replaced: !gpu.shaders().is_empty(),
         };
         let stages = [(glow::VERTEX_SHADER, Some(source.vertex)), (glow::FRAGMENT_SHADER, source.fragment)];

@@ -136,10 +136,12 @@ impl RotatingStrokes {
         self.strokes.upload(frame)?;
         let palettes = palette_texture(&self.gpu, frame, oklab_from_linear)?;
         let lens = LensSetup::new(&frame.view, frame.size_px);
-        for layer in &frame.layers {
+        for layer in frame.layers.iter().filter(|layer| layer.count > 0) {
+            let program = &self.programs(frame.quality).resolve[layer.kind as usize];
+            let Some(program) = program else { continue };
             let bound = input
                 .lights
-                .set(lens.set(self.programs(frame.quality).resolve.bind(), &LENS_UNIFORMS))
+                .set(lens.set(program.bind(), &LENS_UNIFORMS))
                 .texture("reference_color", &input.reference.color)
                 .texture("highlight", &input.reference.highlight)
                 .texture("depth_and_id", &input.reference.depth_and_id)
@@ -148,8 +150,7 @@ impl RotatingStrokes {
                 .set("block_px", targets.block_px as f32)
                 .texture("palettes", &palettes)
                 .set("view_from_world", frame.view.view_from_world)
-                .set("px_scale", frame.px_scale)
-                .set("kind", layer.kind as i32);
+                .set("px_scale", frame.px_scale);
             self.strokes.resolve(bound, *layer)?;
         }
         Ok(())
@@ -347,6 +348,9 @@ impl StyleRenderer for RotatingStrokes {
     fn ready_all(&mut self) -> Result<(), GlError> {
         let gpu = self.gpu.clone();
         for quality in [Quality::Exact, Quality::Draft] {
+            for layer in LayerKind::ALL {
+                self.ready(quality)?.ready_resolve(&gpu, quality, layer)?;
+            }
             self.ready(quality)?.ready_shaped(&gpu, quality)?;
             self.ready(quality)?.ready_line(&gpu, quality)?;
         }
@@ -363,13 +367,16 @@ impl StyleRenderer for RotatingStrokes {
         watch: &mut Watch<'_>,
     ) -> Result<(), Halt> {
         let frame = input.frame;
-        let coarser = if frame.quality == Quality::Draft { 2.0 } else { 1.0 };
+        let coarser = if frame.quality == Quality::Draft { 3.0 } else { 1.0 };
         let block_px = (BLOCK_PX * coarser * frame.px_scale).round().clamp(1.0, 8.0) as u32;
         if !self.detail_targets.as_ref().is_some_and(|targets| targets.fit(frame.size_px, block_px)) {
             self.detail_targets = Some(DetailTargets::new(&self.gpu, frame.size_px, block_px)?);
         }
         let gpu = self.gpu.clone();
         let programs = self.ready(frame.quality)?;
+        for layer in frame.layers.iter().filter(|layer| layer.count > 0) {
+            programs.ready_resolve(&gpu, frame.quality, layer.kind)?;
+        }
         if frame.strokes.iter().any(Stroke::is_shaped) {
             programs.ready_shaped(&gpu, frame.quality)?;
         }

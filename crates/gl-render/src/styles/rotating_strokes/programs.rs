@@ -1,6 +1,7 @@
 //! The shader programs of the style, and those that drafts use instead.
 
 use impasto_painting::Quality;
+use impasto_painting::frame::LayerKind;
 
 use crate::gl::{GlError, Gpu, Program, ProgramSource, ShaderFile};
 use crate::lens::LENS_UNIFORMS;
@@ -9,7 +10,9 @@ use crate::shader_files::{REFERENCE, ROTATING_STROKES, SHARED};
 
 /// The programs that differ between exact pictures and drafts.
 pub(super) struct StrokePrograms {
-    pub(super) resolve: Program,
+    /// For each layer, in the order of their numbers; created when the layer is first painted. What a layer does not need is
+    /// left out of its program: some drivers do all work of all branches.
+    pub(super) resolve: [Option<Program>; 8],
     pub(super) paint: Program,
     /// For tapered and bent strokes; created when the first of them is painted.
     pub(super) shaped_paint: Option<Program>,
@@ -20,16 +23,32 @@ pub(super) struct StrokePrograms {
 
 impl StrokePrograms {
     pub(super) fn new(gpu: &Gpu, quality: Quality) -> Result<Self, GlError> {
-        let [resolve, paint, finish] = match quality {
-            Quality::Exact => [RESOLVE, PAINT, FINISH],
+        let [paint, finish] = match quality {
+            Quality::Exact => [PAINT, FINISH],
             Quality::Draft => [
-                ProgramSource { defined: &["DRAFT"], ..RESOLVE },
                 ProgramSource { defined: &["DRAFT"], ..DRAFT_PAINT },
                 ProgramSource { defined: &["DRAFT"], ..DRAFT_FINISH },
             ],
         }
         .map(|source| Program::new(gpu, FILES, &source));
-        Ok(Self { resolve: resolve?, paint: paint?, shaped_paint: None, line_paint: None, finish: finish? })
+        Ok(Self {
+            resolve: Default::default(),
+            paint: paint?,
+            shaped_paint: None,
+            line_paint: None,
+            finish: finish?,
+        })
+    }
+
+    /// Creates the program that finds where the strokes of a layer lie, unless it is there.
+    pub(super) fn ready_resolve(&mut self, gpu: &Gpu, quality: Quality, layer: LayerKind) -> Result<(), GlError> {
+        let program = &mut self.resolve[layer as usize];
+        if program.is_none() {
+            let defined = [ONLY[layer as usize], "DRAFT"];
+            let defined = if quality == Quality::Draft { &defined[..] } else { &defined[..1] };
+            *program = Some(Program::new(gpu, FILES, &ProgramSource { defined, ..RESOLVE })?);
+        }
+        Ok(())
     }
 
     /// Creates the program for tapered and bent strokes, unless it is there.
@@ -109,27 +128,17 @@ pub(super) const DETAIL: ProgramSource<'static> = ProgramSource::screen(
 pub(super) const SPREAD: ProgramSource<'static> =
     ProgramSource::screen("rotating_strokes/spread.frag", &[&["detail", "axis"]]);
 
+const ONLY: [&str; 8] =
+    ["ONLY 0", "ONLY 1", "ONLY 2", "ONLY 3", "ONLY 4", "ONLY 5", "ONLY 6", "ONLY 7"];
+
 const RESOLVE: ProgramSource<'static> = ProgramSource {
     captured: &["resolved", "fitted"],
+    // Strokes of highlights are not lit themselves, and some layers do not look for detail.
+    optional: &[&LENS_UNIFORMS, &LIGHT_UNIFORMS, &["highlight", "detail", "block_px"]],
     ..ProgramSource::new(
         "rotating_strokes/resolve.vert",
         None,
-        &[
-            &LENS_UNIFORMS,
-            &LIGHT_UNIFORMS,
-            &[
-                "reference_color",
-                "highlight",
-                "depth_and_id",
-                "normal",
-                "detail",
-                "block_px",
-                "palettes",
-                "view_from_world",
-                "px_scale",
-                "kind",
-            ],
-        ],
+        &[&["reference_color", "depth_and_id", "normal", "palettes", "view_from_world", "px_scale"]],
     )
 };
 
