@@ -4,23 +4,16 @@ use glam::{DVec2, DVec3};
 use impasto_editor_model::picking::View;
 use impasto_scene::document::{Light, Scene};
 use impasto_scene::motion;
-use impasto_tests::screen::{EditorWindow, SIZE_PX, Screen};
+use impasto_tests::screen::{ControlRect, EditorWindow, Screen};
 
 use crate::editor_window::{folder, read};
 
-/// Middle and width of the viewport. To its left is the rail (48 px wide), to its right the column (280 px), above it
-/// are the bars (80 px high), below it the strip and the status line (68 px).
-fn viewport() -> (DVec2, f64) {
-    let [width, height] = SIZE_PX.map(|side| side as f64);
-    (DVec2::new((48.0 + width - 280.0) * 0.5, (80.0 + height - 68.0) * 0.5), width - 280.0 - 48.0)
-}
-
 /// Where a point of the world shows in the window. The shot is as wide as the viewport and lies in its middle.
-fn shown_at(scene: &Scene, position: DVec3) -> DVec2 {
-    let (middle, width) = viewport();
+fn shown_at(scene: &Scene, viewport: &ControlRect, position: DVec3) -> DVec2 {
     let size = DVec2::new(f64::from(scene.size.0), f64::from(scene.size.1));
-    let view = View { camera: motion::camera_at(scene, 0.0), size_px: size * (width / size.x) };
-    middle + view.project(position).unwrap() - view.size_px * 0.5
+    let view = View { camera: motion::camera_at(scene, 0.0), size_px: size * (f64::from(viewport.size[0]) / size.x) };
+    let [corner, sides] = [viewport.corner, viewport.size].map(|pair| DVec2::from(pair.map(f64::from)));
+    corner + 0.5 * sides + view.project(position).unwrap() - view.size_px * 0.5
 }
 
 fn lamp(scene: &Scene) -> &Light {
@@ -42,9 +35,10 @@ fn a_lamp_is_dragged_by_its_icon_and_is_saved_where_it_was_let_go() {
     let text = text.replacen("    lights: [\n", &format!("    lights: [\n        {lamp_line}\n"), 1);
     std::fs::write(&file, text).unwrap();
     let before = read(folder.path(), "apple.ron");
-    let from = shown_at(&before, place(&before));
     let mut editor = EditorWindow::open(&screen, "lamp", folder.path(), "apple.ron");
     let mut shown = editor.rest().0;
+    let viewport = editor.control("Viewport");
+    let from = shown_at(&before, &viewport, place(&before));
     editor.keep_picture("opened");
 
     let whole = |at: DVec2| [at.x.round() as i32, at.y.round() as i32];
@@ -56,7 +50,7 @@ fn a_lamp_is_dragged_by_its_icon_and_is_saved_where_it_was_let_go() {
     editor.keys(&["ctrl+s"]);
     editor.wait_for_title("apple.ron - Impasto");
     let after = read(folder.path(), "apple.ron");
-    let let_go = shown_at(&after, place(&after));
+    let let_go = shown_at(&after, &viewport, place(&after));
     assert!(let_go.distance(to) < 2.0, "the lamp shows at {let_go}, but was let go at {to}");
     let mut back = after.clone();
     back.lights[0].position = lamp(&before).position;
