@@ -11,7 +11,10 @@ use crate::editor_window::{folder, read};
 /// Where a point of the world shows in the window. The shot is as wide as the viewport and lies in its middle.
 fn shown_at(scene: &Scene, viewport: &ControlRect, position: DVec3) -> DVec2 {
     let size = DVec2::new(f64::from(scene.size.0), f64::from(scene.size.1));
-    let view = View { camera: motion::camera_at(scene, 0.0), size_px: size * (f64::from(viewport.size[0]) / size.x) };
+    let view = View {
+        camera: motion::camera_at(scene, 0.0),
+        size_px: size * (f64::from(viewport.size[0]) / size.x),
+    };
     let [corner, sides] = [viewport.corner, viewport.size].map(|pair| DVec2::from(pair.map(f64::from)));
     corner + 0.5 * sides + view.project(position).unwrap() - view.size_px * 0.5
 }

@@ -1,8 +1,10 @@
 // How a stroke's colour is mixed from the colour under it. Colours are Oklab. A jitter, temperature or grading of 0
 // changes nothing.
+#ifdef PALETTES
 uniform sampler2D palettes;      // a row each: pigments in Oklab, w how far colours keep to them, 0 past the last
 
 const uint ANY_COLOR = 255u;
+#endif
 
 // Standard deviations from stroke to stroke, by layer: lightness, hue in degrees, chroma as a share.
 const vec3 JITTER[8] = vec3[8](
@@ -62,6 +64,7 @@ vec3 graded(vec3 lab, vec3 wide, int kind) {
     return vec3(clamp(lightness, 0.13 + 0.3 * max(lightness - 0.13, -0.1), 0.985), lab.yz * chroma);
 }
 
+#ifdef PALETTES
 vec3 from_palette(vec3 lab, uint palette) {
     const int MOST = 16;
     vec2 distances[MOST];
@@ -83,6 +86,7 @@ vec3 from_palette(vec3 lab, uint palette) {
     float mix_in = texelFetch(palettes, ivec2(0, int(palette)), 0).w;
     return vec3(lab.x, mix(lab.yz, sum / max(weight, 1e-6), mix_in));
 }
+#endif
 
 // `wide` is the mean over a wider neighbourhood, `drift` slow noise over the surface.
 vec3 mixed(vec3 lab, vec3 wide, int kind, Mixing mixing, uvec2 bits_and_drift) {
@@ -92,7 +96,9 @@ vec3 mixed(vec3 lab, vec3 wide, int kind, Mixing mixing, uvec2 bits_and_drift) {
     float light = smoothstep(0.25, 0.70, lab.x);
     // Light is warmer, shadow cooler.
     lab.yz += mixing.temperature * mix(vec2(-0.002, -0.008), vec2(0.003, 0.008), light);
+#ifdef PALETTES
     if (mixing.palette != ANY_COLOR) lab = from_palette(lab, mixing.palette);
+#endif
     vec3 deviation = JITTER[kind] * mixing.jitter;
     float value = normal_from(bits, 1u) * deviation.x * mix(0.55, 1.0, light) + 0.006 * mixing.jitter * drift;
     float turn = radians(normal_from(bits, 2u) * deviation.y * mix(1.25, 0.8, light) + 3.0 * mixing.jitter * drift);

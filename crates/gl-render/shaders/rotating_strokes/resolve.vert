@@ -6,7 +6,7 @@
 #include "rotating_strokes/layers.glsl"
 uniform float px_scale;          // output pixels per pixel of the scene's own size
 uniform mat4 view_from_world;
-const int kind = ONLY;           // the layer of paint that this program is for
+const int kind = LAYER;          // the layer of paint that this program is for
 layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
 layout(location = 1) in vec4 size;           // length and width in px, facing fade, ln(supply / rank)
 layout(location = 2) in uvec4 marks;         // random bits, body id, albedo (sRGB bytes), mark; A 0: unlit, 128: fixed

@@ -31,7 +31,7 @@ use crate::style_renderer::{StyleInput, StyleRenderer};
 use crate::watch::Watch;
 use coverage::{Coverage, Covered};
 use data::PaintData;
-use programs::{DETAIL, FILES, SOFTEN, SPREAD, StrokePrograms};
+use programs::{DETAIL, FILES, LAYERS, SOFTEN, SPREAD, StrokePrograms};
 use targets::{DetailTargets, PaintTargets};
 
 /// How far the toned ground under the paint of a body hides the background.
@@ -137,8 +137,8 @@ impl RotatingStrokes {
         let palettes = palette_texture(&self.gpu, frame, oklab_from_linear)?;
         let lens = LensSetup::new(&frame.view, frame.size_px);
         for layer in frame.layers.iter().filter(|layer| layer.count > 0) {
-            let program = &self.programs(frame.quality).resolve[layer.kind as usize];
-            let Some(program) = program else { continue };
+            let programs = self.programs(frame.quality);
+            let Some(program) = programs.resolve(layer.kind, !frame.palettes.is_empty()) else { continue };
             let bound = input
                 .lights
                 .set(lens.set(program.bind(), &LENS_UNIFORMS))
@@ -348,8 +348,9 @@ impl StyleRenderer for RotatingStrokes {
     fn ready_all(&mut self) -> Result<(), GlError> {
         let gpu = self.gpu.clone();
         for quality in [Quality::Exact, Quality::Draft] {
-            for layer in LayerKind::ALL {
-                self.ready(quality)?.ready_resolve(&gpu, quality, layer)?;
+            for (layer, has_palettes) in LAYERS.iter().flat_map(|&(layer, _)| [(layer, false), (layer, true)])
+            {
+                self.ready(quality)?.ready_resolve((&gpu, quality), layer, has_palettes)?;
             }
             self.ready(quality)?.ready_shaped(&gpu, quality)?;
             self.ready(quality)?.ready_line(&gpu, quality)?;
@@ -375,7 +376,7 @@ impl StyleRenderer for RotatingStrokes {
         let gpu = self.gpu.clone();
         let programs = self.ready(frame.quality)?;
         for layer in frame.layers.iter().filter(|layer| layer.count > 0) {
-            programs.ready_resolve(&gpu, frame.quality, layer.kind)?;
+            programs.ready_resolve((&gpu, frame.quality), layer.kind, !frame.palettes.is_empty())?;
         }
         if frame.strokes.iter().any(Stroke::is_shaped) {
             programs.ready_shaped(&gpu, frame.quality)?;

@@ -10,9 +10,10 @@ use crate::shader_files::{REFERENCE, ROTATING_STROKES, SHARED};
 
 /// The programs that differ between exact pictures and drafts.
 pub(super) struct StrokePrograms {
-    /// For each layer, in the order of their numbers; created when the layer is first painted. What a layer does not need is
-    /// left out of its program: some drivers do all work of all branches.
-    pub(super) resolve: [Option<Program>; 8],
+    /// Finds colour, presence and place of the strokes of a layer: for each layer, in the order of their numbers, without
+    /// palettes and with them. Created when they are first needed. What a layer does not need is left out of its program,
+    /// since software drivers do the work of all branches.
+    resolve: [[Option<Program>; 2]; LAYERS.len()],
     pub(super) paint: Program,
     /// For tapered and bent strokes; created when the first of them is painted.
     pub(super) shaped_paint: Option<Program>,
@@ -40,13 +41,24 @@ impl StrokePrograms {
         })
     }
 
-    /// Creates the program that finds where the strokes of a layer lie, unless it is there.
-    pub(super) fn ready_resolve(&mut self, gpu: &Gpu, quality: Quality, layer: LayerKind) -> Result<(), GlError> {
-        let program = &mut self.resolve[layer as usize];
+    /// The program that resolves the strokes of a layer, if it is ready.
+    pub(super) fn resolve(&self, layer: LayerKind, has_palettes: bool) -> Option<&Program> {
+        self.resolve[layer as usize][usize::from(has_palettes)].as_ref()
+    }
+
+    /// Creates the program that resolves the strokes of a layer, unless it is there.
+    pub(super) fn ready_resolve(
+        &mut self,
+        (gpu, quality): (&Gpu, Quality),
+        layer: LayerKind,
+        has_palettes: bool,
+    ) -> Result<(), GlError> {
+        let program = &mut self.resolve[layer as usize][usize::from(has_palettes)];
         if program.is_none() {
-            let defined = [ONLY[layer as usize], "DRAFT"];
-            let defined = if quality == Quality::Draft { &defined[..] } else { &defined[..1] };
-            *program = Some(Program::new(gpu, FILES, &ProgramSource { defined, ..RESOLVE })?);
+            let mut defined = vec![LAYERS[layer as usize].1];
+            defined.extend(has_palettes.then_some("PALETTES"));
+            defined.extend((quality == Quality::Draft).then_some("DRAFT"));
+            *program = Some(Program::new(gpu, FILES, &ProgramSource { defined: &defined, ..RESOLVE })?);
         }
         Ok(())
     }
@@ -128,17 +140,26 @@ pub(super) const DETAIL: ProgramSource<'static> = ProgramSource::screen(
 pub(super) const SPREAD: ProgramSource<'static> =
     ProgramSource::screen("rotating_strokes/spread.frag", &[&["detail", "axis"]]);
 
-const ONLY: [&str; 8] =
-    ["ONLY 0", "ONLY 1", "ONLY 2", "ONLY 3", "ONLY 4", "ONLY 5", "ONLY 6", "ONLY 7"];
+/// The layers in the order of their numbers, and what is `#define`d for the program that resolves the strokes of one.
+pub(super) const LAYERS: [(LayerKind, &str); 8] = [
+    (LayerKind::Underpainting, "LAYER 0"),
+    (LayerKind::Body, "LAYER 1"),
+    (LayerKind::Form, "LAYER 2"),
+    (LayerKind::Scumble, "LAYER 3"),
+    (LayerKind::Accents, "LAYER 4"),
+    (LayerKind::Contour, "LAYER 5"),
+    (LayerKind::Lights, "LAYER 6"),
+    (LayerKind::Touches, "LAYER 7"),
+];
 
 const RESOLVE: ProgramSource<'static> = ProgramSource {
     captured: &["resolved", "fitted"],
     // Strokes of highlights are not lit themselves, and some layers do not look for detail.
-    optional: &[&LENS_UNIFORMS, &LIGHT_UNIFORMS, &["highlight", "detail", "block_px"]],
+    optional: &[&LENS_UNIFORMS, &LIGHT_UNIFORMS, &["highlight", "detail", "block_px", "palettes"]],
     ..ProgramSource::new(
         "rotating_strokes/resolve.vert",
         None,
-        &[&["reference_color", "depth_and_id", "normal", "palettes", "view_from_world", "px_scale"]],
+        &[&["reference_color", "depth_and_id", "normal", "view_from_world", "px_scale"]],
     )
 };
 
