@@ -163,6 +163,9 @@ impl SurfaceMap {
 
     fn add(&mut self, mut corners: [Corner; 3], near: f64, size_px: DVec2, face: Face) {
         (corners[1].share, corners[2].share) = ([1.0, 0.0], [0.0, 1.0]);
+        if corners.iter().all(|corner| corner.depth >= near) {
+            return self.fill(corners, size_px, face);
+        }
         let kept = clip_at_near(corners, near);
         for index in 2..kept.len() {
             self.fill([kept[0], kept[index - 1], kept[index]], size_px, face);
@@ -180,18 +183,24 @@ impl SurfaceMap {
         if !area.is_normal() {
             return;
         }
-        // Depth / w and 1 / w are linear on the screen for every lens.
-        let over_w = corners.map(|corner| DVec2::new(corner.depth, 1.0) / corner.place[2]);
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
         let limit = DVec2::new(self.size[0] as f64, self.size[1] as f64);
         let first = (low - 0.5).ceil().clamp(DVec2::ZERO, limit);
         let last = (high - 0.5).floor().clamp(DVec2::NEG_ONE, limit - 1.0);
+        // Most triangles lie between the middles of cells.
+        if first.x > last.x || first.y > last.y {
+            return;
+        }
+        // Depth / w and 1 / w are linear on the screen for every lens.
+        let over_w = corners.map(|corner| DVec2::new(corner.depth, 1.0) / corner.place[2]);
+        let sides = [(b, c - b), (c, a - c), (a, b - a)];
         for row in first.y as i64..=last.y as i64 {
-            for column in first.x as i64..=last.x as i64 {
-                let at = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
-                let weights = [(c - b).perp_dot(at - b), (a - c).perp_dot(at - c), (b - a).perp_dot(at - a)]
-                    .map(|part| part / area);
-                if weights.iter().any(|&weight| weight < 0.0) {
+            let y = row as f64 + 0.5;
+            let [from, to] = columns_inside(&sides, area, y, [first.x, last.x]);
+            for column in from as i64..=to as i64 {
+                let at = DVec2::new(column as f64 + 0.5, y);
+                let weights = sides.map(|(start, side)| side.perp_dot(at - start) / area);
+                if weights[0] < 0.0 || weights[1] < 0.0 || weights[2] < 0.0 {
                     continue;
                 }
                 let mixed = over_w[0] * weights[0] + over_w[1] * weights[1] + over_w[2] * weights[2];
@@ -212,6 +221,23 @@ impl SurfaceMap {
             }
         }
     }
+}
+
+/// The columns of a row, within those of `range`, whose middles may lie in a triangle of this doubled area; a column more at
+/// either end, so that rounding loses none. A side is a corner and the way to the next.
+fn columns_inside(sides: &[(DVec2, DVec2); 3], area: f64, y: f64, range: [f64; 2]) -> [f64; 2] {
+    let [mut from, mut to] = range;
+    for &(start, side) in sides {
+        // Along the row, the weight of the corner across grows by this much a column.
+        let slope = -side.y / area;
+        let crossing = start.x + side.x * (y - start.y) / side.y - 0.5;
+        if slope > 0.0 {
+            from = from.max((crossing - 1.0).ceil());
+        } else if slope < 0.0 {
+            to = to.min((crossing + 1.0).floor());
+        }
+    }
+    [from, to]
 }
 
 fn corners(body: &StandingBody, map: &ScreenMap) -> Vec<Corner> {
@@ -243,4 +269,43 @@ fn clip_at_near(corners: [Corner; 3], near: f64) -> Vec<Corner> {
         }
     }
     kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_cell_of_a_triangle_is_left_out_of_its_rows() {
+        let mut state = 7_u32;
+        let mut random = || {
+            state = state.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+            f64::from(state >> 8) / f64::from(1 << 24)
+        };
+        let (mut inside, mut tried) = (0, 0);
+        for round in 0..400 {
+            // Thin ones, some with a level side, and large ones that reach far past the map.
+            let wide = [3.0, 30.0, 4e5][round % 3];
+            let mut corner = || DVec2::new(20.0 + wide * (random() - 0.5), 15.0 + wide * (random() - 0.5));
+            let [a, mut b, c] = [corner(), corner(), corner()];
+            if round % 5 == 0 {
+                b.y = a.y;
+            }
+            let area = (b - a).perp_dot(c - a);
+            let sides = [(b, c - b), (c, a - c), (a, b - a)];
+            for row in 0..30 {
+                let y = f64::from(row) + 0.5;
+                let [from, to] = columns_inside(&sides, area, y, [0.0, 39.0]);
+                for column in 0..40 {
+                    let at = DVec2::new(f64::from(column) + 0.5, y);
+                    tried += 1;
+                    if sides.iter().all(|&(start, side)| side.perp_dot(at - start) / area >= 0.0) {
+                        inside += 1;
+                        assert!((from..=to).contains(&f64::from(column)), "{a} {b} {c}: {column}, {row}");
+                    }
+                }
+            }
+        }
+        assert!(inside > 10_000 && inside < tried / 2, "{inside} of {tried}");
+    }
 }
