@@ -7,6 +7,7 @@ pub mod icons;
 mod options;
 pub mod panels;
 mod preset_pictures;
+mod priority;
 pub mod rendering;
 pub mod theme;
 pub mod viewport;

@@ -15,6 +15,7 @@ use impasto_painting::{FrameOptions, PrepareOptions, Preparer};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion;
 
+use crate::priority::give_way;
 use crate::rendering::open_renderer;
 
 #[cfg(test)]
@@ -78,6 +79,7 @@ impl PresetPictures {
         let shared = Arc::new(Shared { board: Mutex::default(), changed: Condvar::new() });
         let theirs = Arc::clone(&shared);
         std::thread::Builder::new().name("preset pictures".to_owned()).spawn(move || {
+            give_way();
             while let Some(list) = theirs.wait() {
                 // Without pictures, presets are chosen by their names: what goes wrong here is of no matter.
                 match catch_unwind(AssertUnwindSafe(|| theirs.paint_list(list, driver, &wake))) {

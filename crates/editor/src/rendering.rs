@@ -22,6 +22,8 @@ use impasto_painting::{FrameOptions, PrepareError, PrepareOptions, Preparer};
 use impasto_sequence::movie::{Depth, Encoding, FrameFormat, Kind, Movie, MovieError};
 use impasto_sequence::{Ending, FileOutcome, FrameFiles, PngDepth, Sequence, Wanted, fits_in_memory};
 
+use crate::priority::give_way;
+
 #[cfg(test)]
 mod tests;
 
@@ -73,6 +75,7 @@ impl Rendering {
         });
         let (theirs, orders) = (Arc::clone(&shared), plan.clone());
         let thread = std::thread::Builder::new().name("rendering".to_owned()).spawn(move || {
+            give_way();
             let outcome = catch_unwind(AssertUnwindSafe(|| run(&theirs, &orders, &shaders, &wake)));
             let outcome = match outcome {
                 Ok(Ok(outcome)) => outcome,
