@@ -12,7 +12,8 @@ pub(crate) fn give_way() {
     let _as_before = rustix::process::nice(STEPS);
 }
 
-#[cfg(all(test, target_os = "linux"))]
+#[cfg(target_os = "linux")]
+#[cfg(test)]
 mod tests {
     use super::*;
 
