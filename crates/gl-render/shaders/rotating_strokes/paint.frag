@@ -83,12 +83,14 @@ float past_body(vec2 here, float reach_px) {
     // Only a soft edge goes over a body in front of the stroke; more paint over the background and over bodies behind.
     if (here.y != 0.0 && here.x < depth - bias) reach_px = 0.35;
 #ifdef DRAFT
-    return body_at(gl_FragCoord.xy + inward * clamp(reach_px, 0.0, away_px)) == own.y ? 1.0 : 0.0;
+    const int PLACES = 2;
+#else
+    const int PLACES = 4;
 #endif
     float on_own = 0.0;
-    for (int index = 0; index < 4; index++) {
-        float back_px = clamp(reach_px + (float(index) - 1.5) * 0.7, 0.0, away_px);
-        on_own += body_at(gl_FragCoord.xy + inward * back_px) == own.y ? 0.25 : 0.0;
+    for (int index = 0; index < PLACES; index++) {
+        float back_px = clamp(reach_px + (float(index) - 0.5 * float(PLACES - 1)) * 0.7, 0.0, away_px);
+        on_own += body_at(gl_FragCoord.xy + inward * back_px) == own.y ? 1.0 / float(PLACES) : 0.0;
     }
     return on_own;
 }

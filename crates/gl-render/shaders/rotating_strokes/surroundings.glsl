@@ -72,7 +72,7 @@ float freedom(vec2 center_px, float id) {
     float doubt = 0.5 / facing;
     float believed = smoothstep(0.1, 0.35, facing);
 #ifdef DRAFT
-    const int SIDE = 1;
+    const int SIDE = 2;
 #else
     const int SIDE = 4;
 #endif
