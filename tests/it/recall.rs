@@ -1,12 +1,15 @@
-//! Tests of drafts with a recall: they draw the strokes that were present in the previous picture, and only some of
-//! the others.
+//! Tests of drafts: their strokes have the colours of the exact picture; with a recall they draw the strokes that were
+//! present in the previous picture, and only some of the others.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 
+use glam::Vec3;
+use impasto_gl_render::context::Driver;
 use impasto_painting::frame::LayerKind;
 use impasto_painting::{Frame, FrameOptions, Painting, Quality, Recall};
 use impasto_scene::motion;
+use impasto_tests::pictures::renderer;
 use impasto_tests::scenes;
 
 const DRAFT: FrameOptions = FrameOptions { quality: Quality::Draft, ..FrameOptions::new([320, 180]) };
@@ -72,4 +75,25 @@ fn another_painting_draws_all_its_strokes() {
     let none = Recall::of(&painting, &seen(&painting, None), |_| false, 0);
     let again = scenes::painting_with("still_life", &[]);
     assert_eq!(seen(&again, Some(&none)).strokes, seen(&again, None).strokes);
+}
+
+/// The colours of the strokes that are wholly there, by their places in the painting order.
+fn colors(quality: Quality) -> HashMap<u32, Vec3> {
+    let mut renderer = renderer(Driver::Auto);
+    let frame = still_life().at(0.0, &FrameOptions { quality, ..DRAFT });
+    renderer.render(&frame).unwrap();
+    let resolved = renderer.resolved_strokes();
+    let there = frame.sources.iter().zip(&resolved).filter(|(_, stroke)| stroke.alpha > 0.9);
+    there.map(|(source, stroke)| (source.place, Vec3::from(stroke.color_linear))).collect()
+}
+
+#[test]
+fn strokes_of_a_draft_have_the_colours_of_the_exact_picture() {
+    let (exact, draft) = (colors(Quality::Exact), colors(Quality::Draft));
+    let away = |(place, color): (&u32, &Vec3)| exact.get(place).map(|exact| exact.distance(*color));
+    let mut away: Vec<f32> = draft.iter().filter_map(away).collect();
+    away.sort_by(f32::total_cmp);
+    assert!(away.len() > 1000, "{}", away.len());
+    let at = |share: f32| away[(share * away.len() as f32) as usize];
+    assert!(at(0.5) < 0.004 && at(0.95) < 0.09, "{} {}", at(0.5), at(0.95));
 }
