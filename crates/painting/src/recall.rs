@@ -14,8 +14,8 @@ use crate::painting::Painting;
 /// Of the small strokes that were absent, each picture computes another part in 32: nobody notices if they appear late.
 const SMALL: u64 = 0x0000_0001_0000_0001;
 
-/// Of the large strokes that were absent, each picture computes a quarter: if they appear late, they leave holes.
-const LARGE: u64 = 0x1111_1111_1111_1111;
+/// Of the large strokes that were absent, each picture computes one half: if they appear late, they leave holes.
+const LARGE: u64 = 0x5555_5555_5555_5555;
 
 /// Which strokes the next picture computes: those that were present in the last one, and a share of the others.
 pub struct Recall {
@@ -40,7 +40,7 @@ impl Recall {
             // No coat carries them.
             LayerKind::Touches => 0,
             LayerKind::Underpainting if lacks_underpainting => 0,
-            LayerKind::Body | LayerKind::Scumble | LayerKind::Underpainting => LARGE << (turn % 4),
+            LayerKind::Body | LayerKind::Scumble | LayerKind::Underpainting => LARGE << (turn % 2),
         };
         // A word may hold particles of several layers.
         let word = |numbers: &[u32]| match (pattern(numbers[0]), pattern(numbers[numbers.len() - 1])) {
