@@ -47,7 +47,7 @@ pub fn run(root: &Path, fetch: Fetch) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// A Python with this Blender; `None` if there is none and it is not, or cannot be, fetched.
+/// A Python with this Blender; `None` if there is none and it cannot be fetched, or `fetch` forbids that.
 fn python_with(folder: &Path, version: &str, fetch: Fetch) -> Option<PathBuf> {
     let place = folder.join(format!("bpy-{version}"));
     let python = place.join("bin/python");

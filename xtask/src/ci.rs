@@ -41,8 +41,8 @@ pub fn run(root: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Allows no warning, with the editor's window and without it. Both runs name the whole workspace, so that crates which
-/// both share have the same features and are not checked twice.
+/// Runs clippy with the editor's window and without it, and allows no warning. Both runs name the whole workspace, so
+/// that crates which both share have the same features and are not checked twice.
 fn clippy(root: &Path) -> anyhow::Result<()> {
     for features in [&[][..], &["--no-default-features"]] {
         let mut arguments = vec!["clippy", "--workspace", "--all-targets", "--locked"];

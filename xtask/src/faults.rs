@@ -22,7 +22,7 @@ struct Fault {
     name: &'static str,
     /// The file, below `crates/gl-render/shaders/`.
     file: &'static str,
-    /// What stands there once, and what takes its place.
+    /// The text to replace, which the file holds exactly once, and its replacement.
     from: &'static str,
     to: &'static str,
     /// Parts of the names of the tests that should notice the fault.
@@ -41,7 +41,8 @@ pub fn run(root: &Path, names: &[String]) -> anyhow::Result<()> {
     ensure!(!chosen.is_empty(), "no fault is called `{}`", names.join(" "));
     let program = built_tests(root)?;
     let folder = target_folder(root)?.join("faults");
-    // Unchanged texts first, so that tests which fail anyway are not taken for tests that notice.
+    // The tests run with unchanged shaders first. So a test that fails anyway is not taken for one that notices a
+    // fault.
     let mut all: Vec<&str> = chosen.iter().flat_map(|fault| fault.tests.iter().copied()).collect();
     all.sort_unstable();
     all.dedup();

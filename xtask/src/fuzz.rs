@@ -14,11 +14,11 @@ const MINUTES: u64 = 30;
 /// Larger files are left out: they are slow to mutate, and find nothing more.
 const MOST_BYTES: u64 = 64 << 10;
 
-/// An input that takes more than so many seconds, or more than so many MiB of memory, is a find.
+/// An input counts as a find if it takes more than this many seconds, or more than this many MiB of memory.
 const SLOW_S: u64 = 20;
 const MOST_MIB: u64 = 2048;
 
-/// Some varied bytes to begin with, for targets that make their numbers of whatever bytes they get.
+/// Some varied bytes to begin with, for targets that take whatever bytes they get as numbers.
 const NUMBERS: &str =
     "0 aA1!bB2\"cC3#dD4$eE5%fF6&gG7'hH8(iI9)jJ:*kK;+lL<,mM=-nN>.oO?/pP@qQ[rR]sS^tT_uU`vV{wW|xX}yY~zZ";
 

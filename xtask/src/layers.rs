@@ -1,9 +1,9 @@
 //! `cargo xtask layers`: checks that crates use each other only as ARCHITECTURE.md allows, and that no files of one
 //! crate use each other in a circle.
 //!
-//! It reads two tables there: between `<!-- layers:begin -->` and `<!-- layers:end -->`, which of our crates may use
-//! which; between `<!-- outside:begin -->` and `<!-- outside:end -->`, which of our crates alone may use an outside
-//! crate.
+//! It reads two tables of that file. The table between `<!-- layers:begin -->` and `<!-- layers:end -->` says which of
+//! our crates may use which. The table between `<!-- outside:begin -->` and `<!-- outside:end -->` says which of our
+//! crates alone may use an outside crate.
 
 mod circles;
 mod graph;
@@ -45,8 +45,8 @@ pub fn run(root: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Every use of one crate by another that the rules do not allow, and every row that the layers table lacks or has for
-/// no crate of ours, each as a sentence.
+/// Every use of one crate by another that the rules do not allow, every crate of ours without a row in the layers
+/// table, and every row without a crate of ours. Each is a sentence.
 fn findings(graph: &Graph, rules: &Rules) -> Vec<String> {
     let mut findings = Vec::new();
     for name in graph.ours() {

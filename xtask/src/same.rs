@@ -113,7 +113,8 @@ fn frames(scene: &str) -> Option<Vec<i64>> {
     Some(frames)
 }
 
-/// Checksums of one subject's pictures and strokes. What `impasto` refuses is noted as refused, and should stay so.
+/// Checksums of one subject's pictures and strokes. If `impasto` refuses a subject, that is noted as its checksum, and
+/// must not change either.
 fn sums(subject: &Subject, impasto: &Path) -> anyhow::Result<Sums> {
     let folder = tempfile::tempdir()?;
     let mut sums = Sums::new();

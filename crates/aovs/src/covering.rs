@@ -66,7 +66,8 @@ impl Covering {
             found.notes.extend(matte.notes());
         };
         let object_of = |id: u32| &scene.objects[id as usize - 1].name;
-        // The ground takes the name of the stroke of the same body that shows most in the pixel.
+        // The ground takes its name from a stroke: of the strokes on the same body, the one that shows most in the
+        // pixel.
         let near = |pixel: usize, of_stroke: &[u32]| {
             let id = self.body_id[pixel];
             let on_body = |share: &&Share| frame.strokes[share.stroke as usize].body_id == id;
@@ -179,7 +180,7 @@ fn all_layers(layers: &[PaintedLayer], width: usize, pixels: usize) -> (PixelSha
     (PixelShares::from_rows(rows), bare.concat())
 }
 
-/// At the borders of bodies the finished picture is a mean over 3 × 3 pixels; takes the same mean of the shares.
+/// Averages the shares over 3 × 3 pixels at the borders of bodies, as the finished picture averages its colours there.
 fn mixed_at_borders(
     laid: PixelShares,
     bare: &[f32],

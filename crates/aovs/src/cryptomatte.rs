@@ -31,7 +31,8 @@ pub fn hash(text: &str) -> u32 {
     state ^ state >> 16
 }
 
-/// The bits of the float that stands for a name: the hash, but never infinite, not a number, or denormal.
+/// The bits of the float that stands for a name. They are the hash, with one bit of the exponent flipped where the
+/// float would be infinite, NaN, zero or denormal.
 pub fn id_bits(name: &str) -> u32 {
     let hash = hash(name);
     let exponent = hash >> 23 & 255;
@@ -73,7 +74,7 @@ impl Matte {
             .collect()
     }
 
-    /// The metadata by which programs that read the file find the mattes and the names.
+    /// The metadata that tells other programs where the mattes are in the file, and which names they hold.
     pub(crate) fn notes(&self) -> Vec<(String, Note)> {
         let key = &format!("{:08x}", hash(self.kind))[..7];
         let manifest: BTreeMap<&str, String> =

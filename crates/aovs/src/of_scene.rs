@@ -81,8 +81,8 @@ pub(crate) fn add(
             .collect();
         channels.push(Channel::new(name, Samples::Float(plane)));
     };
-    // The renderer's offsets have y down, and point from this frame to the other; so do the AOVs (with y up), except
-    // that Z and W of `motion` point from the frame after to this one.
+    // The renderer's offsets point from this frame to the other, and have y down. The AOVs have y up. They also point
+    // from this frame to the other, except Z and W of `motion`, which point from the frame after to this one.
     if let (true, Some(before), Some(after)) = (wanted.has(Aov::Motion), &before, &after) {
         add("motion.X", before, 0, 1.0);
         add("motion.Y", before, 1, -1.0);

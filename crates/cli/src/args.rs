@@ -62,7 +62,7 @@ pub(crate) enum Command {
     /// Write the manual pages into a folder.
     #[command(hide = true)]
     Man {
-        /// The folder, which is made where it is not there.
+        /// The folder, which is made if it does not exist.
         folder: PathBuf,
     },
 }
@@ -154,7 +154,8 @@ pub(crate) struct EditArguments {
     /// Ask for files in the window, never by the desktop's dialogs.
     #[arg(long, hide = true)]
     pub(crate) in_app_dialogs: bool,
-    /// Write to standard error what the window shows, each time that its exact pictures are there, and where its controls are.
+    /// Write to standard error what the window shows and where its controls are, each time that its exact pictures are
+    /// ready.
     #[arg(long, hide = true)]
     pub(crate) tell: bool,
 }
@@ -212,7 +213,7 @@ pub(crate) struct RenderArguments {
     /// Print a line of JSON per frame.
     #[arg(long)]
     pub(crate) json: bool,
-    /// How to say how far it is: a bar in a terminal, or the lines that runners of Open Job Descriptions read.
+    /// How to show progress: a bar in a terminal, or the lines that runners of Open Job Descriptions read.
     #[arg(long, value_enum, default_value_t, value_name = "KIND")]
     pub(crate) progress: Progress,
     #[command(flatten)]
@@ -224,7 +225,7 @@ pub(crate) struct MovieArguments {
     /// The frames, PNG files of one size: #### or %04d or $F4 stands for the frame number.
     #[arg(value_name = "FRAMES")]
     pub(crate) pattern: String,
-    /// What a shell makes of `*`: refused, with the mend.
+    /// Further names, as a shell makes them of `*`. They are refused, and the message says what to write instead.
     #[arg(hide = true)]
     pub(crate) more: Vec<String>,
     /// The movie: .mp4, .mkv (H.264), .mov (ProRes 4444) or .webm (VP9).
@@ -246,7 +247,7 @@ pub(crate) struct MovieArguments {
     pub(crate) quiet: bool,
 }
 
-/// Reads frames a second: a number, or one over another.
+/// Reads a frame rate in frames a second: a number, or one number over another.
 fn parse_fps(text: &str) -> Result<f64, String> {
     let number = |text: &str| text.trim().parse::<f64>().ok();
     let fps = match text.split_once('/') {

@@ -1,4 +1,4 @@
-//! `--cache`: what preparing makes is kept in a folder, for the next process that paints the same scene.
+//! `--cache`: keeps prepared scenes in a folder, for the next process that paints the same scene.
 
 use std::io;
 use std::path::PathBuf;
@@ -18,7 +18,8 @@ const VARIABLE: &str = "IMPASTO_CACHE";
 /// Where prepared scenes are kept.
 #[derive(Args, Clone, Debug, Default)]
 pub(crate) struct CacheArguments {
-    /// A folder to keep prepared scenes in: who paints the same scene again begins at once; $IMPASTO_CACHE when left out, else none.
+    /// A folder to keep prepared scenes in, so that painting the same scene again begins at once; $IMPASTO_CACHE when
+    /// left out, else none.
     #[arg(long, value_name = "DIR")]
     cache: Option<PathBuf>,
     /// The most that this folder may hold; what was used longest ago is removed.
@@ -129,7 +130,7 @@ impl KeptBytes for OpenFile {
     }
 }
 
-/// A painting that is being kept. Dropping this waits until that is done.
+/// Work on the folder that goes on in another thread. Dropping this waits until the work is done.
 #[derive(Default)]
 pub(crate) struct Storing(Option<JoinHandle<()>>);
 

@@ -38,7 +38,8 @@ use clap::{CommandFactory as _, Parser as _};
 use args::{Arguments, Command};
 use failure::Failure;
 
-/// What other programs ask before they use this one: `impasto --version --json`.
+/// The answer to `impasto --version --json`, which other programs ask before they use this one. `None` for any other
+/// command line.
 fn version_as_json() -> Option<String> {
     let words: Vec<_> = std::env::args_os().skip(1).collect();
     let is = |wanted: &[&str]| words.iter().any(|word| wanted.iter().any(|wanted| word == wanted));

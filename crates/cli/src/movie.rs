@@ -25,7 +25,7 @@ pub(crate) fn run(arguments: &MovieArguments) -> Result<(), Failure> {
         let words = format!("-o {}: let the name end in .mp4, .mkv, .mov or .webm", output.display());
         return Err(Failure::Usage(words));
     };
-    // A movie that cannot be transparent, with --alpha, is refused before any frame is read.
+    // With --alpha, a movie that cannot be transparent is refused before any frame is read.
     kind.encoding(arguments.alpha)?;
     let paths = paths(arguments)?;
     not_an_input(output, &paths)?;

@@ -457,7 +457,7 @@ impl Plan {
     }
 }
 
-/// The fault of frames that make one file. If drawing was stopped, there is no file.
+/// The fault of a drawing that makes one file. A drawing that was stopped is an error, because it leaves no file.
 fn of_all(ending: Ending) -> Result<Fault, Failure> {
     match ending {
         Ending::Done(fault) => Ok(fault),

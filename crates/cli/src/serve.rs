@@ -204,7 +204,8 @@ impl Server<'_> {
                 }
             };
             tell(&line)?;
-            // The program that asked removes each file once it has read it. This waits for it if many files are left.
+            // The program that asked removes each file once it has read it. If many files are left, wait for that
+            // program.
             current.wait_until_taken(out, order.ahead);
             Ok::<(), Failure>(())
         })

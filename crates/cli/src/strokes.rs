@@ -42,8 +42,8 @@ struct Row<'a> {
     rank: f32,
     taper: f32,
     bend_deg: f32,
-    /// How far the ends of the stroke are bowed to the left of its middle, as in [`Stroke::bow`], but less than 0 where
-    /// the mark is flipped; for SVG only.
+    /// How far the ends of the stroke are bowed to the left of its middle: [`Stroke::bow`], negated where the mark is
+    /// flipped. For SVG only.
     #[serde(skip)]
     bow: f32,
 }
@@ -238,10 +238,10 @@ fn hex(color: [f32; 3]) -> String {
 /// end, bowed, then tapered and bent.
 fn outline(row: &Row<'_>) -> String {
     let (l, w) = (row.length_px * 0.5, row.width_px * 0.5);
-    // As the shader shifts the mark. The stroke's left is up, which is negative in SVG.
+    // This is how the shader shifts the mark. The stroke's left is up, which is negative in SVG.
     let bow_px = -row.bow * w;
     let shifted = |x: f32| bow_px * (0.176 * (x / l).powi(2) - 0.06);
-    // Where handles lie so that the curve between passes the middle.
+    // How far the curve's handles are shifted, so that the curve passes through the shifted middle.
     let handle = (8.0 * shifted(0.0) - shifted(0.92 * l) - shifted(0.8 * l)) / 6.0;
     let (upper, lower) = (handle - w, handle + w);
     let at = |x: f32, y: f32| {
@@ -312,7 +312,7 @@ mod tests {
             bow: 0.0,
         };
         assert_eq!(bent(&row(0.0, 0.0), [30.0, 4.0]), [30.0, 4.0]);
-        // Bowed by 2 half widths: its end is 0.116 of these to the left, which is above.
+        // The bow is 2 half widths, which is 10 px. The end lies 0.116 of the bow to the left, which is up.
         let bowed = outline(&Row { bow: 2.0, ..row(0.0, 0.0) });
         assert!(bowed.contains("50.00 -1.16"), "{bowed}");
         assert_eq!(bent(&row(1.0, 0.0), [50.0, 4.0]), [50.0, 0.0]);

@@ -18,7 +18,8 @@ pub fn wrap_half_pi(angle_rad: f64) -> f64 {
 
 /// `y.atan2(x)` without branches, to 3e-7 rad; 0 at the origin.
 ///
-/// The series of Abramowitz and Stegun 4.4.49 at the smaller of |y/x| and |x/y|; then the octant is put back.
+/// Takes the series of Abramowitz and Stegun 4.4.49 at the smaller of |y/x| and |x/y|, then moves the result to its
+/// octant.
 #[inline(always)]
 pub fn atan2(y: f32, x: f32) -> f32 {
     let (x_abs, y_abs) = (x.abs(), y.abs());

@@ -1,4 +1,4 @@
-//! The cofactors of a matrix: they take normals where the matrix takes surfaces.
+//! The cofactors of a matrix: where the matrix transforms a surface, its cofactors transform the normals.
 
 use glam::{DMat3, Mat3};
 

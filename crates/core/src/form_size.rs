@@ -28,7 +28,7 @@ const FIRST_RADIUS: f32 = 2.5;
 /// numbers from 1 on that a float holds in its exponent and the first bit of its mantissa.
 const RADII: usize = 24;
 
-/// Samples no farther than this smooth the measure, in spacings.
+/// The sizes are smoothed over samples within this radius, in spacings.
 const SMOOTHING_RADIUS: f32 = 2.7;
 
 /// The size of the form all over a surface, measured at samples of it.
@@ -36,7 +36,7 @@ const SMOOTHING_RADIUS: f32 = 2.7;
 /// The samples that lie within a radius R of a point, on the same form as the point, cover a share of the disc of that
 /// radius. On a plane they cover all of it; once R passes the end of the form, the share falls. The size is the R at
 /// which they cover a fifth of the disc: 3.2 widths of a flat strip, the radius of a sphere, 2.8 radii of a long
-/// cylinder. The two sides of a plate are measured apart, so a thin plate is as large as it looks.
+/// cylinder. The two sides of a plate are measured separately, so a thin plate is as large as it looks.
 #[derive(Clone, Debug, Default)]
 pub struct FormSize {
     /// In the order of their buckets.
@@ -208,8 +208,8 @@ fn size_ln_from(beyond: &[f32], first_radius: f32, density: f32) -> f32 {
         let fill_ln = (covered as f32 / (density * LEAST_SHARE * std::f32::consts::PI * radius_sq)).ln();
         let radius_ln = 0.5 * radius_sq.ln();
         if fill_ln < 0.0 {
-            // Interpolated between the last radius and this one. If even the first one is too large: the radius of the
-            // disc of which the samples found cover a fifth.
+            // Interpolates between the last radius and this one. If even the first radius is too large, the size is the
+            // radius of a disc of which the samples found cover a fifth.
             let [last_radius_ln, last_fill_ln] = last.unwrap_or([radius_ln + 0.5 * fill_ln, 0.0]);
             let part = if last.is_some() { last_fill_ln / (last_fill_ln - fill_ln) } else { 0.0 };
             return last_radius_ln + part * (radius_ln - last_radius_ln);
@@ -276,7 +276,7 @@ mod tests {
             size.at(outward * 0.5 + Vec3::Y * 0.2 * (step % 40 - 20) as f32, outward)
         };
         let found = (0..200).map(at).sum::<f32>() / 200.0;
-        // The strip within 25° to either side agrees: 0.873 radii wide, so that 2R·0.873 = 0.2·πR².
+        // Normals agree within 25° to either side, on a strip 0.873 radii wide. So 2R·0.873 = 0.2·πR², with R in radii.
         assert!((found / 0.5 / 2.78 - 1.0).abs() < 0.05, "{found}");
     }
 

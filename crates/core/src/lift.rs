@@ -10,9 +10,9 @@ use glam::{DVec2, DVec3};
 /// N or N', by columns, each in model space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lift {
-    /// The step on the surface that is one pixel along x in the reference picture; of N', one pixel along the stroke.
+    /// The step on the surface that is one pixel along x in the reference picture; in N', one pixel along the stroke.
     pub along: DVec3,
-    /// The step that is one pixel along y; of N', one pixel across the stroke, to its left.
+    /// The step that is one pixel along y; in N', one pixel across the stroke, to its left.
     pub across: DVec3,
 }
 
@@ -187,7 +187,8 @@ mod tests {
         assert!((blend.across - DVec3::new(-1.75, 1.0, 0.75)).length() < 1e-12, "{}", blend.across);
     }
 
-    /// Seen from above, what is farther away is up; seen from below, what is nearer: so both have the same right.
+    /// Seen from above, what is farther away is up; seen from below, what is nearer is up. So both views have the same
+    /// right axis.
     #[test]
     fn a_surface_that_faces_straight_up_or_down_has_fixed_axes() {
         let close = |found: [DVec3; 2], wanted: [DVec3; 2]| {

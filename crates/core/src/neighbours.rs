@@ -34,7 +34,7 @@ pub struct Neighbours {
     indices: Vec<u32>,
 }
 
-/// Lists of neighbours as plain arrays, to be kept.
+/// Lists of neighbours as plain arrays, in which form they are stored.
 #[derive(Clone, Copy, Debug)]
 pub struct NeighbourArrays<'a> {
     /// For each particle the slot of its list.

@@ -39,9 +39,9 @@ pub struct VertexNoise {
     pub tile: Arc<Tile>,
     /// NS: displacement from the lowest noise to the highest, model units.
     pub scale: f64,
-    /// The directions along which they are moved.
+    /// The directions along which the vertices are moved.
     pub along: Along,
-    /// Whether normals are those of the moved surface, so that it is lit as it is moved.
+    /// Whether normals are those of the moved surface, so that the light shows how it is moved.
     pub moves_normals: bool,
 }
 

@@ -1,4 +1,4 @@
-//! The parts of a body: how large each is, and which way it is long.
+//! The parts of a body: the principal axes of each, and its length along them.
 
 use std::collections::HashMap;
 
@@ -6,7 +6,7 @@ use glam::{DMat3, DVec3, Vec3};
 
 use crate::{TriangleMesh, shells};
 
-/// A part of a mesh: one shell, or together all shells that are too small to count alone.
+/// A part of a mesh: one shell, or all the shells that are too small to count alone, taken together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Part {
     /// Centroid of its surface, model space.

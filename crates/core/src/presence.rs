@@ -1,4 +1,4 @@
-//! Presence: how far a stroke is there, 0..=1, so that density follows the view without a stroke ever popping.
+//! Presence: how much of a stroke is shown, 0..=1. With it, density follows the view, and no stroke ever pops.
 
 /// Presence by supply, 0..=1. `supply_ln` is x = ln(D/u): D is the strokes wanted per pixel divided by the particles
 /// per pixel (it may exceed 1), u the particle's rank in (0, 1).

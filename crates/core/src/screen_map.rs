@@ -75,7 +75,8 @@ impl ScreenMap {
         let Some(UnevenPose { world_from_model, world_from_normal }) = self.uneven else {
             return facing(jacobian, normal_in_model);
         };
-        // In world space the normal is M⁻ᵀ n, and the direction to the eye M m, m being the one in model space.
+        // Let M be the pose, and n and m the normal and the direction to the eye in model space. In world space these
+        // two are M⁻ᵀ n and M m.
         let towards_eye = jacobian[0].cross(jacobian[1]);
         let lengths =
             (world_from_normal * normal_in_model).length() * (world_from_model * towards_eye).length();

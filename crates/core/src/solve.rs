@@ -21,8 +21,8 @@ const CHUNK: usize = 8192;
 pub struct BakedParticles {
     /// Position in model space: x, y, z.
     pub position: [Vec<f32>; 3],
-    /// Unit normal in model space: x, y, z. Of particles that a bent surface has carried, its length is the area of the surface now
-    /// over that at rest.
+    /// Unit normal in model space: x, y, z. For particles that a bent surface has carried, it is not unit: its length
+    /// is the area of the surface now over its area at rest.
     pub normal: [Vec<f32>; 3],
     /// First column of N': x, y, z.
     pub along: [Vec<f32>; 3],
@@ -147,7 +147,7 @@ impl BakedParticles {
         vector(&self.position, particle)
     }
 
-    /// A particle's normal in model space, of the length that [`BakedParticles::normal`] tells.
+    /// A particle's normal in model space. For its length, see [`BakedParticles::normal`].
     #[inline]
     pub fn normal_of(&self, particle: usize) -> DVec3 {
         vector(&self.normal, particle)

@@ -38,10 +38,10 @@ pub struct Document {
     history: History,
     selection: Selection,
     options: LoadOptions,
-    /// The file as it was read or written last.
+    /// The stamp of the file when it was last read or written.
     stamp: Option<Stamp>,
-    /// The text that the scene was read from; `None` unless parts of it could not be read, or the user was editing it when
-    /// the window was killed.
+    /// The text that the scene was read from. It is stored only if parts of it could not be read, or if the user was
+    /// editing it when the window was killed.
     source: Option<Arc<Source>>,
     revision: u64,
 }
@@ -58,7 +58,7 @@ pub struct Step {
 /// The last frame of a new scene: five seconds at 24 frames per second.
 const LAST_FRAME: i64 = 119;
 
-/// A version of a document, to see what a command would make of it.
+/// A copy of a document's scene on which commands can be tried.
 #[derive(Clone, Debug)]
 pub struct Trial {
     loaded: Arc<LoadedScene>,
@@ -196,7 +196,7 @@ impl Document {
         self.edited(command).err()
     }
 
-    /// The scene as it is now, to try commands on, on any thread.
+    /// A copy of the scene as it is now. Commands can be tried on it on any thread.
     pub fn trial(&self) -> Trial {
         Trial { loaded: self.held(), folders: self.options.folders.clone() }
     }
@@ -269,8 +269,8 @@ impl Document {
         held.unwrap_or_else(|| Arc::clone(&self.loaded))
     }
 
-    /// Keeps a mesh that was already read, by its path relative to the scene's folder, so that it is not read again. If
-    /// a mesh is kept for this path already, that one stays. The scene does not change.
+    /// Stores a mesh that was already read, so that it is not read again. `mesh` is its path relative to the scene's
+    /// folder. If a mesh is stored for this path already, that one stays. The scene does not change.
     pub fn hold_mesh(&mut self, mesh: &str, file: Arc<MeshFile>) {
         let mut loaded = (*self.loaded).clone();
         loaded.meshes.entry(mesh.to_owned()).or_insert(file);
@@ -292,7 +292,7 @@ impl Document {
                 Arc::new(read.0)
             }
         };
-        // So that the command need not read it again.
+        // The command then need not read the file again.
         self.hold_mesh(mesh, Arc::clone(&file));
         self.apply(&Command::Arrange(Arrange::Import { mesh: mesh.to_owned(), file }))
     }

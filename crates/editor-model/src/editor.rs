@@ -52,7 +52,7 @@ struct TransformDrag {
     objects: Vec<String>,
     /// The light that is transformed, if it is a light.
     light: Option<String>,
-    /// Whether a press began it; then the release ends it.
+    /// Whether a press of the button began the transform. If so, the release ends it.
     held: bool,
 }
 
@@ -66,8 +66,8 @@ enum Busy {
     Navigating(Navigation, DVec3),
     /// A drag with the shot camera tool moves the shot's camera, now at this pose.
     Shot(CameraPose),
-    /// A drag, or after a move, turn or scale key the pointer alone, moves the shot's camera, now at this pose. The
-    /// other fields are as in `Navigating`.
+    /// The pointer moves the shot's camera, now at this pose: in a drag, or without a button after a move, turn or
+    /// scale key. The other fields are as in `Navigating`.
     ShotView(Navigation, DVec3, CameraPose),
     /// A tool of Paint has the pointer.
     Painting,
@@ -98,14 +98,14 @@ pub struct Editor {
     right_px: Option<DVec2>,
     held: Modifiers,
     at_secs: f64,
-    /// When the pointer last did something. `at_secs` goes on while it rests.
+    /// When the pointer last did something. `at_secs` is later than this while the pointer rests.
     moved_secs: f64,
-    /// Whether the tool was informed that the pointer rests.
+    /// Whether the tool already knows that the pointer rests.
     has_rested: bool,
     said: Vec<Said>,
     requests: Vec<Request>,
     version: u64,
-    /// [`losses_of`] the document when messages were last taken, or when the document was saved after that.
+    /// The result of [`losses_of`] when messages were last taken or the document was last saved, whichever was later.
     losses: (usize, bool),
 }
 
@@ -117,7 +117,7 @@ fn losses_of(document: &Document) -> (usize, bool) {
 impl Editor {
     /// An editor with a document.
     pub fn new(document: Document) -> Self {
-        // A shot of another program may begin long after frame 0.
+        // A shot from another program may begin long after frame 0.
         let timeline = &document.scene().timeline;
         let frame = reference_frame(document.scene()).max(timeline.first as f64).min(timeline.last as f64);
         let losses = losses_of(&document);
@@ -165,7 +165,7 @@ impl Editor {
         (self.document.shown(), self.version)
     }
 
-    /// Takes the painting that was prepared of the scene as shown.
+    /// Takes over a painting that was prepared from the scene as shown.
     pub fn prepared(&mut self, painting: Painting) {
         self.picker.follow(&painting, self.session.frame);
         self.painting = Some(painting);
@@ -398,7 +398,7 @@ impl Editor {
         self.pointer_px = None;
     }
 
-    /// The words of the status line, the keys in use in brackets.
+    /// The text of the status line. Keys are in brackets, as the user's keymap has them.
     pub fn status(&self) -> String {
         self.keymap.in_own_keys(&self.status_in_usual_keys())
     }
@@ -418,7 +418,7 @@ impl Editor {
         }
         let light = self.active_light().map(|place| place.light.name);
         let object = || Some(&self.document.shown().scene.objects[self.active_object()?]);
-        // A drag does not take the ground away.
+        // The hint for a ground names no drag, because a drag does not move grounds.
         let is_ground = light.is_none() && object().is_some_and(|object| Ground::of_object(object).is_some());
         let object = light.or_else(|| Some(object()?.name.clone()));
         let object = object.as_deref().unwrap_or("an object");

@@ -1,5 +1,5 @@
-//! Looking through the finished frames of a rendering: which one is to be shown, and which are read from their files
-//! ahead of time. The time is handed in, and nothing is edited.
+//! Looking through the finished frames of a rendering: which frame is to be shown, and which are read from their
+//! files ahead of time. The caller passes the time. Nothing is edited here.
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ mod tests;
 /// How many frames are read before they are needed.
 const AHEAD: usize = 12;
 
-/// The frames that are looked through, and which of them is to be shown.
+/// The frames that the user looks through, and which of them is to be shown.
 #[derive(Clone, Debug)]
 pub struct FinishedFrames {
     frames: Vec<(i64, PathBuf)>,
@@ -31,8 +31,8 @@ impl FinishedFrames {
         is_any.then(|| Self { frames, fps, looped: true, at: 0, playback: Playback::default() })
     }
 
-    /// Takes the frames that are finished by now. The frame that is asked for stays, and so does playing.
-    /// Returns whether any are new.
+    /// Takes over the list of the frames that are finished by now. The frame that is asked for stays the same, and
+    /// playback goes on. Returns whether any frames are new.
     pub fn extend(&mut self, frames: Vec<(i64, PathBuf)>) -> bool {
         let stays = self.frames.get(self.at).map(|(number, _)| *number);
         let at = stays.and_then(|number| frames.iter().position(|(other, _)| *other == number));
@@ -86,13 +86,13 @@ impl FinishedFrames {
         }
     }
 
-    /// Stops, and goes to a frame; an index past the ends is the end.
+    /// Stops, and goes to a frame. An index beyond either end goes to that end.
     pub fn go_to(&mut self, index: i64) {
         self.playback.stop();
         self.at = index.clamp(0, self.frames.len() as i64 - 1) as usize;
     }
 
-    /// Stops, and goes this many frames on; past an end it goes on at the other one if it loops.
+    /// Stops, and goes this many frames on. If playback loops, a step past one end goes on from the other end.
     pub fn step(&mut self, by: i64) {
         let index = self.at as i64 + by;
         self.go_to(if self.looped { index.rem_euclid(self.frames.len() as i64) } else { index });
@@ -116,8 +116,8 @@ impl FinishedFrames {
         self.playback.wait_secs(now_secs)
     }
 
-    /// The indices of the frames to read, the most urgent first: the frame that is asked for; unless it plays, the one
-    /// before; then those after it.
+    /// The indices of the frames to read, the most urgent first: the frame that is asked for, the frame before it (only
+    /// while playback is stopped), and the frames after it.
     pub fn wanted(&self) -> Vec<usize> {
         let count = self.frames.len();
         let mut wanted: Vec<usize> = (0..=AHEAD)

@@ -20,8 +20,8 @@ const SQUARE: [f64; 2] = [0.3, 0.16];
 const REACH_PX: f64 = 12.0;
 /// Radius of the dot in the middle, pixels.
 const CENTRE_PX: f64 = 10.0;
-/// An arm that shows shorter than this share of its length points nearly at the eye, and is left out; so is a square
-/// that shows smaller than this share of its area.
+/// An arm points nearly at the eye, and is left out, if it shows at less than this share of its length. A square is
+/// left out if it shows at less than this share of its area.
 const LEAST_SHOWN: f64 = 0.15;
 const RING_PIECES: usize = 64;
 
@@ -101,8 +101,8 @@ impl Gizmo {
         &self.handles
     }
 
-    /// The handle under the pointer, if any. The dot goes before squares, squares before arms, arms before rings; of
-    /// several of one kind, the one closest to the pointer is taken.
+    /// The handle under the pointer, if any. The dot goes before squares, squares before arms, arms before rings. Among
+    /// handles of one kind, the one closest to the pointer is taken.
     pub fn hit(&self, at_px: DVec2) -> Option<&Handle> {
         let rank = |handle: &Handle| match handle.shape {
             HandleShape::Centre { .. } => 0,
@@ -117,7 +117,7 @@ impl Gizmo {
 }
 
 impl HandleShape {
-    /// How far a pointer is from it; `None` out of reach.
+    /// How far a pointer is from the handle; `None` out of reach.
     fn gap_px(&self, at_px: DVec2) -> Option<f64> {
         let gap = match self {
             // The dot is hit only inside its own circle, not within `REACH_PX` of it.

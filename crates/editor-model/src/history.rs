@@ -91,7 +91,8 @@ impl History {
         self.done.last().map(|entry| &entry.change)
     }
 
-    /// Puts a change in place of that of the last entry; without a change, the entry goes. Whether it is still there.
+    /// Replaces the change of the last entry. Without a change, removes the entry. Returns whether the entry is still
+    /// there.
     pub(crate) fn replace_last(&mut self, change: Option<SceneChange>, selection: Selection) -> bool {
         let Some(change) = change else {
             self.done.pop();

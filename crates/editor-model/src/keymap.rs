@@ -1,6 +1,6 @@
 //! The keymap: what each key does, in two presets (Blender's keys and Maya's). `Editor::key` decides which scope holds.
-//! A modal tool takes every key. In the other scopes, keys without a binding there do what they do everywhere; while
-//! text is typed, only keys that text fields have no use for.
+//! A modal tool takes every key. In the other scopes, a key without a binding there does what it does everywhere. While
+//! text is typed, this is so only for keys that text fields do not use.
 
 mod hints;
 mod own;
@@ -35,13 +35,13 @@ pub enum Action {
     Quit,
     /// Adds a mesh to the scene.
     ImportMesh,
-    /// Opens the sheet that renders frames.
+    /// Opens the dialog that renders frames.
     Render,
-    /// Opens the sheet that renders frames, for a movie of them.
+    /// Opens the dialog that renders frames, with a movie chosen as the kind of file.
     ExportMovie,
-    /// Takes the last entry of the history back.
+    /// Undoes the last entry of the history.
     Undo,
-    /// Does again what was taken back last.
+    /// Redoes the entry that was undone last.
     Redo,
     /// Searches all commands.
     Palette,
@@ -49,7 +49,7 @@ pub enum Action {
     Shortcuts,
     /// Reads the scene from the text that was edited in the panel of problems.
     ReadSource,
-    /// The next area of the window takes the keys.
+    /// Gives the keyboard focus to the next area of the window.
     NextArea,
     /// Switches to this mode.
     Arrange,
@@ -119,7 +119,7 @@ pub enum Action {
     Lock,
     /// Moves the view so that the selected objects fill it.
     FrameSelected,
-    /// Moves the view so that all objects fill it, without those that are hidden or have a built-in mesh.
+    /// Moves the view so that all objects fill it, except those that are hidden or have a built-in mesh.
     FrameAll,
     /// Looks from +Z.
     ViewFront,
@@ -267,7 +267,7 @@ pub struct Keymap {
     pub own: OwnKeys,
 }
 
-/// The scopes of bindings. One holds at a time.
+/// The scopes of bindings. One scope holds at a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Scope {
     /// A modal move, turn or scale.
@@ -296,14 +296,14 @@ enum Where {
 struct Binding {
     action: Action,
     name: &'static str,
-    /// The scopes that it holds in.
+    /// The scopes in which it applies.
     holds: &'static [Where],
     blender: &'static [Chord],
     maya: &'static [Chord],
 }
 
 impl Keymap {
-    /// What a key does; nothing if it is text, or has no meaning.
+    /// The action of a key; `None` if the key is text or has no meaning.
     pub fn action_for(&self, key: Key, held: Modifiers, scope: Scope) -> Option<Action> {
         let chord = Chord { key, held };
         let bound = |place: Where| {
@@ -337,7 +337,8 @@ impl Keymap {
         chords.first().map(Chord::text)
     }
 
-    /// The first key of an action that does not do something else in `scope`; `None` if it has none.
+    /// The first of the action's keys that does the action in `scope`. If none does, the first that does nothing there;
+    /// `None` if there is no such key either.
     pub fn shortcut_text_in(&self, action: Action, scope: Scope) -> Option<String> {
         let chords = self.bindings().filter(|(binding, _)| binding.action == action);
         let chords: Vec<Chord> = chords.flat_map(|(_, chords)| chords.to_vec()).collect();
@@ -360,8 +361,8 @@ impl Keymap {
         })
     }
 
-    /// What the pointer's buttons and wheel do to the view. `None`: nothing; the event is free for other uses, such as
-    /// a drag of the tool.
+    /// What a button or the wheel of the pointer does to the view. `None` if it does nothing to the view: the event is
+    /// then free for other uses, such as a drag of the tool.
     pub fn navigation(&self, button: Button, held: Modifiers) -> Option<Navigation> {
         let Modifiers { ctrl, shift, alt } = held;
         match (self.preset, button) {
@@ -376,8 +377,8 @@ impl Keymap {
         }
     }
 
-    /// Every binding with its keys: those that the user chose for it, or else those of the preset without the ones that
-    /// the user gave to another binding.
+    /// Every binding with its keys. These are the keys that the user chose for it, or else the preset's keys, except
+    /// those that the user gave to another binding.
     fn bindings(&self) -> impl Iterator<Item = (&'static Binding, Vec<Chord>)> {
         BINDINGS.iter().enumerate().map(|(index, binding)| {
             let chords = match self.own.of(index) {
@@ -457,7 +458,7 @@ impl Action {
 }
 
 impl Key {
-    /// The character that it types into a number.
+    /// The character that the key types into a number.
     pub fn typed(self) -> Option<char> {
         match self {
             Self::Digit(digit) | Self::NumPad(digit) => char::from_digit(u32::from(digit), 10),

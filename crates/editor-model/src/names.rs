@@ -4,7 +4,7 @@ use impasto_scene::document::{Scene, Selector};
 
 use crate::refusal::Refusal;
 
-/// The wanted name if it is not in `taken`, else the first numbered one that is not: `apple 2`, `apple 3`.
+/// The wanted name if it is not in `taken`. If it is, the first numbered name that is free: `apple 2`, `apple 3`.
 pub(crate) fn unique<'a>(wanted: &str, taken: impl Iterator<Item = &'a str> + Clone) -> String {
     let is_free = |name: &str| taken.clone().all(|other| other != name);
     if is_free(wanted) {

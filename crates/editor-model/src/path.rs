@@ -31,7 +31,7 @@ const STEP_PX: f64 = 1.0;
 pub(crate) const STAMP_SHARE: f64 = 0.25;
 /// A guide leaves out points of its path as long as its line stays within this distance of the path.
 const TOLERANCE_PX: f64 = 0.5;
-/// The same on a bent body: a straight gesture there is a curve on the surface at rest, and needs more points.
+/// This distance on a bent body. A straight gesture there is a curve on the surface at rest, and needs more points.
 const BENT_TOLERANCE_PX: f64 = 0.1;
 /// If two steps are farther apart on the surface than this many pixels, it is checked whether the surface is connected
 /// there.
@@ -122,7 +122,7 @@ pub enum PathSense {
 }
 
 impl SurfacePath {
-    /// Begins at a press that met a surface, of a pointer without pressure.
+    /// Begins at a press on a surface, for a pointer that reports no pressure.
     pub fn press(
         at_px: DVec2,
         hit: &Hit,
@@ -147,7 +147,7 @@ impl SurfacePath {
         }
     }
 
-    /// The path with this pressure at its press; a path that has gone on already stays as it is.
+    /// The path with this pressure at its press. A path that already has more points stays as it is.
     pub fn pressed(mut self, pressure: f64) -> Self {
         if let [piece] = self.pieces.as_mut_slice()
             && let [point] = piece.as_mut_slice()
@@ -254,7 +254,7 @@ impl SurfacePath {
         self.stamps_of(share, &|_| 1.0)
     }
 
-    /// As [`Self::stamps_apart`], of a brush whose radius at a point is smaller by the factor `narrows`, > 0.
+    /// As [`Self::stamps_apart`], for a brush whose radius at each point is smaller by the factor `narrows`, > 0.
     pub fn stamps_of(&self, share: f64, narrows: &dyn Fn(&PathPoint) -> f64) -> Vec<PathPoint> {
         let spacing_at = |point: &PathPoint| self.radius * share * narrows(point);
         let mut stamps = Vec::new();
@@ -324,7 +324,7 @@ impl SurfacePath {
         guides
     }
 
-    /// Draws on from the tip, which the string kept behind, to where the pointer was released.
+    /// Draws on from the tip, which lags behind by the length of the string, to where the pointer was released.
     fn finish_at(&mut self, hand: DVec2, pick: &mut dyn FnMut(DVec2) -> Option<Hit>) {
         let from = self.tip;
         let count = (from.distance(hand) / STEP_PX).ceil().clamp(1.0, 65_536.0) as u32;

@@ -48,13 +48,13 @@ pub struct Hit {
     pub distance: f64,
     /// Whether the painted side was met: false inside a closed surface.
     pub front: bool,
-    /// Whether the painted side is the triangle's back, from where its corners wind clockwise.
+    /// Whether the painted side is the triangle's back, the side from which its corners wind clockwise.
     pub flipped: bool,
 }
 
 impl Picker {
-    /// Takes the objects' surfaces in the order of the scene, each with its shape. Returns how many trees had to be
-    /// built.
+    /// Takes over the objects' surfaces in the order of the scene, each with its shape. Returns how many trees had to
+    /// be built.
     pub fn update(&mut self, bodies: &[(Arc<BodySurface>, BodyShape)]) -> usize {
         let kept = std::mem::take(&mut self.trees);
         let offered = std::mem::take(&mut self.offered);
@@ -144,8 +144,9 @@ impl Picker {
         self.trees.get(object).map(|tree| tree.surface())
     }
 
-    /// Least and greatest corner of the box round those triangles of an object whose middles are `within`, as they are
-    /// now, in its own space. The `position_in_world` of what `within` is given is in the object's own space too.
+    /// Least and greatest corner of the box round some triangles of an object as they are now, in the object's own
+    /// space. The triangles are those for whose middle `within` is true. The [`Hit`] that `within` gets has its
+    /// `position_in_world` in the object's own space, too.
     pub fn bounds_where(&self, object: usize, within: impl Fn(&Hit) -> bool) -> Option<[DVec3; 2]> {
         let tree = self.trees.get(object)?;
         let mut bounds: Option<[DVec3; 2]> = None;

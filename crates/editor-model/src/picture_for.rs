@@ -10,9 +10,9 @@ use crate::selection::{Item, Selection};
 pub enum PictureFor {
     /// The brush of a region, or of the scene.
     Brush(StrokesOf),
-    /// The texture of the object of this name.
+    /// The texture of the named object.
     Texture(String),
-    /// A part of the noise of the material of the object of this name.
+    /// A part of the noise in the material of the named object.
     Noise(String, NoisePart),
 }
 
@@ -36,7 +36,7 @@ impl PictureFor {
         }
     }
 
-    /// The folder beside the scene that takes the copy of a picture from elsewhere.
+    /// The folder beside the scene into which a picture from elsewhere is copied.
     pub fn folder(&self) -> &'static str {
         match self {
             Self::Brush(_) => "brushes",
@@ -54,8 +54,8 @@ impl PictureFor {
         }
     }
 
-    /// The command that sets the picture to `name`, its path from the scene's folder, or to none. Returns `None` if the
-    /// object is gone, or has no such noise.
+    /// The command that sets the picture to `name`, its path from the scene's folder. Without a `name`, it removes the
+    /// picture. Returns `None` if the object is gone, or has no such noise.
     pub fn command(&self, scene: &Scene, name: Option<String>) -> Option<Command> {
         let material_of = |object: &str| {
             let found = scene.objects.iter().find(|known| known.name == object)?;

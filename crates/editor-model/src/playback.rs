@@ -1,5 +1,5 @@
-//! Plays the shot in the editor: says which frame is to be shown now, and which frames were dropped. The time is handed
-//! in, as seconds of any clock.
+//! Plays the shot in the editor: says which frame is to be shown now, and which frames were dropped. The caller passes
+//! the time, in seconds of any clock.
 //!
 //! ```text
 //! play ─▶ tick(now) ─▶ frame asked for ─▶ a picture ─▶ shown(frame, now) ─▶ dropped, lead
@@ -181,7 +181,7 @@ impl Playback {
         };
         playing.asked = asked.max(playing.asked).min(playing.end().unwrap_or(i64::MAX));
         if is_still {
-            // The only frame of a range counts as shown at every tick.
+            // If the range has only one frame, it counts as shown at every tick.
             (playing.shown, playing.due_secs) = (playing.asked, now_secs);
         }
         let frame = playing.frame_of(playing.asked);
@@ -196,8 +196,8 @@ impl Playback {
         self.playing.as_ref().map(|playing| playing.frame_of(playing.asked) as f64)
     }
 
-    /// Call this when a picture of this frame is shown. Returns whether playing goes on to it: it was asked for, and is
-    /// later than what was shown.
+    /// Call this when a picture of this frame is shown. Returns whether playback goes on to this frame. It does if the
+    /// frame was asked for and is later than the one that was shown.
     pub fn shown(&mut self, frame: f64, now_secs: f64) -> bool {
         let Some(playing) = &mut self.playing else { return false };
         let (Course { fps, pacing, .. }, index) = (playing.course, playing.index_of(frame.round() as i64));

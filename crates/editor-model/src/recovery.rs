@@ -1,4 +1,4 @@
-//! Copies of unsaved work, in a folder of the user's: written during work, and offered to the user after a crash.
+//! Copies of unsaved work, in one of the user's folders. They are written during work, and offered after a crash.
 //!
 //! ```text
 //! Document ─▶ Work ─▶ Keeper (a thread) ─▶ Recovery::keep ─▶ NAME.ron   whole or not at all, never over a scene
@@ -92,12 +92,13 @@ impl Recovery {
     /// Makes an offered copy this session's own, so that work goes on with it.
     ///
     /// # Errors
-    /// What the system said. The copy then stays what it was, unless only writing the folder to the disk failed.
+    /// What the system said. The copy then stays an offered one, unless only the last step failed: writing the folder
+    /// to the disk.
     pub fn take_over(&self, offer: Offer) -> io::Result<()> {
         fs::rename(&offer.file, self.file())?;
-        // A lock without a copy means nothing; if it cannot be removed, the next call of `offers` does it.
+        // A lock file without a copy means nothing. If it cannot be removed now, the next call of `offers` removes it.
         let _ = fs::remove_file(&offer.lock_file);
-        // The rename is safe on the disk only after its folder was written there.
+        // The rename is safe only once the folder itself is written to the disk.
         if cfg!(unix) { File::open(&self.folder)?.sync_all() } else { Ok(()) }
     }
 
@@ -160,8 +161,8 @@ impl Offer {
     }
 }
 
-/// Takes the lock of a copy; `None` if a session holds it (the copy's own, or one that was offered it), or if the lock
-/// file cannot be opened.
+/// Takes the lock of a copy; `None` if a session holds the lock (the copy's own session, or one to which the copy was
+/// offered), or if the lock file cannot be opened.
 fn lock_of(lock_file: &Path) -> Option<File> {
     let lock = File::options().create(true).truncate(false).write(true).open(lock_file).ok()?;
     match lock.try_lock() {

@@ -1,4 +1,5 @@
-//! The render sheet: which frames, what size, which files; and the plan that follows from them.
+//! The settings in the render sheet (the dialog for rendering): which frames, what size, which files. Also the plan
+//! that follows from these settings.
 //!
 //! ```text
 //! RenderSettings ─▶ plan(document, frame) ─▶ RenderPlan: the document as it is now, each frame and its file
@@ -105,7 +106,7 @@ pub enum Field {
 pub struct Fault {
     /// The field.
     pub field: Field,
-    /// What is wrong with it, and the mend.
+    /// What is wrong with the field, and how to mend it.
     pub words: String,
 }
 
@@ -176,7 +177,7 @@ impl RenderSettings {
     /// The document as it is now, with everything that is needed to render it.
     ///
     /// # Errors
-    /// What is wrong with the first field that is wrong.
+    /// The fault of the first field that has one.
     pub fn plan(&self, document: &Document, shown: f64) -> Result<RenderPlan, Fault> {
         let fault = |field: Field| move |words: String| Fault { field, words };
         let list = self.frames(document.scene(), shown);
@@ -217,8 +218,8 @@ impl RenderPlan {
         Self { existing: Existing::Keep, ..self }
     }
 
-    /// The file of a frame. If a frame becomes two files, they have this name with either ending. A movie is one file
-    /// for all frames.
+    /// The file of a frame. If a frame becomes two files, both have this name, each with its own ending. A movie is one
+    /// file for all frames.
     pub fn path(&self, frame: i64) -> PathBuf {
         match self.kind {
             FileKind::Movie => self.output.clone(),
@@ -241,7 +242,7 @@ impl RenderPlan {
         self.output.parent().unwrap_or(Path::new("/"))
     }
 
-    /// Whether the files lie elsewhere than with the scene.
+    /// Whether the files lie outside the scene's folder.
     pub fn is_outside(&self) -> bool {
         let folder = self.loaded.path.parent().unwrap_or(Path::new(""));
         let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());

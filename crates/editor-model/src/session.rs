@@ -16,7 +16,7 @@ pub enum Mode {
     Animate,
 }
 
-/// A tool of the rail.
+/// A tool of the rail, the tool bar on the left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Tool {
     /// Arrange, Animate: picks, and drags what is picked.
@@ -27,7 +27,7 @@ pub enum Tool {
     Turn,
     /// Arrange, Animate: the gizmo's boxes.
     Scale,
-    /// Arrange: adds a light where one clicks.
+    /// Arrange: adds a light where the user clicks.
     AddLight,
     /// Arrange: orbits the shot camera.
     ShotCamera,
@@ -242,7 +242,8 @@ pub struct Session {
     pub frame_before_paint: Option<f64>,
     /// Whether playing begins again at the end of the range.
     pub looped: bool,
-    /// Whether, once the shot was played, the frames of its range are painted exactly while the window rests.
+    /// Whether the frames of the range are painted exactly, not as drafts, while the window is idle. This begins once
+    /// the shot was played.
     pub finishes: bool,
     /// Whether playing follows the clock or shows every frame.
     pub pacing: Pacing,
@@ -335,7 +336,7 @@ impl Session {
         self.lanes[usize::from(self.mode != Mode::Animate)]
     }
 
-    /// Opens the lanes of keys, or folds them to a strip. This is remembered for Animate apart from the other modes.
+    /// Opens the lanes of keys, or folds them to a strip. Animate has a state of its own; the other modes share one.
     pub fn show_lanes(&mut self, shown: bool) {
         self.lanes[usize::from(self.mode != Mode::Animate)] = shown;
     }
@@ -345,7 +346,7 @@ impl Session {
         self.curves && self.shows_lanes()
     }
 
-    /// Shows curves in the place of keys, in lanes that are opened for it, or keys again.
+    /// Shows curves in the place of keys, and opens the lanes for them; or shows the keys again.
     pub fn toggle_curves(&mut self) {
         self.curves = !self.shows_curves();
         if self.curves {

@@ -13,8 +13,8 @@ use impasto_scene::problem::Problem;
 
 use crate::stamp::hash;
 
-/// The text that a scene was read from, of which parts could not be read. None may be left that could not: the user
-/// mended them, or was editing the text when the window was killed.
+/// The text that a scene was read from, and what could not be read of it. All of it may have been read: the text is
+/// then stored because the user was editing it when the window was killed.
 #[derive(Clone, Debug)]
 pub struct Source {
     /// The text.
@@ -42,13 +42,13 @@ impl Source {
         Self { text: text.clone(), losses: losses.clone(), scene: loaded.scene.clone(), stand_ins }
     }
 
-    /// The source of the saved scene, whose text is `text`: of what could not be read, meshes are left. `None` if all
-    /// meshes could be used.
+    /// The source of the scene once it is saved as `text`. Of the losses, only meshes that cannot be used are left.
+    /// `None` if all meshes could be used.
     pub(crate) fn saved(&self, text: String, scene: &Scene) -> Option<Self> {
         let located = Located::of(&text);
         let in_text = |loss: &Loss| {
             let mesh = loss.mesh.as_ref()?;
-            // A mesh that no object names now is listed again when an edit is taken back.
+            // A mesh that no object names now stays a loss, because undo may bring its object back.
             let object = scene.objects.iter().position(|object| object.mesh == *mesh);
             let field_path = object.map(|object| format!("objects[{object}].mesh"));
             let problem = Problem {
@@ -56,7 +56,7 @@ impl Source {
                 field_path: field_path.unwrap_or_default().into(),
                 ..loss.problem.clone()
             };
-            // A fix is of the text as it was.
+            // A fix applies to the old text, so it is dropped.
             Some(Loss { problem, fix: None, ..loss.clone() })
         };
         let losses: Vec<Loss> = self.losses.iter().filter_map(in_text).collect();

@@ -35,7 +35,7 @@ pub struct TimeHand {
     pub playback: Playback,
     /// Selected keys, and what is done to them.
     pub keys: KeysHand,
-    /// Whether playback goes on after the scrubbing; `None` when nobody scrubs.
+    /// Whether playback goes on after the scrubbing; `None` while the user does not scrub.
     pub(crate) scrubbing: Option<bool>,
     pub(crate) loose: Option<LoosePoses>,
     /// The loose poses that were dropped last. They can be restored until something else is done.

@@ -243,13 +243,13 @@ impl<'a> Surroundings<'a> {
         self.poses.get(object).copied().unwrap_or(DAffine3::IDENTITY)
     }
 
-    /// The map that carries the surroundings of a point near an object's surface at rest, in the object's own space, to
-    /// where they are now in the world.
+    /// A map from an object at rest, in its own space, to the world now. It holds near `position`, a point close to the
+    /// object's surface at rest.
     pub(crate) fn now_from_rest(&self, object: usize, position: DVec3) -> DAffine3 {
         self.pose(object) * self.picker.now_from_rest(object, position)
     }
 
-    /// Where a point near an object's surface at rest, in the object's own space, is now in the world.
+    /// Where a point of the object's own space is now in the world. `position` is close to the surface at rest.
     pub(crate) fn world(&self, object: usize, position: DVec3) -> DVec3 {
         self.now_from_rest(object, position).transform_point3(position)
     }

@@ -348,7 +348,7 @@ impl Transforming {
                     let distance = (pivot - ray.origin).dot(normal) / slope;
                     (slope.abs() > 1e-3 && distance > 0.0).then(|| ray.origin + ray.direction * distance)
                 };
-                // A plane that is seen edge-on cannot be dragged in.
+                // In a plane that is seen edge-on, a drag moves nothing.
                 meet(&from).zip(meet(&to)).map_or(DVec3::ZERO, |(from, to)| to - from)
             }
         };
@@ -367,7 +367,7 @@ impl Transforming {
         let [jx, jy] = self.view.map(DAffine3::IDENTITY).jacobian(self.pivot());
         let shown = DVec2::new(jx.dot(along), -jy.dot(along));
         let Some(pivot_px) = self.view.project(self.pivot()) else { return 0.0 };
-        // An axis that points straight at the eye shows as a point: it cannot be dragged along.
+        // An axis that points straight at the eye shows as a point, so nothing can be dragged along it.
         let size = self.view.px_per_unit(self.pivot());
         if shown.length() < 0.02 * size {
             return 0.0;

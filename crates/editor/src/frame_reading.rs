@@ -93,8 +93,8 @@ impl FrameReading {
         self.shared.changed.notify_all();
     }
 
-    /// Replaces the list of files. Unless it only got longer, the indices of frames have changed, and all pictures are
-    /// dropped. Returns whether they were.
+    /// Replaces the list of files. Unless the list only got longer, the indices of frames have changed, and all
+    /// pictures are dropped. Returns whether the pictures were dropped.
     pub fn replace(&self, paths: Vec<PathBuf>) -> bool {
         let mut board = self.shared.board();
         let moves = !paths.starts_with(&board.paths);

@@ -38,7 +38,7 @@ pub enum EditError {
 /// [`EditError`]: a file that is neither scene nor mesh, shaders that cannot be read, no display, no OpenGL.
 pub fn run(options: &EditOptions) -> Result<(), EditError> {
     if let Some(path) = &options.path {
-        // What cannot begin a scene is refused here, as where it is dropped on an empty window.
+        // A file that cannot begin a scene is refused here, just as when it is dropped on an empty window.
         let plan = incoming::plan(std::slice::from_ref(path), incoming::Present::Nothing);
         if let Some(words) = plan.refused.into_iter().next() {
             return Err(EditError::Refused(words));

@@ -27,7 +27,7 @@ const MOST_PX: [u32; 2] = [288, 162];
 /// Strokes are this much larger than in the scene's picture, so that they can be told apart in a small one.
 const LARGER: f32 = 3.0;
 
-/// Preparing a picture is given the available memory divided by this: the scene is in memory once already.
+/// Preparing a picture may use the available memory divided by this. The scene itself is in memory once already.
 const SHARE: u64 = 4;
 
 /// How long dropping waits for the thread.
@@ -61,9 +61,9 @@ struct Shared {
 struct Board {
     /// Counts the lists that were wanted.
     list: u64,
-    /// What is not painted yet, the first first.
+    /// What is not painted yet, in the order of painting.
     wanted: Vec<Wanted>,
-    /// They replace the program's own.
+    /// Shaders that replace the program's own.
     shaders: ShaderTexts,
     painted: Vec<(String, ColorImage)>,
     closes: bool,
@@ -81,7 +81,7 @@ impl PresetPictures {
         std::thread::Builder::new().name("preset pictures".to_owned()).spawn(move || {
             give_way();
             while let Some(list) = theirs.wait() {
-                // Without pictures, presets are chosen by their names: what goes wrong here is of no matter.
+                // Errors are ignored here. Without pictures, the user can still choose presets by their names.
                 match catch_unwind(AssertUnwindSafe(|| theirs.paint_list(list, driver, &wake))) {
                     Ok(Some(())) => {}
                     Ok(None) => theirs.give_list_up(list),
@@ -139,14 +139,14 @@ impl Shared {
         (!board.closes).then_some(board.list)
     }
 
-    /// What is to be painted next of the list with this number.
+    /// The next picture of the list with this number; none if nothing is left of the list or another list replaced it.
     fn next(&self, list: u64) -> Option<Wanted> {
         let board = self.board();
         board.wanted.first().filter(|_| board.list == list).cloned()
     }
 
-    /// Takes the picture that was next in the list with this number, or the word that there is none. Returns whether
-    /// the list is wanted still.
+    /// Stores the picture that was next in the list with this number; none if it could not be painted. Returns whether
+    /// the list is still wanted.
     fn put(&self, list: u64, image: Option<ColorImage>) -> bool {
         let mut board = self.board();
         if board.list != list || board.wanted.is_empty() {
@@ -165,8 +165,8 @@ impl Shared {
         }
     }
 
-    /// Paints a list. The driver is opened for it and closed after it: a second scene in memory is not kept for nothing.
-    /// None if there is no driver.
+    /// Paints a list. The driver is opened for the list and closed after it, so that no second scene stays in memory
+    /// without need. None if there is no driver.
     fn paint_list(&self, list: u64, driver: Driver, wake: &dyn Fn()) -> Option<()> {
         let shaders = self.board().shaders.clone();
         let mut renderer = open_renderer(driver, &shaders).ok()?;
@@ -207,7 +207,7 @@ fn paint(
     Some(ColorImage::from_rgba_premultiplied(size, &picture.rgba8))
 }
 
-/// The size of the picture of a scene of this size, pixels.
+/// The size of the small picture for a scene of this size, pixels.
 fn small_size([width, height]: [u32; 2]) -> [u32; 2] {
     let [width, height] = [width.max(1), height.max(1)].map(f64::from);
     let share = (f64::from(MOST_PX[0]) / width).min(f64::from(MOST_PX[1]) / height);

@@ -1,11 +1,11 @@
 //! Lets long work give way to the window.
 
-/// How far down the scale of `nice` long work steps, which has 20 steps.
+/// How much long work adds to its `nice` value, which usually is 0 and is 19 at most.
 #[cfg(target_os = "linux")]
 const STEPS: i32 = 10;
 
-/// From now on the calling thread, and every thread that it starts, gives way to the other threads of the program: to what
-/// answers the mouse and draws the view. Does nothing where the system knows this for whole programs only.
+/// Makes the calling thread, and every thread that it starts from now on, give way to the program's other threads,
+/// which answer the mouse and draw the view. Does nothing on systems that set a priority only for whole programs.
 pub(crate) fn give_way() {
     // If the system refuses, the work is done all the same.
     #[cfg(target_os = "linux")]

@@ -23,6 +23,7 @@ use impasto_sequence::movie::{Depth, Encoding, FrameFormat, Kind, Movie, MovieEr
 use impasto_sequence::{Ending, FileOutcome, FrameFiles, PngDepth, Sequence, Wanted, fits_in_memory};
 
 use crate::priority::give_way;
+use crate::window::give_back_free_memory;
 
 #[cfg(test)]
 mod tests;
@@ -84,6 +85,7 @@ impl Rendering {
                     Outcome::Failed(format!("Rendering broke off: {}", panic_message(panic.as_ref())))
                 }
             };
+            give_back_free_memory();
             theirs.note(|board| {
                 board.progress.gone_s = theirs.began.elapsed().as_secs_f64();
                 board.progress.outcome = Some(outcome);

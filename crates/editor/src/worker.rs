@@ -120,7 +120,7 @@ pub struct Picture {
     pub view: ViewJob,
     /// The serial of its scene.
     pub serial: u64,
-    /// The pixels; fewer than the view asked for in a draft.
+    /// The pixels. A draft has fewer than the view asked for.
     pub image: Arc<ColorImage>,
     /// Whether it is what a file would get, not a draft.
     pub exact: bool,
@@ -175,7 +175,7 @@ impl Worker {
         self.mailbox.stop_preparing();
     }
 
-    /// The reports since the last call: of each kind (pictures: of each view) only the newest, but several
+    /// The reports since the last call: the newest of each kind, for pictures the newest of each view, and several
     /// failures.
     pub fn poll(&self) -> Vec<Report> {
         self.mailbox.collect()

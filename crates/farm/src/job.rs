@@ -88,7 +88,7 @@ impl Frames {
         self.runs.iter().map(|run| run.text()).collect::<Vec<_>>().join(",")
     }
 
-    /// Parts of at most so many frames, each as `-f` takes it.
+    /// Parts of at most `most` frames, each written as `-f` takes it.
     pub fn chunks(&self, most: usize) -> Vec<String> {
         let all: Vec<i64> =
             self.runs.iter().flat_map(|run| (run.first..=run.last).step_by(run.step as usize)).collect();

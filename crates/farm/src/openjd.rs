@@ -6,13 +6,13 @@ use std::fmt::Write as _;
 use crate::job::Job;
 use crate::quoting::of_yaml;
 
-/// Chunks begin with so many frames, and grow until each takes [`CHUNK_S`].
+/// The first chunks have this many frames. Later ones are sized to take [`CHUNK_S`] each.
 const FIRST_FRAMES: usize = 4;
 
 /// How long a chunk is to take, seconds.
 const CHUNK_S: u32 = 60;
 
-/// Where frames go, by the parameters of the template.
+/// Where frames go, written with the parameters of the template.
 const OUTPUT: &str = "{{Param.OutputDir}}/{{Param.FrameName}}";
 
 /// The template of a job: frames in chunks, then the movie, if one is wanted.

@@ -1,6 +1,6 @@
 //! Packs everything that a shot needs into one folder or `.tar` file: the scene file unchanged, and all files that were
-//! read with it. Each lies where the scene finds it, so that no folders have to be named for the search. Equal inputs
-//! give equal bytes on every machine.
+//! read with it. Each file lies where the scene finds it, so that the user need not name any folders to search. Equal
+//! inputs give equal bytes on every machine.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -196,7 +196,7 @@ pub fn check(folder: &Path) -> Result<PackList, PackError> {
 fn what_changed(folder: &Path, known: &PackedFile) -> Option<String> {
     let read = || -> io::Result<(u64, String)> {
         let file = File::open(folder.join(&known.path))?;
-        // However long the file is now, at most one byte more is read than it had when it was packed.
+        // Reads at most one byte more than the file had when it was packed, however long it is now.
         let mut summed = Summed::new(file.take(known.bytes.saturating_add(1)));
         io::copy(&mut summed, &mut io::sink())?;
         Ok(summed.finish())
@@ -304,7 +304,8 @@ impl<W: Write> Target for Tar<W> {
         header.set_mtime(WRITTEN_S);
         header.set_entry_type(tar::EntryType::Regular);
         let path = format!("{}/{place}", self.folder);
-        // A file that has become shorter is filled up with zeros, so that the tar stays valid until `fill` sees it.
+        // A file that has become shorter is filled up with zeros, so that the tar stays valid until `fill` notices the
+        // change.
         let mut whole = content.chain(io::repeat(0)).take(length);
         self.builder
             .append_data(&mut header, &path, &mut whole)

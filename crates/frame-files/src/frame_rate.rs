@@ -3,7 +3,7 @@
 /// The denominator of television rates: 23.976 stands for 24000/1001.
 const OF_TELEVISION: u32 = 1001;
 
-/// A rate that is off by less than this share (0.01 %) from a television rate stands for it.
+/// A rate that differs from a television rate by less than this share (0.01 %) counts as that television rate.
 const NEAR: f64 = 1e-4;
 
 /// A rate as a fraction: a whole number, a television rate over 1001, or any other rate rounded to 1/1000 and reduced

@@ -14,7 +14,8 @@ pub use frame_list::FrameList;
 pub use pattern::Pattern;
 pub use place::{PlaceError, not_an_input, ready_folder};
 
-/// Whether a frame's file is there and whole. A file that was cut, or that is not what its ending says, is not whole.
+/// Whether a frame's file is there and whole. A truncated file is not whole, nor is one that does not match its
+/// extension.
 pub fn is_whole(path: &std::path::Path) -> bool {
     match path.extension() {
         Some(extension) if extension.eq_ignore_ascii_case("exr") => exr_header::is_whole(path),
@@ -28,7 +29,7 @@ pub fn scene_of(path: &std::path::Path) -> Option<String> {
     note(path, "Scene")
 }
 
-/// The state of scene and settings that a frame was painted from, which Impasto notes in the frame's file; `None`
+/// The hash of the scene and the settings that a frame was painted from. Impasto notes it in the frame's file; `None`
 /// without such a note.
 pub fn state_of(path: &std::path::Path) -> Option<String> {
     note(path, "State").filter(|state| !state.is_empty())

@@ -30,7 +30,7 @@ pub struct Pixels<'a> {
     pub rgba8: &'a [u8],
 }
 
-/// As [`Pixels`], of 16 bits.
+/// As [`Pixels`], with 16 bits a channel.
 #[derive(Clone, Copy, Debug)]
 pub struct DeepPixels<'a> {
     /// Width and height in pixels.
@@ -78,7 +78,7 @@ pub fn encode_deep(
     Ok(())
 }
 
-/// Whether a file ends as a PNG file does; one that was cut does not.
+/// Whether a file ends as a PNG file must. A truncated file does not.
 pub(crate) fn is_whole(path: &Path) -> bool {
     const END: &[u8] = b"\0\0\0\0IEND\xae\x42\x60\x82";
     let last = || {
@@ -90,7 +90,7 @@ pub(crate) fn is_whole(path: &Path) -> bool {
     last().unwrap_or(false)
 }
 
-/// Begins an animated PNG. This many pictures must then be written to it, one after the other.
+/// Begins an animated PNG. The caller must then write exactly `pictures` pictures to it, one after the other.
 ///
 /// # Errors
 /// What the disk or the encoder said.

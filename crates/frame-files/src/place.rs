@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-/// Why a file cannot be written where it was to be.
+/// Why a file cannot be written at its intended place.
 #[derive(Debug, thiserror::Error)]
 pub enum PlaceError {
     /// The folder cannot be made, or nothing can be written into it.
@@ -13,7 +13,7 @@ pub enum PlaceError {
         /// What the system said.
         error: std::io::Error,
     },
-    /// No file can have this name: it is a folder's, or too long.
+    /// No file can have this name: a folder has it already, or it is too long.
     #[error("{} cannot be written: {why}", path.display())]
     NoFile {
         /// The name.
@@ -39,7 +39,7 @@ pub fn ready_folder(path: &Path) -> Result<PathBuf, PlaceError> {
     if std::fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir()) {
         return Ok(folder);
     }
-    // Tries to write a file. It has no name, so that nothing of it is ever left.
+    // Tries to write a file. The file has no name, so it never leaves anything behind.
     if let Err(error) = std::fs::create_dir_all(&folder).and_then(|()| tempfile::tempfile_in(&folder)) {
         return Err(PlaceError::NotWritable { folder, error });
     }

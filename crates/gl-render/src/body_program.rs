@@ -10,7 +10,7 @@ use crate::meshes::Part;
 
 /// The uniform that all programs of bodies read.
 const POSE: [&str; 1] = ["world_from_model"];
-/// The uniform that only some of them read.
+/// The uniform that only some programs of bodies read.
 const NORMALS: [&str; 1] = ["world_from_normal"];
 
 /// The uniforms that [`set_color`] sets.
@@ -42,8 +42,8 @@ pub(crate) struct BodyProgram {
 /// precision makes a smaller difference.
 const UNEVEN: f64 = 1e-4;
 
-/// What takes normals from model space to the world: the pose itself, or, where that scales directions differently, its
-/// inverse transpose.
+/// The matrix that takes normals from model space to the world: the pose itself, or its inverse transpose if the pose
+/// scales unevenly.
 fn world_from_normal(body: &FrameBody) -> Mat3 {
     let pose = Mat3::from_mat4(body.world_from_model);
     if is_uneven(pose.as_dmat3(), UNEVEN) { pose.inverse().transpose() } else { pose }

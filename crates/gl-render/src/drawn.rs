@@ -16,11 +16,11 @@ pub struct Picture {
 pub struct ResolvedStroke {
     /// Display-linear colour.
     pub color_linear: [f32; 3],
-    /// How far the stroke is there: its presence, reduced as far as bodies hide it, 0..=1.
+    /// Opacity of the stroke, 0..=1: its presence, reduced where bodies hide the stroke.
     pub alpha: f32,
-    /// Centre in pixels, origin at the lower left, as painted: the stroke was moved along itself onto its body, a
-    /// contour stroke also to its body's outline, a light towards the peak of the highlight, and one on a thin part to
-    /// the middle of that part.
+    /// Centre in pixels, origin at the lower left, as painted. Each stroke was moved along itself onto its body. A
+    /// contour stroke was also moved to its body's outline, a highlight stroke towards the highlight's peak, and a
+    /// stroke on a thin part to the middle of that part.
     pub center_px: [f32; 2],
     /// What was added to the stroke's angle, radians: a contour stroke is turned to run along its body's outline.
     pub turned_rad: f32,
@@ -60,7 +60,7 @@ pub struct SurfacePixels {
     pub albedo: Vec<[f16; 4]>,
     /// Unit normal in world space, towards the eye; the last number is the gloss.
     pub normal: Vec<[f16; 4]>,
-    /// Light that arrives; the last number is how much arrives of the light that casts shadows, 0..=1.
+    /// Light that arrives; the last number is the share of the shadow-casting light that arrives, 0..=1.
     pub light: Vec<[f16; 4]>,
     /// Ambient occlusion: how open the place is, 0..=1.
     pub openness: Vec<f16>,
@@ -75,7 +75,7 @@ pub struct PaintSurface {
     pub normal_and_height: Vec<[f16; 4]>,
     /// How far the paint runs together with its neighbours, 0..=1.
     pub wetness: Vec<f32>,
-    /// Whether the picture is a mean over neighbours here, because a body ends.
+    /// Whether a pixel is a mean over its neighbours, because a body ends there.
     pub is_border: Vec<bool>,
     /// What lies under the paint, premultiplied, display-linear.
     pub ground: Vec<[f16; 4]>,

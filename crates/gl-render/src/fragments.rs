@@ -1,7 +1,7 @@
 //! What every stroke lays in every pixel. While a picture is painted, the paint shader notes each of its fragments in a
-//! buffer (pixel, stroke, alpha, colour). Here these notes are put in order and laid over each other again, which tells
-//! for each pixel which strokes show in it, and how much. They are of the very fragments that make the picture: nothing
-//! is painted twice.
+//! buffer (pixel, stroke, alpha, colour). The code here sorts these notes and lays them over each other again. The
+//! result says for each pixel which strokes show in it, and how much. The notes come from the same fragments that make
+//! the picture, so nothing is painted twice.
 
 use half::f16;
 use impasto_painting::frame::{LayerKind, LayerRun};
@@ -12,13 +12,13 @@ use crate::gl::{Buffer, BufferUse, GlError, Gpu};
 /// Bytes of a noted fragment, in three words: its pixel; its stroke and alpha; its colour.
 const FRAGMENT_BYTES: usize = 12;
 
-/// Bytes of the number of fragments, with which the buffer begins.
+/// Bytes of the fragment count at the start of the buffer.
 const COUNT_BYTES: usize = 4;
 
 /// The most bytes that fragments may take on the graphics card at a time.
 const MOST_BYTES: usize = 32 << 20;
 
-/// Bits of the alpha in the word that it shares with the stroke's index, which has the other bits.
+/// Bits of the alpha. The other bits of its word hold the stroke's index.
 const ALPHA_BITS: u32 = 10;
 
 /// The most strokes of a picture that can be told apart.
@@ -84,7 +84,7 @@ pub struct PaintedLayer {
 /// Gathers the fragments of a picture.
 pub(crate) struct FragmentGatherer {
     buffer: Buffer,
-    /// How many fragments the buffer holds.
+    /// How many fragments the buffer can hold.
     capacity: usize,
     /// The fragments noted so far of the layer that is being painted.
     fragments: Vec<[u32; 3]>,
@@ -114,7 +114,7 @@ impl FragmentGatherer {
         self.capacity
     }
 
-    /// Forgets the picture before, and makes room for the next one.
+    /// Forgets the previous picture, and makes room for the next one.
     pub(crate) fn clear(&mut self) -> Result<(), GlError> {
         self.fragments.clear();
         self.layers.clear();

@@ -1,4 +1,5 @@
-//! Tests that `crates/gl-render/shaders/shared/inverse_bilinear.glsl` finds what the same function in `core` finds, on both drivers.
+//! Tests that `crates/gl-render/shaders/shared/inverse_bilinear.glsl` finds what the same function in `core` finds, on
+//! both drivers.
 
 use std::rc::Rc;
 
@@ -66,8 +67,8 @@ fn found_by(driver: Driver, questions: &[Question]) -> Vec<[f32; 2]> {
     bytemuck::pod_collect_to_vec(&output.read(questions.len() * 8))
 }
 
-/// A convex quad with a point inside, in pixels. With rising `index` come in turn a general quad, a trapezoid, a
-/// parallelogram, a rectangle and a square. They are wound either way, and the two edges at their first corner are 10
+/// A convex quad with a point inside, in pixels. As `index` rises, the quad is in turn a general quad, a trapezoid, a
+/// parallelogram, a rectangle and a square. Quads are wound either way, and the two edges at their first corner are 10
 /// to 300 pixels long.
 fn convex(index: u32) -> Question {
     let chance = |which: u32| f64::from(hash::unit(hash::combine(index, which)));

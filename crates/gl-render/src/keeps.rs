@@ -1,21 +1,21 @@
-//! What a renderer keeps of a picture while it draws it, and afterwards.
+//! Which data of a picture a renderer keeps, while it draws and afterwards.
 
 use impasto_painting::frame::Style;
 
-/// Pictures of more pixels than this are huge: making their targets anew costs little beside drawing them, and keeping
-/// all targets to the end of the picture takes twice the memory.
+/// Pictures of more pixels than this are huge. Making their targets anew costs little compared with drawing, and
+/// keeping all targets to the end of the picture takes twice the memory.
 const HUGE_PX: u64 = 16 << 20;
 
-/// What can be read of a picture beside its colour, its depth and its bodies, once it is drawn. The less is kept, the
-/// less memory a picture takes: each target is let go as soon as it has served. The picture is the same.
+/// What can be read of a drawn picture, besides its colour, its depth and its bodies. Keeping less saves memory,
+/// because each target is freed after its last use. The picture itself is the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Keeps {
-    /// All there is, and the targets stay for the next picture.
+    /// Everything. The targets also stay for the next picture.
     #[default]
     Everything,
     /// Its surfaces: unlit colour, normals, light.
     Surfaces,
-    /// Nothing beside its colour, its depth and its bodies.
+    /// Nothing besides its colour, its depth and its bodies.
     Picture,
 }
 
@@ -39,7 +39,7 @@ impl Keeps {
     /// each axis.
     pub fn bytes_per_px(self, style: &Style, samples: u32) -> u64 {
         let fine = if samples > 1 { u64::from(samples * samples) * 12 } else { 0 };
-        // Of a huge picture, the colours of samples are not drawn.
+        // The colours of samples are not drawn for a huge picture.
         let colors = if samples > 1 { u64::from(samples * samples) * 4 } else { 0 };
         // Bytes of the target that is found from the samples: depth and body in the middle of each pixel, and the share
         // of the pixel that shows something else.
@@ -52,7 +52,7 @@ impl Keeps {
         };
         // Bytes of `UnlitTargets`, of the other targets of the reference pass, and of the finished picture.
         let [unlit, lit, picture] = [13, 30, 16];
-        // Bytes for strokes, for what is read back, and for what the driver needs beside.
+        // Bytes for strokes, for data that is read back, and for the driver's own needs.
         let else_taken = 8;
         let drawn = match self {
             Self::Everything => unlit + lit + fine + colors + surface + paint + picture,

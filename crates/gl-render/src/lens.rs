@@ -29,8 +29,8 @@ pub(crate) struct LensSetup {
 
 impl LensSetup {
     pub(crate) fn new(view: &FrameView, size_px: [u32; 2]) -> Self {
-        // The lens shift in NDC. In perspective w is −z, so it is minus the z column; orthographically w is 1, and it is
-        // the last column.
+        // The lens shift in NDC. In perspective, w is −z, so the shift is minus the z column. Orthographically, w is 1,
+        // so the shift is the last column.
         let shift = if view.orthographic { view.clip_from_view.w_axis } else { -view.clip_from_view.z_axis };
         let size = UVec2::from(size_px).as_vec2();
         Self {

@@ -24,9 +24,10 @@ pub(crate) const LIGHT_UNIFORMS: [&str; 9] = [
 /// Rows of the texture of lights.
 const ROWS: usize = 3;
 
-/// What shaders read of a light: its direction (w 0) or place (w 1); its radiance, and the slope of its cone; the
-/// cone's axis, and its offset. A cone lets (slope · cosine + offset)² through, the bracket clamped to 0..=1
-/// (KHR_lights_punctual). Without a cone that is 1.
+/// The three texels that describe a light to shaders. The first is its direction (w 0) or place (w 1). The second is
+/// its radiance and the slope of its cone. The third is the cone's axis and offset. A cone lets
+/// (slope · cosine + offset)² through, with the bracket clamped to 0..=1 (KHR_lights_punctual). Without a cone, this
+/// factor is 1.
 fn column(place: Vec4, radiance: Vec3, cone: Option<&Cone>) -> [Vec4; ROWS] {
     let Some(cone) = cone else { return [place, radiance.extend(0.0), Vec4::W] };
     let slope = 1.0 / (cone.inner_cosine - cone.outer_cosine).max(1e-3);

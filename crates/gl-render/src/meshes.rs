@@ -121,7 +121,7 @@ impl MeshOnGpu {
         let mut ranges = Vec::with_capacity(self.parts.len());
         for part in &self.parts {
             let first = indices.len();
-            // Through holes the far side is seen too.
+            // The far side is seen through holes.
             let showing = part.triangles.iter().filter(|&&triangle| part.cutoff.is_some() || shows(triangle));
             indices.extend(showing.map(|&triangle| mesh.triangles[triangle as usize]));
             ranges.push([first, indices.len() - first].map(|count| count as u32 * 3));
@@ -242,7 +242,7 @@ impl MeshCache {
             }
         };
         let entry = &mut self.bent[index];
-        // Empty during the upload, so that what a failed upload leaves is not taken for these vertices.
+        // Empty during the upload, so that the leftovers of a failed upload are not mistaken for these vertices.
         entry.bent = Weak::new();
         let BodyVertices { positions, normals } = &bent.vertices;
         entry.vertices.upload(bytemuck::cast_slice(&interleaved(positions, normals)))?;
@@ -345,8 +345,8 @@ impl MeshCache {
     }
 }
 
-/// Gives texels without alpha the mean colour of the others, so that the colours that a file hides there do not fringe
-/// the borders.
+/// Gives fully transparent texels the mean colour of all others. Otherwise their hidden colours would fringe the
+/// borders of the holes.
 fn color_of_holes(texels: &mut [[u8; 4]]) {
     let mut sum = [0u64; 3];
     let mut count = 0;

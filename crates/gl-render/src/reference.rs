@@ -25,7 +25,8 @@ use crate::shadow::ShadowMap;
 use crate::styles;
 use crate::watch::Watch;
 
-/// The passes, in order: shadow, surface, samples, openness (ambient occlusion), light, then the bodies that noise colours.
+/// The passes, in order: shadow, surface, samples, openness (ambient occlusion), light, then the bodies that are
+/// coloured by noise.
 pub(crate) struct ReferencePass {
     gpu: Gpu,
     shadow: ShadowMap,
@@ -34,7 +35,7 @@ pub(crate) struct ReferencePass {
     light: Program,
     /// Created when the first picture with several samples in a pixel is drawn.
     samples: Option<SamplePass>,
-    /// The samples of the last picture, if they served for its light; taken once.
+    /// The samples of the last picture, if its light used them. They can be taken once.
     drawn: Option<Samples>,
     /// Created when the first draft is drawn.
     draft_light: Option<Program>,
@@ -84,7 +85,8 @@ impl ReferencePass {
         watch.passed("shadow")?;
         self.draw_surfaces(frame, &bodies, targets)?;
         watch.passed("surface")?;
-        // The pixels of a huge picture are far smaller than a stroke: its samples come later, when there is room.
+        // The pixels of a huge picture are far smaller than a stroke, so its light needs no samples. They are drawn
+        // later, when memory is free.
         self.drawn = match styles::samples(frame, self.gpu.limits().max_side_px) {
             per_side if per_side > 1 && !Keeps::is_huge(frame.size_px) => {
                 Some(self.ready_samples()?.draw(frame, &bodies, (per_side, true))?)
@@ -131,8 +133,8 @@ impl ReferencePass {
         Ok(lights)
     }
 
-    /// The samples of the last picture, which is of this frame; `None` where pixels have only one. Draws them now, unless
-    /// they served for its light.
+    /// The samples of the last picture, which must show this frame; `None` if each pixel has only one sample. Draws the
+    /// samples now, unless [`ReferencePass::draw`] has drawn them.
     pub(crate) fn take_samples(
         &mut self,
         frame: &Frame,
@@ -155,9 +157,9 @@ impl ReferencePass {
         }
     }
 
-    /// Draws the light on the surfaces of the last picture, apart from their colours. Returns first the light that
-    /// arrives, with how much arrives of the light that casts shadows; second, how open each place is. Bottom row
-    /// first.
+    /// Draws the light on the surfaces of the last picture, apart from their colours. Returns two lists, bottom row
+    /// first. The first is the light that arrives; its last channel is the share of the shadow-casting light that
+    /// arrives. The second is how open each place is.
     pub(crate) fn draw_light_parts(
         &mut self,
         frame: &Frame,

@@ -1,4 +1,4 @@
-//! What the reference pass leaves behind: the plain picture, and what is where in it.
+//! The results of the reference pass: the plain picture, and the surface that each of its pixels shows.
 
 use std::rc::Rc;
 
@@ -6,13 +6,13 @@ use half::f16;
 
 use crate::gl::{Bound, Filter, Format, Framebuffer, GlError, Gpu, Texture};
 
-/// The textures that light is found from, as shaders name them.
+/// The textures from which the light is computed, as shaders name them.
 pub(crate) const SURFACE_TEXTURES: [&str; 4] = ["albedo_and_lit", "normal", "depth_and_id", "openness"];
 
 /// The textures of the reference pass. All have the picture's size, except `openness`.
 pub(crate) struct ReferenceTargets {
     size_px: [u32; 2],
-    /// The lit picture, display-linear; for brush strokes without a part of strong highlights.
+    /// The lit picture, display-linear. For brush strokes, it leaves out a part of strong highlights.
     pub(crate) color: Rc<Texture>,
     pub(crate) normal: Rc<Texture>,
     /// Depth along the gaze, and the body's index plus 1; 0 where nothing is.
@@ -74,7 +74,7 @@ impl ReferenceTargets {
         })
     }
 
-    /// The same targets where they have this size already, and all are there; else new ones.
+    /// The targets from before, if they have this size and are complete; else new ones.
     pub(crate) fn of_size(gpu: &Gpu, before: Option<Self>, size_px: [u32; 2]) -> Result<Self, GlError> {
         match before {
             Some(targets) if targets.size_px == size_px && targets.unlit.is_some() => Ok(targets),
@@ -95,7 +95,7 @@ impl ReferenceTargets {
         self.unlit = None;
     }
 
-    /// Sets the textures that light is found from.
+    /// Sets the textures from which the light is computed.
     pub(crate) fn set<'a>(&self, bound: Bound<'a>) -> Result<Bound<'a>, GlError> {
         let unlit = self.unlit()?;
         Ok(bound

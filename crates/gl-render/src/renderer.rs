@@ -60,7 +60,7 @@ pub struct Renderer {
     encoder: Encoder,
     /// The last picture before it was encoded.
     painted: Option<Painted>,
-    /// How the picture in `painted` is seen; `None` while that is unfinished.
+    /// How the picture in `painted` is seen; `None` while the picture is unfinished.
     last: Option<Seen>,
     billboards: Vec<LightBillboard>,
     /// Created when the first billboard is drawn.

@@ -43,7 +43,7 @@ pub(crate) const SHARED: &[ShaderFile] = shader_files![
     "shared/cutout.glsl",
 ];
 
-/// Bodies that noise colours.
+/// Bodies that are coloured by noise.
 pub(crate) const NOISE_DISPLACE: &[ShaderFile] = shader_files![
     "noise_displace/look.vert",
     "noise_displace/look.frag",

@@ -46,9 +46,9 @@ impl ShaderFolder {
         &self.path
     }
 
-    /// Checks the files once. Reads them again if they differ from those that were last read, but only when two checks
-    /// in a row find them the same: a file that still changes may be half written. The program's own text replaces a
-    /// file that is gone. `None` where nothing is read.
+    /// Checks the files once. Changed files are read again only when two checks in a row find the same sizes and times,
+    /// since a file that still changes may be half written. The program's own text replaces a file that is gone. `None`
+    /// where nothing is read.
     ///
     /// # Errors
     /// A message: a file cannot be read.

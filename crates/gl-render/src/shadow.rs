@@ -127,8 +127,8 @@ pub(crate) struct Sight {
     pub shadow_from_world: Mat4,
     /// Side of a texel in world units; for a lamp, at a distance of 1 from it.
     pub texel: f32,
-    /// How much nearer to the light than a point the depth in the map may be without shadowing the point: a constant,
-    /// plus a number that is divided by the square of the distance.
+    /// Tolerance of the depth test: if the depth in the map is nearer to the light than a point by no more than this,
+    /// the point is lit. A constant, plus a number that is divided by the square of the distance.
     pub bias: [f32; 2],
 }
 
@@ -142,8 +142,8 @@ impl Sight {
         }
     }
 
-    /// What a lamp sees of a sphere: from outside, all of it; from inside, what lies in the lamp's cone; but nothing
-    /// more than 70 degrees off the axis. What the map does not show counts as lit.
+    /// What a lamp sees of a sphere. A lamp outside sees the whole sphere, a lamp inside sees what lies in its cone.
+    /// Nothing more than 70 degrees off the axis is seen. What the map does not show counts as lit.
     pub(crate) fn of_lamp(center: Vec3, radius: f32, lamp: &PointLight) -> Self {
         /// Half the widest angle of a map.
         const WIDEST_RAD: f32 = 70.0 * std::f32::consts::PI / 180.0;
@@ -163,8 +163,9 @@ impl Sight {
         let far = away + radius;
         let lamp_from_world = glam::camera::rh::view::look_to_mat4(lamp.position, axis, up);
         let clip_from_lamp = glam::camera::rh::proj::opengl::perspective(2.0 * half_rad, 1.0, near, far);
-        // The bias of a sun's map in world units (0.0006 of its range of depths, two radii), as depth of this map. At
-        // distance z its depth grows by far · near / ((far − near) z²) per world unit; the shader divides by z².
+        // The bias of a sun's map (0.0006 of its depth range of two radii, in world units), converted to depth in this
+        // map. At distance z, this map's depth grows by far · near / ((far − near) z²) per world unit; the shader
+        // divides by z².
         let bias = 0.0012 * radius * far * near / (far - near);
         Self {
             shadow_from_world: clip_from_lamp * lamp_from_world,

@@ -61,7 +61,7 @@ impl StrokeBuffers {
         Ok(())
     }
 
-    /// Forgets the strokes of the frame before.
+    /// Forgets the strokes of the previous frame.
     pub(crate) fn clear(&mut self) {
         self.count = 0;
     }

@@ -58,7 +58,7 @@ pub(crate) trait StyleRenderer {
     }
 
     /// The paint of the last frame, premultiplied and display-linear, without background, bottom row first. Empty for
-    /// styles that keep none, and unless everything is kept.
+    /// styles that keep no paint, and if not everything is kept.
     fn read_paint(&self) -> Vec<[f32; 4]> {
         Vec::new()
     }

@@ -1,5 +1,5 @@
-//! Accessors: what kind of numbers lie where. Everything that the JSON states of them is checked here, so that reading
-//! the numbers (`decode`) cannot leave the bytes.
+//! Accessors, which say what kind of numbers lie where. Everything that the JSON says about them is checked here, so
+//! that `decode` cannot read beyond the bytes.
 
 use std::fmt;
 
@@ -65,7 +65,7 @@ impl Shape {
         })
     }
 
-    /// Numbers of an element.
+    /// How many numbers an element has.
     pub fn width(self) -> usize {
         match self {
             Self::Scalar => 1,
@@ -142,7 +142,7 @@ pub(crate) struct Accessor {
     pub is_normalized: bool,
     pub shape: Shape,
     pub count: usize,
-    /// `None`: all elements are zero, or `is_absent`.
+    /// If this is `None`, all elements are zero, unless `is_absent` is set.
     pub run: Option<Run>,
     /// Why it cannot be read, if the bytes of one of its views are compressed or not in the file.
     pub is_absent: Option<&'static str>,

@@ -32,7 +32,7 @@ pub struct Track {
     /// The values, finite: `width` for each key; with cubic splines three times as many, the tangent into the key, the
     /// value, and the tangent out of it (per second).
     pub values: Arc<Vec<f32>>,
-    /// Numbers of a value.
+    /// How many numbers a value has.
     pub width: usize,
     /// What happens between keys.
     pub interpolation: Interpolation,
@@ -41,7 +41,7 @@ pub struct Track {
 /// What happens between keys. Before the first and after the last key nothing moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
-    /// The value of the key before stays.
+    /// The value of the previous key stays.
     Step,
     /// In a straight line; rotations along the shortest arc at even speed.
     Linear,
@@ -62,7 +62,7 @@ pub enum Target {
     Material(usize, MaterialProperty),
 }
 
-/// What of a node is driven.
+/// The property of a node that a track drives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum NodeProperty {
     /// Three numbers.
@@ -77,7 +77,7 @@ pub enum NodeProperty {
     Visible,
 }
 
-/// What of a camera is driven: one number each.
+/// The property of a camera that a track drives: one number each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum CameraProperty {
     /// Vertical field of view, radians.
@@ -92,7 +92,7 @@ pub enum CameraProperty {
     Zfar,
 }
 
-/// What of a light is driven: three numbers for the colour, else one.
+/// The property of a light that a track drives: three numbers for the colour, else one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LightProperty {
     /// Linear colour.
@@ -107,7 +107,7 @@ pub enum LightProperty {
     OuterConeAngle,
 }
 
-/// What of a material is driven.
+/// The property of a material that a track drives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MaterialProperty {
     /// Four numbers.

@@ -1,4 +1,4 @@
-//! A piece of a file that is kept in memory once, however many parts of the shot lie in it.
+//! A piece of a file. The file is in memory only once, however many parts of the shot use it.
 
 use std::fmt;
 use std::ops::{Deref, Range};

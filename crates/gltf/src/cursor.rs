@@ -5,7 +5,8 @@ use std::borrow::Cow;
 use crate::finding::{Checked, EXPORT_ANEW, Finding, Severity};
 use crate::json::{Json, Step};
 
-/// A value and how it was reached. `'p` is the chain of parents, on the stack of the readers; `'t` the JSON tree.
+/// A value and how it was reached. `'p` is the lifetime of the chain of parents, which are on the stack of the readers;
+/// `'t` is that of the JSON tree.
 #[derive(Clone)]
 pub(crate) struct Cursor<'p, 't> {
     value: &'t Json<'t>,
@@ -138,7 +139,7 @@ impl<'p, 't> Cursor<'p, 't> {
         self.member(name).map(|member| member.index(count, what)).transpose()
     }
 
-    /// A whole number member, or what is meant where it is missing.
+    /// A whole number member, or `default` where it is missing.
     pub fn whole_or(&self, name: &'static str, default: u64) -> Checked<u64> {
         self.member(name).map_or(Ok(default), |member| member.whole())
     }
@@ -152,7 +153,7 @@ impl<'p, 't> Cursor<'p, 't> {
         }
     }
 
-    /// A number member, or what is meant where it is missing.
+    /// A number member, or `default` where it is missing.
     pub fn number_or(&self, name: &'static str, default: f64) -> Checked<f64> {
         self.member(name).map_or(Ok(default), |member| member.number())
     }
@@ -170,7 +171,7 @@ impl<'p, 't> Cursor<'p, 't> {
         Ok(numbers)
     }
 
-    /// A member of exactly `N` numbers, or what is meant where it is missing.
+    /// A member of exactly `N` numbers, or `default` where it is missing.
     pub fn numbers_or<const N: usize>(&self, name: &'static str, default: [f64; N]) -> Checked<[f64; N]> {
         self.member(name).map_or(Ok(default), |member| member.numbers())
     }
@@ -196,7 +197,7 @@ impl<'p, 't> Cursor<'p, 't> {
         }
     }
 
-    /// A truth value, or what is meant where it is missing.
+    /// A truth value, or `default` where it is missing.
     pub fn truth_or(&self, name: &'static str, default: bool) -> Checked<bool> {
         self.member(name).map_or(Ok(default), |member| member.truth())
     }

@@ -1,5 +1,5 @@
-//! The numbers of accessors, as `f32` or `u32`. As `f32`, each accessor is decoded once for each kind of use, and all
-//! who use it in that way share the memory; as `u32`, it is decoded at each call.
+//! Decodes the numbers of accessors, as `f32` or `u32`. An accessor is decoded as `f32` once for each kind of use, and
+//! the result is shared. It is decoded as `u32` at each call.
 
 use std::any::Any;
 use std::array;
@@ -21,7 +21,7 @@ pub(crate) enum Integers {
     Normalized,
 }
 
-/// What is looked for in the numbers of an accessor, once for all who use it.
+/// A fault that is looked for in the numbers of an accessor: once, however often the accessor is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Scan {
     /// NaN or an infinity.
@@ -77,7 +77,7 @@ impl<'o, 'p, 't> Accessors<'o, 'p, 't> {
         &self.list[index]
     }
 
-    /// The index that a member holds, of an accessor that has one of these shapes and one of these components.
+    /// The index that a member holds. Its accessor must have one of these shapes and one of these components.
     ///
     /// # Errors
     /// Out of range, or another format.
@@ -102,7 +102,7 @@ impl<'o, 'p, 't> Accessors<'o, 'p, 't> {
     /// The elements of an accessor whose shape has `N` numbers. NaN and infinities are passed on.
     ///
     /// # Errors
-    /// The numbers are not in the file, more memory than is left, bad sparse indices.
+    /// The numbers are not in the file, they need more memory than is left, or the sparse indices are bad.
     pub fn floats<const N: usize>(
         &mut self,
         index: usize,
@@ -206,7 +206,7 @@ impl<'o, 'p, 't> Accessors<'o, 'p, 't> {
         self.source.take_memory(count as u64, bytes_each, cursor)
     }
 
-    /// Hands back what was taken for numbers that were dropped.
+    /// Gives back the memory of numbers that were dropped.
     pub fn give_back_memory(&mut self, count: usize, bytes_each: usize) {
         self.source.give_back_memory(count as u64, bytes_each);
     }

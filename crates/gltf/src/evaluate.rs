@@ -22,7 +22,7 @@ use crate::{Gltf, keys};
 /// Which animations move the shot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Playing<'a> {
-    /// All of them together. What two of them drive, the first drives.
+    /// All of them together. If two of them drive the same property, the first one counts.
     All,
     /// The one with this name; the first, if several have it.
     Named(&'a str),
@@ -44,7 +44,7 @@ pub struct Animator {
     span_s: Option<[f32; 2]>,
 }
 
-/// A track, and the index of its clock, the list of its keys' times; tracks with equal times share a clock.
+/// A track and the index of its clock. A clock is the list of a track's key times; tracks with equal times share one.
 #[derive(Clone, Debug)]
 struct Playable {
     track: Track,
@@ -93,7 +93,7 @@ impl Posed {
 }
 
 impl Animator {
-    /// Puts the tracks of a shot in order. Returns warnings about what two animations drive.
+    /// Puts the tracks of a shot in order. Returns warnings about properties that two animations drive.
     ///
     /// # Errors
     /// No animation has the name. The error lists the names that there are.
@@ -128,7 +128,7 @@ impl Animator {
             }
         }
         animator.clocks = clocks.list;
-        // So that memory is read in the order of the nodes.
+        // Sorted, so that memory is read in the order of the nodes.
         animator.tracks.sort_by_key(|playable| match playable.track.target {
             Target::Node(node, _) => node,
             _ => usize::MAX,
@@ -333,8 +333,8 @@ fn drive_trs(trs: &mut Trs, property: NodeProperty, track: &Track, place: keys::
     }
 }
 
-/// The rotation at a place. That no key is zero was checked. Between two keys a spline may pass through zero: there the
-/// rotation is that of the earlier key.
+/// The rotation at a place. No key is zero, which was checked when the file was read. A spline may pass through zero
+/// between two keys; there the rotation is that of the earlier key.
 fn rotation(track: &Track, place: keys::Place) -> DQuat {
     let key = |key| DQuat::from_array(place.key::<4>(track, key)).normalize();
     match track.interpolation {
@@ -367,7 +367,8 @@ fn drive_lens(lens: &mut Lens, property: CameraProperty, value: f64) {
     }
 }
 
-/// Drops a far plane that is not behind the near plane (perspective), or puts it one unit behind.
+/// Mends a far plane that is not behind the near plane: drops it in perspective, else puts it one unit behind the near
+/// plane.
 fn settle_lens(lens: &mut Lens) {
     match lens {
         Lens::Perspective { znear, zfar, .. } => *zfar = zfar.filter(|far| far > znear),

@@ -43,7 +43,7 @@ const SILENT: [&str; 6] = [
     "EXT_structural_metadata",
 ];
 
-/// Extensions, beside those of `KHR_materials_`, whose effects are not seen. A file that requires one is still read.
+/// Extensions, besides those of `KHR_materials_`, whose effects are not seen. A file that requires one is still read.
 const UNSEEN: [&str; 5] =
     ["EXT_lights_image_based", "EXT_lights_ies", "KHR_audio_emitter", "KHR_physics_rigid_bodies", "MSFT_lod"];
 

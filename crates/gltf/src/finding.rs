@@ -83,7 +83,7 @@ impl Findings {
         }
     }
 
-    /// The value, or `None` when there was a finding instead, which is added.
+    /// The value. If the result is a finding instead, adds the finding and returns `None`.
     pub fn take<T>(&mut self, result: Checked<T>) -> Option<T> {
         result.map_err(|finding| self.add(*finding)).ok()
     }
@@ -114,5 +114,5 @@ impl Findings {
     }
 }
 
-/// A value, or why there is none. Boxed, because errors are rare and results are many.
+/// A value, or why there is none. The finding is boxed, because errors are rare and results are many.
 pub(crate) type Checked<T> = Result<T, Box<Finding>>;

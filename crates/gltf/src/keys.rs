@@ -4,8 +4,8 @@ use std::array;
 
 use crate::animation::{Interpolation, Track};
 
-/// A key counts as reached a little before its time: by at most this share of that time. Files round the times of
-/// frames to 32 bits, half of them upwards. Only stepped values depend on it.
+/// A key counts as reached a little early, by at most this share of its time. The reason is that files round the times
+/// of frames to 32 bits, half of them upwards. Only stepped values depend on this.
 const ROUNDED: f64 = 2.0 * f32::EPSILON as f64;
 
 /// Where a time lies in a list of key times.

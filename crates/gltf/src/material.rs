@@ -70,7 +70,7 @@ pub struct TextureUse {
     pub transform: UvTransform,
 }
 
-/// A move of texture coordinates (V down): scaled, then turned about (0, 0), then shifted.
+/// A transform of texture coordinates (V down). They are scaled, then turned about (0, 0), then shifted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UvTransform {
     /// Shift.
@@ -135,7 +135,7 @@ pub struct Image {
     /// The bytes of the encoded picture. `None` if they could not be read (there was a warning), or if they lie in a
     /// file of their own and no base colour or emissive texture uses them.
     pub bytes: Option<Bytes>,
-    /// Media type such as `image/png`: told from the first bytes, else as stated; empty if neither tells it.
+    /// Media type such as `image/png`: recognised by the first bytes, else as stated in the file; else empty.
     pub media_type: String,
 }
 

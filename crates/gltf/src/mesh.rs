@@ -23,7 +23,7 @@ pub struct Mesh {
 /// except colours without alpha, `points` and `groups`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Primitive {
-    /// Its index in the file's list of the mesh's primitives, from which some may be left out here.
+    /// Its index in the file's list of the mesh's primitives. Some of that list may be left out here.
     pub index: usize,
     /// One position per vertex, finite, in the space of the node.
     pub positions: Arc<Vec<[f32; 3]>>,

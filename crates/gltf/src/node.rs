@@ -7,7 +7,8 @@ use glam::{DAffine3, DMat3, DQuat, DVec3, Mat4};
 /// A place in the tree of a shot, with what is there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {
-    /// Unique in the file: the name there, or `Node.3` (by index) for none, or `Cube.001` for the second `Cube`.
+    /// Unique in the file. It is the name in the file, or `Node.3` (by index) if there is none, or `Cube.001` for the
+    /// second `Cube`.
     pub name: String,
     /// The name in the file.
     pub original_name: Option<String>,
@@ -26,7 +27,7 @@ pub struct Node {
     pub skin: Option<usize>,
     /// Weights of the mesh's morph targets, where they are not the mesh's own; as many as it has targets.
     pub weights: Option<Vec<f32>>,
-    /// Whether it and what is under it shows (KHR_node_visibility).
+    /// Whether the node and the nodes below it show (KHR_node_visibility).
     pub is_visible: bool,
     /// Where it stands, when no animation says otherwise.
     pub local: LocalTransform,

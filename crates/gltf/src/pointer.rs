@@ -3,7 +3,7 @@
 use crate::animation::{CameraProperty, LightProperty, MaterialProperty, NodeProperty, Target};
 use crate::extensions::{EMISSIVE_STRENGTH, LIGHTS, VISIBILITY};
 
-/// What a pointer drives; `None` where that is not read. The index may be out of range.
+/// The property that a pointer drives; `None` if motion of this property is not read. The index may be out of range.
 pub(crate) fn target(pointer: &str) -> Option<Target> {
     let parts: Vec<&str> = pointer.strip_prefix('/')?.split('/').collect();
     let index = |text: &str| {

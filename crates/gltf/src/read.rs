@@ -11,11 +11,11 @@ use crate::read_node::{self, Joints, Referred};
 use crate::source::{Open, Source};
 use crate::{Gltf, accessor, camera_light, container, extensions, images, json, material};
 
-/// Reads a glTF 2.0 file, `.gltf` or `.glb`, from its bytes. Opens nothing itself: buffers and pictures in files beside
-/// it are asked of `open`, with names that were checked to stay in the folder.
+/// Reads a glTF 2.0 file, `.gltf` or `.glb`, from its bytes. Opens nothing itself: it asks `open` for buffers and
+/// pictures in files beside the glTF file, by names that were checked to stay in the folder.
 ///
-/// No list is made longer than the bytes hold. Where the format lets a file claim zeros without bytes, a limit holds
-/// ([`crate::SPARE_BYTES`]). The second result are warnings, which say what was replaced or left out.
+/// No list is made longer than the bytes hold. Where the format lets a file claim zeros without bytes, a limit applies
+/// ([`crate::SPARE_BYTES`]). The second result is a list of warnings, which say what was replaced or left out.
 ///
 /// # Errors
 /// At least one fatal finding first, then warnings: the file is broken, needs a feature that is not read, or exceeds a

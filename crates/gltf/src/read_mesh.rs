@@ -243,8 +243,8 @@ impl MeshReader<'_, '_, '_, '_> {
     }
 
     /// An attribute of our own with one whole number per vertex, stored as floats. `None` if it is missing. Other
-    /// programs may use the name for something else, so another format also gives `None`, without a message; numbers
-    /// that are not whole, negative or too large give `None` and a warning.
+    /// programs may use the name for something else, so another format also gives `None`, without a message. Fractions,
+    /// negative numbers and too large numbers give `None` and a warning.
     fn numbers(
         &mut self,
         attributes: &Cursor<'_, '_>,
@@ -326,14 +326,14 @@ pub(crate) fn weights(cursor: &Cursor<'_, '_>, target_count: usize) -> Checked<O
     Ok(Some(weights))
 }
 
-/// Names of groups of vertices. No rule says what `extras` holds, so nothing there is an error.
+/// Names of groups of vertices. No rule says what `extras` holds, so nothing in it counts as an error.
 fn group_names(cursor: &Cursor<'_, '_>) -> Vec<String> {
     let Some(extras) = cursor.member("extras") else { return Vec::new() };
     let Ok(names) = extras.list("groupNames") else { return Vec::new() };
     names.iter().map(|name| name.text().unwrap_or_default().to_owned()).collect()
 }
 
-/// Names of morph targets. No rule says what `extras` holds, so nothing there is an error.
+/// Names of morph targets. No rule says what `extras` holds, so nothing in it counts as an error.
 fn target_names(cursor: &Cursor<'_, '_>, target_count: usize) -> Vec<String> {
     let Some(extras) = cursor.member("extras") else { return Vec::new() };
     let Ok(names) = extras.list("targetNames") else { return Vec::new() };

@@ -37,7 +37,7 @@ pub(crate) struct View {
     pub is_compressed: bool,
 }
 
-/// Everything that the bytes come from.
+/// Where the bytes of a shot come from.
 pub(crate) struct Source<'o> {
     open: &'o mut Open<'o>,
     opened: HashMap<String, Bytes>,
@@ -78,7 +78,7 @@ impl<'o> Source<'o> {
         }
     }
 
-    /// Hands back what was taken for memory that is free again.
+    /// Gives back memory that is free again.
     pub fn give_back_memory(&mut self, count: u64, bytes_each: usize) {
         self.spare_bytes += count * bytes_each as u64;
     }

@@ -1,4 +1,4 @@
-//! Names of files inside a glTF file: which are refused, and what a data URI holds.
+//! The URIs in a glTF file: refuses file names that lead elsewhere, and decodes data URIs.
 
 /// What a URI stands for.
 #[derive(Debug, PartialEq, Eq)]

@@ -50,7 +50,7 @@ impl Share {
 /// Chatter over a shot, by body and layer.
 #[derive(Clone, Debug, Default)]
 pub struct Chatter {
-    /// Stroke-frames and reversals of each body's layers.
+    /// Stroke-frames and reversals of each coat, which is one layer of one body.
     pub by_coat: BTreeMap<(u32, LayerKind), Share>,
     /// The largest reversal.
     pub worst: Option<Place>,

@@ -185,7 +185,7 @@ impl<'a> MeasureContext<'a> {
         self.draw(painting.seen_by(camera, self.reference_frame(), &options))
     }
 
-    /// What went wrong in any version, in words, each once.
+    /// The faults of all versions in words, each fault once.
     pub fn faults(&self) -> BTreeSet<String> {
         self.paintings.values().filter_map(|painting| painting.fault_words()).collect()
     }

@@ -1,4 +1,4 @@
-//! Where paint of a body in front may hide what lies behind: paint may run past the border of its body.
+//! Finds where the paint of a body in front may hide what lies behind, since paint may run past the border of its body.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use impasto_painting::frame::Stroke;
 
 use crate::plane::Plane;
 
-/// How far the paint of each body may run past its border, in pixels, by the ids of bodies.
+/// How far the paint of each body may run past its border, in pixels, keyed by body id.
 pub fn overruns_px(strokes: &[Stroke]) -> BTreeMap<u32, f32> {
     let mut overruns_px = BTreeMap::new();
     for stroke in strokes {
@@ -32,7 +32,7 @@ pub fn covered(size_px: [usize; 2], reference: &ReferencePixels, overruns_px: &B
         if reach == 0 {
             continue;
         }
-        // Where no body is, the depth is 0, but all lies behind.
+        // Where there is no body, the depth is 0, although the background lies behind all bodies.
         let lies_behind = |other: usize| {
             let other_id = reference.body_id[other];
             other_id != id && (other_id == 0 || reference.depth[other] > depth)

@@ -13,8 +13,8 @@ pub struct PlacedStroke {
     pub wanted_area_px: f64,
 }
 
-/// Σ α · (pixels for each wanted stroke), divided by `pixels`: the area in which the strokes lie, painted or not. It is
-/// 1 where there are as many strokes as wanted.
+/// Σ α · (pixels for each wanted stroke), divided by `pixels`. `pixels` is the area in which the strokes lie, painted
+/// or not. The result is 1 where there are as many strokes as wanted.
 pub fn shown_over_wanted(strokes: &[PlacedStroke], pixels: usize) -> f64 {
     strokes.iter().map(|stroke| stroke.alpha * stroke.wanted_area_px).sum::<f64>() / pixels.max(1) as f64
 }

@@ -1,9 +1,10 @@
-//! M17, flicker: how much the picture goes to and fro along the motion of its surfaces.
+//! M17, flicker: how much the brightness of surface points goes up and down from frame to frame, while they are
+//! followed along their motion.
 
 use crate::chatter::Place;
 use crate::plane::Plane;
 
-/// A second difference of luma above this (levels of 255) is seen.
+/// A second difference of luma above this (levels of 255) counts as visible.
 pub const SEEN: f32 = 6.0;
 
 /// How many bins count the second differences, from 0 to 255; the last one also counts all larger ones.

@@ -28,19 +28,19 @@ pub enum Metric {
     M9,
     /// Angular jitter.
     M10,
-    /// Authoring: saving, scrubbing and density change nothing that was stated.
+    /// Authoring: saving, scrubbing and a higher density do not change the strokes.
     M11,
     /// Speed.
     M12,
-    /// Loop and replay: the same frame is the same picture.
+    /// Loop and replay: the same frame always gives the same picture.
     M13,
     /// Density.
     M14,
-    /// Chatter: strokes whose lightness goes to and fro.
+    /// Chatter: strokes whose lightness goes up and down from frame to frame.
     M15,
-    /// Steps: strokes that are seen to come or go from one frame to the next.
+    /// Steps: strokes that visibly appear or vanish from one frame to the next.
     M16,
-    /// Flicker of the picture along the motion.
+    /// Flicker of the picture at points that are followed along their motion.
     M17,
 }
 

@@ -1,4 +1,4 @@
-//! Pictures of one channel, in which the measures sample, blur and look for fine detail. The top row comes first.
+//! Pictures of one channel, which the metrics sample, blur and search for fine detail. The top row comes first.
 
 use impasto_gl_render::Picture;
 use rayon::prelude::*;
@@ -46,8 +46,8 @@ impl Plane {
         Some(taps.mix(|index| self.values[index]))
     }
 
-    /// Blurred by a Gaussian of this deviation within a mask: each value is the weighted mean of the masked pixels
-    /// around it; 0 outside the mask.
+    /// Blurred by a Gaussian of this deviation within a mask: each value is the weighted mean of the pixels around it
+    /// that are in the mask. 0 outside the mask.
     pub fn blurred_in(&self, mask: &[bool], sigma_px: f64) -> Self {
         let weights: Vec<f32> = mask.iter().map(|&known| f32::from(u8::from(known))).collect();
         let weighted = Self {
@@ -65,7 +65,7 @@ impl Plane {
         }
     }
 
-    /// Blurred by a Gaussian of this deviation, each pixel among those of its own body.
+    /// Blurred by a Gaussian of this deviation. Each pixel is averaged only with pixels of its own body.
     pub fn blurred_within(&self, body_ids: &[u32], sigma_px: f64) -> Self {
         let weights = gaussian(sigma_px);
         let [width, height] = self.size_px.map(|side| side as i64);

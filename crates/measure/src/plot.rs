@@ -112,7 +112,7 @@ fn chart(text: &mut String, series: &Series) {
     }
 }
 
-/// 1, 2 or 5 times a power of ten that divides a length into about [`TICKS`] parts.
+/// A step that divides a length into about [`TICKS`] parts: 1, 2 or 5 times a power of ten.
 fn round_step(length: f64) -> f64 {
     let raw = (length / TICKS).max(f64::MIN_POSITIVE);
     let power = 10f64.powf(raw.log10().floor());

@@ -72,7 +72,7 @@ pub(crate) fn touches_border(stroke: &MeasuredStroke, margin_px: f64, size_px: [
     })
 }
 
-/// The largest distance that a stroke has moved, of all strokes that are in both frames.
+/// The largest distance that any stroke has moved, among those that are in both frames.
 pub(crate) fn displacement_px(before: &StrokesByKey, after: &StrokesByKey) -> f64 {
     let moved = before.iter().filter_map(|(key, then)| {
         let now = after.get(key)?;
@@ -86,8 +86,8 @@ fn displacement(then: &MeasuredStroke, now: &MeasuredStroke) -> f64 {
     dx.hypot(dy)
 }
 
-/// The same strokes with their presence as alpha: as if nothing hid them, and as if each layer were wanted everywhere
-/// (in the picture small strokes, for example, are wanted only near detail).
+/// The same strokes with their presence as alpha. They then count as if nothing hid them, and as if each layer were
+/// wanted everywhere. (In the picture, small strokes, for example, are wanted only near detail.)
 pub fn by_presence(strokes: &StrokesByKey) -> StrokesByKey {
     strokes.iter().map(|(key, stroke)| (*key, MeasuredStroke { alpha: stroke.presence, ..*stroke })).collect()
 }

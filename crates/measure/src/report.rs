@@ -147,8 +147,8 @@ impl Reading {
     }
 }
 
-/// A number with three significant digits, but without rounding whole digits; below 0.001 and from 100000 on, with two
-/// significant digits and an exponent.
+/// A number with three significant digits, or with all digits before the point if there are more. Below 0.001 and from
+/// 100000 on, it has two significant digits and an exponent.
 fn short(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 {

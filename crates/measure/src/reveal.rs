@@ -19,7 +19,7 @@ const FACED: f64 = 0.2;
 const DRAWN: f64 = 0.1;
 
 /// Strokes are neighbours only if the cosine between their normals is larger than this (37 degrees). Strokes across a
-/// crease, round a limb or on the other side of a sheet are none.
+/// crease, round a limb or on the other side of a sheet do not count as neighbours.
 const SAME_SIDE: f64 = 0.8;
 
 /// How many neighbours a stroke is compared with.

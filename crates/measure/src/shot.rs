@@ -13,7 +13,7 @@ pub struct WholeShot {
     pub steps: Steps,
     /// The result of metric M17.
     pub flicker: Flicker,
-    /// Flicker of plain renders without strokes: that of moving edges and shadows alone.
+    /// Flicker of plain renders without strokes. It comes from moving edges and shadows alone.
     pub plain_flicker: Flicker,
     /// How many frames were drawn.
     pub frames: usize,

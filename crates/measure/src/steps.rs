@@ -1,4 +1,5 @@
-//! M16, steps: strokes that come or go within a frame, counted where they are seen, and how long highlights live.
+//! M16, steps: counts the visible strokes that appear or vanish from one frame to the next. Also measures for how many
+//! frames highlights last.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +10,8 @@ use crate::chatter::{Place, Share};
 use crate::popping::{displacement_px, touches_border};
 use crate::strokes::{MeasuredStroke, StrokeKey, StrokesByKey};
 
-/// A step is a change of alpha from frame to frame that, times the share of the stroke that is seen, exceeds this.
+/// A change of alpha from frame to frame is a step if it exceeds this after multiplying by the visible share of the
+/// stroke.
 const STEP: f64 = 0.35;
 
 /// A surface hides a stroke if it is nearer than the stroke's nearest end by more than this share of its depth.
@@ -43,7 +45,7 @@ pub struct Steps {
     pub worst: Option<Place>,
     /// For how many frames each highlight has been there.
     living: BTreeMap<StrokeKey, usize>,
-    /// Of each highlight that came and went within the shot, the number of frames in which it was there.
+    /// For each highlight that came and went within the shot: how many frames it lasted.
     lives: Vec<f64>,
 }
 
@@ -103,8 +105,8 @@ impl Steps {
         self.by_layer.values().map(|share| share.found).sum()
     }
 
-    /// Of each highlight that came within the shot, the number of frames in which it was there. One that is still there
-    /// at the end counts with the frames so far.
+    /// For each highlight that came within the shot: how many frames it lasted. A highlight that is still there at the
+    /// end counts with its frames so far.
     pub fn lives_of_highlights(&self) -> Vec<f64> {
         self.lives.iter().copied().chain(self.living.values().map(|&frames| frames as f64)).collect()
     }
@@ -114,7 +116,7 @@ impl Steps {
 fn visible_share(key: &StrokeKey, stroke: &MeasuredStroke, shown: Shown<'_>, size_px: [u32; 2]) -> f64 {
     let reference = shown.reference;
     let facing = stroke.facing.clamp(LEAST_FACING, 1.0);
-    // How much nearer than its centre an end of the stroke lies on a slanting surface, as a share of the depth.
+    // How much nearer the stroke's near end is than its centre on a slanting surface, as a share of the depth.
     let slant = shown.units_per_px_at_1 * 0.5 * stroke.length_px * (1.0 / (facing * facing) - 1.0).sqrt();
     let nearest = stroke.depth * (1.0 - NEARER - slant);
     let (sin, cos) = stroke.angle_rad.sin_cos();

@@ -20,17 +20,18 @@ pub struct StrokeKey {
 /// A stroke as it is measured. Pixels from the lower left, Y up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasuredStroke {
-    /// Centre as drawn; of a stroke that was not drawn, as computed.
+    /// Centre as drawn, or as computed if the stroke was not drawn.
     pub center_px: [f64; 2],
     /// Where its particle projects.
     pub particle_px: [f64; 2],
-    /// Counter-clockwise from +X, as computed: without the turn onto the outline that contour strokes are drawn with.
+    /// Counter-clockwise from +X, as computed. Contour strokes are drawn turned onto the outline; that turn is not
+    /// included.
     pub angle_rad: f64,
     /// Length.
     pub length_px: f64,
     /// Width.
     pub width_px: f64,
-    /// Alpha as drawn; of a stroke that was not drawn, its presence.
+    /// Alpha as drawn, or the presence if the stroke was not drawn.
     pub alpha: f64,
     /// Luma of its colour as encoded, 0..=1, weights of Rec. 709; 0 where it was not drawn.
     pub luma: f64,

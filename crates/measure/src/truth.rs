@@ -1,6 +1,6 @@
-//! Finds how strokes should turn, to measure the painted strokes against: computes the local map between two pictures
-//! by finite differences. Its camera matrix is written out here, so that it shares no function with the code that
-//! paints.
+//! Finds how strokes should turn, for comparison with the painted strokes: computes the local map between two pictures
+//! by finite differences. The camera matrix is written out here, so that this code shares no function with the code
+//! that paints.
 
 use glam::{DAffine3, DMat3, DVec2, DVec3, DVec4};
 use impasto_core::TriangleMesh;

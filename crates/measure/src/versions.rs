@@ -11,9 +11,9 @@ use impasto_scene::presets::{LayerKind, PAPER_PRESET};
 
 use crate::cameras;
 
-/// A version of a scene. In all but the first, boil is off, because changes on purpose are no fault, and the picture is
-/// on a *board*, a smooth canvas: the texture of other canvases stands still on the picture by design, which would
-/// disturb measurements.
+/// A version of a scene. In all but the first, boil is off, because its changes are intended and must not count as
+/// errors. The picture is then also on a *board*, a smooth canvas: the texture of other canvases stands still on the
+/// picture by design, which would disturb measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum SceneVersion {
     /// The scene as it is.

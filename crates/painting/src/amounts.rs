@@ -1,5 +1,5 @@
-//! Painted amounts: how far dabs of a brush make strokes wider, longer, denser and flatter, particle by particle. All
-//! is read off the surface at rest, so that no view changes it.
+//! Painted amounts: how far dabs of a brush make strokes wider, longer, denser and flatter, particle by particle. The
+//! amounts depend only on the surface at rest, so they are the same in every view.
 //!
 //! A dab of radius R that states a factor b multiplies by `1 + (b − 1) w`, with `w = (1 − (r/R)²)² s(n·m)` at a
 //! distance r on a surface with the normal n; m is the normal at the dab, and s rises smoothly from 0 at 90° to 1 at
@@ -14,7 +14,8 @@ use impasto_scene::document::{Amount, AmountDab, Scene};
 /// From this cosine between the two normals on, a dab has its whole strength.
 const WHOLLY_FACING: f32 = 0.5;
 
-/// The factors on the number of particles are rounded up to these: few, so that a drag seldom samples anew.
+/// The factor on the number of particles is rounded up to one of these. There are few of them, so that particles are
+/// seldom sampled anew while the user drags a dab.
 const COUNT_STEPS: [f32; 13] = [1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0, 48.0, 64.0];
 
 /// What is painted onto one body.
@@ -195,7 +196,8 @@ pub(crate) struct Painted {
 impl Painted {
     pub(crate) const NOTHING: Self = Self { length: 1.0, width: 1.0, density: 1.0 };
 
-    /// The factor on how many strokes are wanted: as many as keep the coverage at their new size, times the density.
+    /// The factor on how many strokes are wanted: the factor that keeps the coverage at their new size, times the
+    /// density.
     pub(crate) fn wanted(self) -> f32 {
         self.density / (self.length * self.width)
     }

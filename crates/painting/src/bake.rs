@@ -54,8 +54,8 @@ pub(crate) struct Combed {
     pub(crate) stencils: Arc<Stencils>,
 }
 
-/// Equal where the same lifts would be baked. The number of particles is not compared, except where flatness is
-/// painted: its factors are, one per particle.
+/// Equal where the same lifts would be baked. The number of particles matters only where flatness is painted: its
+/// factors are compared, and there is one per particle.
 impl PartialEq for BakeInputs {
     fn eq(&self, other: &Self) -> bool {
         let (sources, before) = (&self.sources, &other.sources);

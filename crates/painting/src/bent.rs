@@ -46,7 +46,7 @@ impl BodySurface {
         Self { sides: sides(&mesh), mesh, bending: BodyBend::default(), materials: Vec::new() }
     }
 
-    /// Whether the surface in this shape is its mesh.
+    /// Whether the surface in this shape is the same as its mesh.
     pub fn is_at_rest(&self, shape: &BodyShape) -> bool {
         let rest = &self.bending.rest;
         (&shape.pose, shape.cache_frame) == (&rest.pose, rest.cache_frame) && shape.displacing().is_none()
@@ -126,7 +126,7 @@ impl BodySurface {
     }
 }
 
-/// Vertices, with F at each of them if their normals were found from it.
+/// Vertices, with the deformation gradient F at each of them if their normals were found from F.
 struct Strained {
     vertices: Vertices,
     gradients: Option<Vec<Mat3>>,
@@ -148,7 +148,7 @@ pub(crate) struct BentMemo(Mutex<VecDeque<Remembered>>);
 struct Remembered {
     frame: f64,
     shapes: Vec<BodyShape>,
-    /// Weak: found again as long as somebody else holds them. `None` for a body at rest.
+    /// Weak, so that a body is found again only while somebody else holds it. `None` for a body at rest.
     bodies: Vec<Option<Weak<Bent>>>,
     /// The same bodies, if the memo itself holds them.
     kept: Option<BentBodies>,

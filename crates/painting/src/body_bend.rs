@@ -17,7 +17,7 @@ pub(crate) struct BodyBend {
     /// Morph targets and joints.
     pub(crate) bend: Option<Bend>,
     pub(crate) cache: Option<BodyCache>,
-    /// The shape in which the surface's mesh is; its noise is left out.
+    /// The shape that the surface's mesh has, without noise.
     pub(crate) rest: BodyShape,
     /// Gives F at each vertex; made when first asked for.
     pub(crate) gradients: OnceLock<Gradients>,
@@ -55,7 +55,7 @@ impl BodyBend {
     }
 
     /// Says which vertices with the same position and normal at rest stay together. Noise separates none of them, since
-    /// it moves a vertex by its position and normal alone.
+    /// the way it moves a vertex depends only on the position and normal.
     pub(crate) fn bonds(&self) -> Bonds<'_> {
         match (&self.cache, &self.bend) {
             (Some(cache), _) => Bonds::Points(&cache.points.of_vertex),

@@ -71,7 +71,7 @@ impl PartialEq for FrameNoise {
 /// The shape of a surface at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BodyShape {
-    /// How far targets and joints have moved, model space; `None`: as the mesh file rests.
+    /// How far targets and joints have moved, model space; `None` if they rest as in the mesh file.
     pub pose: Option<Arc<BendPose>>,
     /// The frame at which its point cache is read.
     pub cache_frame: Option<f64>,

@@ -1,7 +1,7 @@
 //! Boil: strokes are laid anew every few frames, each a little elsewhere, since a painted film is never quite still.
 //!
-//! Whether a stroke is there does not change: only its place, its length and width, its direction and its colour, by a limited
-//! amount. The same frame always has the same strokes.
+//! No strokes appear or vanish. Only their place, length, width, direction and colour change, by a limited amount. The
+//! same frame always has the same strokes.
 
 use impasto_core::hash;
 

@@ -46,7 +46,7 @@ pub(crate) struct Coat {
 }
 
 impl Sampled {
-    /// From what was kept; the large arrays are taken out of `kept`.
+    /// Restores the particles that another process kept. The large arrays are taken out of `kept`.
     pub(crate) fn of_kept(body: &Arc<BodySurface>, kept: &mut KeptCoat) -> Self {
         let none = Particles::new(body, Arc::default(), 0);
         Self {
@@ -100,7 +100,7 @@ impl Coat {
         }
     }
 
-    /// A bit for each particle: whether it faces the eye within the bounds, carried by a body that is not at rest.
+    /// A bit for each particle, carried by a body that is not at rest: whether it faces the eye within the bounds.
     pub(crate) fn carried_within(&self, bent: &Bent, view: &ParticleView, bounds: &Bounds) -> Vec<u64> {
         let sorted = made_once(&self.sorted, || {
             SortedParticles::new(self.sampled.particles.places(), &self.baked.baked, self.heights())

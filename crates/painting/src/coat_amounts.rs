@@ -1,4 +1,4 @@
-//! What is painted onto the particles of a coat.
+//! The painted amounts at each particle of a coat: factors on width, length, density and flatness of its strokes.
 
 use std::sync::Arc;
 
@@ -9,15 +9,15 @@ use rayon::prelude::*;
 use crate::amounts::{BodyAmounts, Painted};
 use crate::traits::Traits;
 
-/// What is painted onto the particles of a coat, in progressive order.
+/// The painted amounts at each particle of a coat, in progressive order.
 #[derive(Debug, Default)]
 pub(crate) struct CoatAmounts {
-    /// Empty where no size and no density is painted.
+    /// Empty if no size and no density is painted.
     painted: Vec<Painted>,
     /// Factors on the flatness; empty where none is painted.
     flatness: Vec<f32>,
-    /// For each rule with painted amounts, the greatest factors; `density` is here the factor on how many strokes are
-    /// wanted.
+    /// For each rule with painted amounts, the greatest factors. Here, `density` is [`Painted::wanted`]: the factor on
+    /// how many strokes are wanted.
     most: Vec<(u16, Painted)>,
 }
 
@@ -35,7 +35,8 @@ impl PartialEq for AmountInputs {
 }
 
 impl AmountInputs {
-    /// The amounts of all particles. The underpainting is there to cover: it keeps its size and its number.
+    /// The amounts of all particles. The underpainting is there to cover: the size and the number of its
+    /// strokes stay.
     pub(crate) fn find(&self) -> CoatAmounts {
         let Self { kind, amounts, traits } = self;
         let count = traits.particles.len();
@@ -72,7 +73,7 @@ impl AmountInputs {
 }
 
 impl CoatAmounts {
-    /// What is painted onto the size and the number of a particle's strokes.
+    /// The painted factors on length, width and density at a particle; [`Painted::NOTHING`] where none are painted.
     #[inline]
     pub(crate) fn of(&self, particle: usize) -> Painted {
         self.painted.get(particle).copied().unwrap_or(Painted::NOTHING)

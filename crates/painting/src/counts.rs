@@ -120,7 +120,8 @@ impl CountInputs {
         std::array::from_fn(|kind| match self.stated {
             Some(stated) if kind == LayerKind::Body as usize => stated as usize,
             _ if self.left_out[kind] => 0,
-            // Painted as in the source paper, a polygon without a particle would stay bare: at least one for each.
+            // By the source paper's rule, a polygon without a particle would stay bare, so each polygon gets at least
+            // one.
             _ if self.paper => found[kind].max(surface.faces().count()),
             _ if LayerKind::ALL[kind] != LayerKind::Underpainting => {
                 particle_count::times(found[kind], self.more_wanted)
@@ -130,8 +131,8 @@ impl CountInputs {
     }
 }
 
-/// The greatest factor on a layer's coverage: the body layer is laid fuller in the lights. The resolve shader has the
-/// same number as `MOST_FULL`.
+/// The greatest factor on a layer's coverage: the body layer has more strokes where colours are light. The resolve
+/// shader has the same number as `MOST_FULL`.
 pub(crate) fn most_wanted(kind: LayerKind) -> f32 {
     if kind == LayerKind::Body { 1.35 } else { 1.0 }
 }

@@ -44,7 +44,7 @@ pub(crate) struct BodyField {
 /// The part of a field that does not depend on guides.
 struct UnguidedField {
     points: Vec<SamplePoint>,
-    /// In which the points are encoded.
+    /// The symmetry in which the points are encoded.
     symmetry: Symmetry,
     /// Computed when first needed.
     graph: OnceLock<FieldGraph>,

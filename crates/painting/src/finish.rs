@@ -11,15 +11,15 @@ use crate::view::PictureView;
 /// Direction to the light on the relief where the scene has no sun: to the upper left, as in most studios.
 const DEFAULT_RELIEF_LIGHT: DVec3 = DVec3::new(-0.55, 0.62, 0.56);
 
-/// The sine of the relief light's angle over the canvas: lower, it would shade the relief too harshly, and higher too
-/// flatly.
+/// The least and the greatest sine of the relief light's angle over the canvas. A lower light would shade the relief
+/// too harshly, and a higher light too flatly.
 const HEIGHTS: [f64; 2] = [0.45, 0.7];
 
 /// A scene's finish, before a view places the canvas.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct FinishRule {
     finish: Finish,
-    /// Where the camera looked in the reference pose, world space, for a canvas that follows it.
+    /// Where the camera looked in the reference pose, world space, for a canvas that follows the camera.
     anchor: Option<DVec3>,
     reference: PictureView,
 }

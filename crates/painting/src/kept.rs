@@ -1,6 +1,6 @@
-//! What preparing makes, kept from one process to the next: the outputs of its heavy steps (counts, particles, traits, lifts, order,
-//! marks) as plain arrays, under a key that is a hash of all that these steps are given. Nothing here opens a file: bytes are handed
-//! in ([`crate::PrepareOptions::kept`]) and out (`Painting::keep`).
+//! Keeps results of preparing from one process to the next: the outputs of the heavy steps (counts, particles, traits,
+//! lifts, order, marks), as plain arrays. Their key is a hash of all inputs of these steps. Nothing here opens a file:
+//! bytes are handed in ([`crate::PrepareOptions::kept`]) and out ([`crate::Painting::to_keep`]).
 //!
 //! A kept painting equals, to the bit, one that is prepared from nothing. Bytes that do not fit (cut, damaged, of
 //! another version or scene) are treated as if nothing were kept.
@@ -19,11 +19,11 @@ pub(crate) use key_hasher::KeyHasher;
 pub(crate) use scene_key::SceneKey;
 pub use write::ToKeep;
 
-/// The number of the layout of kept bytes. A change to what is kept, or to its order, raises it. (A change to how it is *made* needs
-/// nothing: the hash of the sources is part of every key.)
+/// The version of the layout of kept bytes. Raise it when what is kept, or its order, changes. (When the way it is
+/// *made* changes, nothing needs to be done: the hash of the sources is part of every key.)
 pub const FORMAT: u32 = 1;
 
-/// The name under which what is prepared is kept: a hash of all that it is made from, and of the program itself.
+/// The key under which a prepared painting is kept: a hash of all that it is made from, and of the program itself.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct KeptKey(pub(crate) [u8; 32]);
 

@@ -21,7 +21,7 @@ impl LateField {
         Self { field: OnceLock::from(field), make: None }
     }
 
-    /// A field that `make` solves, always the same.
+    /// A field that `make` solves when it is first asked for. `make` must always give the same field.
     pub(crate) fn later(make: impl Fn() -> Option<Arc<BodyField>> + Send + Sync + 'static) -> Self {
         Self { field: OnceLock::new(), make: Some(Box::new(make)) }
     }

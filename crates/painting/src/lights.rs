@@ -73,8 +73,8 @@ fn unexposed(scene: &Scene, frame: f64, origin_in_world: DVec3) -> FrameLights {
     lights
 }
 
-/// The index of the brightest lamp among all points and spots, by what the document states, keys left out: so it is the
-/// same one in every frame.
+/// The index of the brightest lamp among all points and spots, by what the document states. Keys do not count, so it is
+/// the same lamp in every frame.
 fn brightest_lamp(scene: &Scene) -> Option<usize> {
     let is_lamp = |light: &&Light| matches!(light.kind, LightKind::Point | LightKind::Spot);
     let luma = |light: &Light| radiance(light.color, light.intensity).dot(Vec3::new(0.2126, 0.7152, 0.0722));

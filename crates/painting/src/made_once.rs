@@ -4,9 +4,10 @@ use std::sync::OnceLock;
 
 /// The value in the cell; an empty cell is filled with what `make` makes, which must always be the same.
 ///
-/// This is not `get_or_init`, under which `make` must never use rayon: a thread that waits for its own tasks takes up others meanwhile.
-/// If one of those asks for the same cell, it waits for a value that is made further up on its own stack, forever. Here nobody waits;
-/// two threads may make the value at once, and one of the two is dropped.
+/// This does not call `make` inside `get_or_init`, because `make` could then not use rayon. A thread that waits for its
+/// own rayon tasks runs other tasks meanwhile. If one of these asked for the same cell, it would wait forever for a
+/// value that is being made further up on its own stack. Here nobody waits: two threads may make the value at once, and
+/// one of the two values is dropped.
 pub(crate) fn made_once<T>(cell: &OnceLock<T>, make: impl FnOnce() -> T) -> &T {
     match cell.get() {
         Some(value) => value,

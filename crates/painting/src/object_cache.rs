@@ -323,8 +323,8 @@ impl ObjectCache {
             .collect()
     }
 
-    /// The coats from what was kept. Counts, particles and lists of neighbours are cached, since later edits can use
-    /// them.
+    /// Makes the coats from what was kept. Counts, particles and lists of neighbours are cached, since later edits can
+    /// use them.
     pub(crate) fn take_kept(
         &mut self,
         context: &Context<'_>,

@@ -19,8 +19,8 @@ pub(crate) struct PaintingOrder {
 }
 
 impl PaintingOrder {
-    /// Culling (`candidates`) keeps a bit for each number in words of this many. The numbers of each coat begin at a multiple
-    /// of it, so that no two coats share a word: numbers between coats may be unused.
+    /// Culling (`candidates`) has a bit for each number, in words of this many bits. The numbers of each coat begin at
+    /// a multiple of it, so that no two coats share a word. So some numbers between coats may be unused.
     pub(crate) const WORD: usize = u64::BITS as usize;
 
     /// The painting order from kept arrays; `None` if they do not fit coats with `counts` particles.

@@ -39,7 +39,7 @@ pub(crate) struct KeptPolygons<'a> {
 }
 
 impl PolygonCounts {
-    /// From what was kept; `None` if an index is out of range.
+    /// Restores the counts from what was kept; `None` if an index is out of range.
     pub(crate) fn of_kept(
         of_particle: Vec<[u32; 2]>,
         sides: Vec<PolygonSide>,
@@ -104,7 +104,7 @@ impl PolygonCounts {
     }
 
     /// How many particles of each polygon side show in a view. Fractions are rounded at a threshold that is random but
-    /// fixed for each side, so that of the polygons smaller than a stroke the right share is painted. `moved` are the
+    /// fixed for each side, so that the right share of the polygons smaller than a stroke is painted. `moved` are the
     /// mesh and the positions of its vertices now; `None` at rest.
     pub(crate) fn shown(
         &self,

@@ -69,10 +69,10 @@ struct CountedFace<const LAYERS: usize> {
     wanted_per_px: [f64; LAYERS],
 }
 
-/// How many particles each layer needs, at least `least`: so many that in every view, nine tenths of the object's area
-/// in the picture have all the strokes that are wanted there. `wanted_per_px` gives the strokes per pixel wanted on a
-/// triangle, from its index, a point of it and its normal. `positions_at` gives the vertices' positions in a shape, or
-/// `None` at rest.
+/// How many particles each layer needs, at least `least`. The count is large enough that, in every view, nine tenths of
+/// the object's area in the picture have all the strokes that are wanted there. `wanted_per_px` gives the strokes per
+/// pixel wanted on a triangle, from its index, a point of it and its normal. `positions_at` gives the vertices'
+/// positions in a shape, or `None` at rest.
 pub(crate) fn find<const LAYERS: usize>(
     surface: &Surface<'_>,
     sightings: &[Sighting],

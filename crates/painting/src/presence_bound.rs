@@ -1,4 +1,5 @@
-//! A cheap upper bound on a stroke's presence: most strokes are absent, and it rules them out before they are computed.
+//! A cheap upper bound on a stroke's presence. Most strokes are absent, and the bound rules them out before they are
+//! computed.
 
 use std::borrow::Cow;
 
@@ -21,8 +22,8 @@ const LEEWAY: f64 = 1.001;
 
 /// The bound for one rule on one coat, in one view.
 pub(crate) struct PresenceBound {
-    /// How far from its particle a stroke can reach, pixels: at the largest size that chance gives, but before it grows
-    /// with its surface.
+    /// How far from its particle a stroke can reach, pixels, with the largest size and shift that chance, boil and
+    /// painted amounts give. A stroke that grows as its surface comes nearer (`size_follow`) can reach farther.
     pub(crate) reach_px: f32,
     /// By part: a stroke can be present only while its particle's index is below this times the projected area of the
     /// surface there (px² per unit of surface). Infinite where presence does not depend on the index.
@@ -31,7 +32,7 @@ pub(crate) struct PresenceBound {
 
 impl Painting {
     /// The bound of each rule, whose strokes at the frame are in `strokes_of_rule`; `None` where it paints nothing on
-    /// this coat. `by_polygon` says that the paper's rule decides what shows.
+    /// this coat. `by_polygon`: the source paper's counts per polygon decide what shows, so no index bounds it.
     pub(crate) fn presence_bounds(
         &self,
         coat: &Coat,

@@ -1,6 +1,6 @@
-//! Remembers which strokes the last picture of a moving view had, so that the next one is computed more quickly. Few
-//! of all strokes are present in a picture, and mostly the same ones in the next, so that only a share of the others
-//! is computed.
+//! Remembers which strokes the last picture of a moving view had, so that the next one is computed more quickly. Only
+//! few strokes are present in a picture, and the next picture has mostly the same ones. So only a share of the other
+//! strokes is computed.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -11,10 +11,12 @@ use crate::frame::Frame;
 use crate::order::PaintingOrder;
 use crate::painting::Painting;
 
-/// Of the small strokes that were absent, each picture computes another part in 32: nobody notices if they appear late.
+/// Each picture computes a different 32nd part of the small strokes that were absent: nobody notices if these appear
+/// late.
 const SMALL: u64 = 0x0000_0001_0000_0001;
 
-/// Of the large strokes that were absent, each picture computes one half: if they appear late, they leave holes.
+/// Each picture computes a different half of the large strokes that were absent: if these appear late, they leave
+/// holes.
 const LARGE: u64 = 0x5555_5555_5555_5555;
 
 /// Which strokes the next picture computes: those that were present in the last one, and a share of the others.

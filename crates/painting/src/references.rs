@@ -209,8 +209,8 @@ impl PlaceThen {
 
 /// How the references see one point of a surface.
 pub(crate) struct Views {
-    /// The reference of the point's rule, and, unless that one states the direction wholly, the further reference that
-    /// faces the point best; `None` for one that does not face it.
+    /// First the reference of the point's rule; `None` if it does not face the point. Then, unless the first states the
+    /// direction wholly, the further reference that faces the point best; `None` if no such reference faces it.
     pub(crate) facing: [Option<FacingReference>; 2],
     pub(crate) normal: DVec3,
     /// Axes of the tangent plane, right and up as on a turntable.
@@ -232,7 +232,7 @@ pub(crate) struct FacingReference {
     pub(crate) jacobian: [DVec3; 2],
 }
 
-/// How a reference sees a point, whether or not it faces it.
+/// How a reference sees a point, even one that it does not face.
 struct Seen {
     /// Where the point is at the reference's frame, model space.
     position: DVec3,

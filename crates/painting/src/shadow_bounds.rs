@@ -1,4 +1,5 @@
-//! The sphere that the shadow map covers: all bodies, or, where they reach far beyond what is seen, what is seen.
+//! Finds the sphere that the shadow map covers. It holds all bodies or, if they reach far beyond what is seen, only
+//! what is seen.
 
 use std::cmp::Ordering;
 
@@ -22,7 +23,7 @@ const VIEWS: usize = 5;
 /// Places lie up to this many half sizes of the picture from its middle: what is just outside casts shadows into it.
 const MARGIN: f64 = 1.2;
 
-/// The share of what is seen that lies in its sphere. The rest is mostly the strip below a horizon.
+/// The sphere of what is seen holds this share of the seen places. The rest is mostly the strip below a horizon.
 const COVERED: f64 = 0.92;
 
 /// The sphere of what is seen is used where it is smaller than this share of the sphere round all.
@@ -188,8 +189,8 @@ mod tests {
             let floor = [Some((Vec3::new(-half, 0.0, -half), Vec3::new(half, 0.0, half)))];
             find(&floor, &floor, &views, DVec3::ZERO)
         };
-        // The sphere holds all of a small floor. Of a large one it holds only a part, and in it the origin, which lies
-        // in front of the camera.
+        // The sphere holds all of a small floor. It holds only a part of a large floor, which contains the origin in
+        // front of the camera.
         assert_eq!(sphere(3.0), (Vec3::ZERO, 3.0 * 2f32.sqrt()));
         let (center, radius) = sphere(300.0);
         assert!(radius < 60.0 && center.distance(Vec3::ZERO) < radius, "centre {center}, radius {radius}");

@@ -34,7 +34,7 @@ impl<'a> BodyShapes<'a> {
         }
     }
 
-    /// The same, with the morph of every object at the largest value that it has at any frame.
+    /// These shapes, but with the morph of each object at its largest value over all frames.
     pub(crate) fn morphed_farthest(mut self) -> Self {
         for (weight, object) in self.morphs.iter_mut().zip(&self.loaded.scene.objects) {
             *weight = motion::farthest_morph(object);

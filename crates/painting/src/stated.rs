@@ -21,7 +21,7 @@ pub(crate) struct DirectionRules<'a> {
 pub(crate) struct StatedDirection {
     /// Unit, in the tangent plane.
     pub(crate) tangent: DVec3,
-    /// 1 where it is stated outright; less where it is a guess, since no reference faces the point.
+    /// 1 where the direction is stated outright. Less where it is guessed, because no reference faces the point.
     pub(crate) exact: f64,
 }
 
@@ -34,7 +34,7 @@ enum Line {
 }
 
 impl Line {
-    /// The angle at which it shows in a view, radians.
+    /// The line's angle in a view, radians.
     fn angle_in(&self, jacobian: [DVec3; 2]) -> f64 {
         match *self {
             Self::OnSurface(tangent) => shown_rad(tangent, jacobian),
@@ -126,9 +126,9 @@ impl DirectionRules<'_> {
         if tangent == DVec3::ZERO { Line::Shown(0.0) } else { Line::OnSurface(tangent) }
     }
 
-    /// Whether the surface at a point faces along the axis that states its direction, within 26 degrees. A stated angle
-    /// has no such axis: the world's up is taken instead, because directions are guessed from it on surfaces that no
-    /// reference sees.
+    /// Whether the surface normal at a point is within 26 degrees of the axis that the stated direction refers to. A
+    /// stated angle has no such axis, so the world's up is taken: on surfaces that no reference sees, directions are
+    /// guessed from it.
     pub(crate) fn is_pole(&self, point: SurfacePoint, up_in_model: DVec3) -> bool {
         const COSINE: f64 = 0.9;
         let axis = match *self.direction(point) {

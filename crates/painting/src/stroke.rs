@@ -26,7 +26,7 @@ use crate::traits::{
 /// Standard deviation of the logarithm of a stroke's thickness.
 const THICKNESS_DEVIATION: f32 = 0.2;
 
-/// The bow in half widths: its standard deviation at the usual angle jitter, and the most that it is.
+/// The bow in half widths: its standard deviation at the usual angle jitter, and its largest value.
 const BOW_DEVIATION: f32 = 0.35;
 const MOST_BOW: f32 = 0.9;
 
@@ -92,7 +92,7 @@ impl PaintingView<'_> {
         if facing <= 0.0 {
             return None;
         }
-        // With the paper's rule no stroke fades. With ours, more strokes make up for those that fade.
+        // With the source paper's rule, no stroke fades. With ours, more strokes make up for those that fade.
         let facing_fade = if coat_view.shown.is_some() { 1.0 } else { presence::of_facing(facing) };
         let supply_ln = supply_ln - facing_fade.max(LEAST_COUNTED_FADE).ln();
         if supply_ln + most_wanted(coat.kind).ln() <= presence::ABSENT_LN {
@@ -133,7 +133,7 @@ impl PaintingView<'_> {
             Rotation::On | Rotation::Off | Rotation::Random => flat,
         };
         let (taper, bend_rad) = taper_and_bend(coat.kind, strokes);
-        // A stroke that bends may reach as far in either axis as it is long.
+        // A stroke that bends may reach its whole length along either axis.
         let (sin, cos) = if bend_rad == 0.0 { angle_rad.sin_cos() } else { (1.0, 1.0) };
         let most_width_px = width_px * (1.0 + taper.abs());
         let reach = [[cos, sin], [sin, cos]].map(|axis| reach_px(axis, [length_px, most_width_px]));
@@ -187,7 +187,7 @@ impl PaintingView<'_> {
 
     /// ln of the supply over the rank, ρ*·A/(index + ½). Supply is the strokes wanted per pixel, ρ*, over the particles
     /// per pixel; A is how many pixels the coat's whole area would fill at this particle's scale. The number of
-    /// particles cancels out, so twice as many leave the first half as they were.
+    /// particles cancels out, so doubling it leaves the first half of the particles unchanged.
     fn supply_ln(&self, coat: &CoatView<'_>, index: usize, area_px: f32, wanted_per_px: f32) -> f32 {
         let area_px = area_px / (self.px_scale * self.px_scale);
         let wanted = f64::from(wanted_per_px * area_px) * coat.coat.sampled.area / (index as f64 + 0.5);
@@ -230,7 +230,7 @@ fn mapped(map: PixelMap2, flat: Outline, px_scale: f64) -> Outline {
     }
 }
 
-/// The colour of a trust: red up to κ = 0.72 (a mirrored map has at most 0.71), yellow half-way, green from 0.9.
+/// The colour for a trust κ: red up to 0.72 (a mirrored map has at most 0.71), yellow half-way, green from 0.9.
 fn trust_srgb8(kappa: f32) -> u32 {
     const RED: [f32; 3] = [176.0, 38.0, 28.0];
     const YELLOW: [f32; 3] = [240.0, 205.0, 70.0];
@@ -246,7 +246,8 @@ fn taper_and_bend(kind: LayerKind, strokes: &ResolvedStrokes) -> (f32, f32) {
     if kind == LayerKind::Underpainting { (0.0, 0.0) } else { (strokes.taper, strokes.bend_rad) }
 }
 
-/// Scumble lies in patches: how much of it is wanted, 0..=1, where slow noise (mean 0, deviation 1) has this value.
+/// How much scumble is wanted, 0..=1, where the slow noise (mean 0, deviation 1) has this value. Scumble lies in
+/// patches.
 fn patch(noise: f32) -> f32 {
     smoothstep(0.5 + 0.45 * noise).max(0.02)
 }

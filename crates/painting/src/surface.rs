@@ -80,8 +80,8 @@ impl SurfaceInputs {
         })
     }
 
-    /// For each of these, the index of the first with the same surface: mostly its own. For each mesh file, only its
-    /// first `COMPARED` different surfaces are compared.
+    /// For each item of `all`, the index of the first item with the same surface, which is mostly its own index. For
+    /// each mesh file, only its first `COMPARED` different surfaces are compared.
     pub(crate) fn twins(all: &[Self]) -> Vec<usize> {
         const COMPARED: usize = 16;
         let mut kinds: HashMap<*const MeshFile, Vec<usize>> = HashMap::new();
@@ -211,13 +211,13 @@ impl BodySurface {
         (((low + high) * 0.5).as_dvec3(), f64::from((high - low).length()))
     }
 
-    /// Whether the albedo may differ from place to place of one material.
+    /// Whether the albedo may differ from place to place within one material.
     pub(crate) fn has_colors(&self) -> bool {
         !self.mesh.colors.is_empty() || self.materials.iter().any(|material| material.texture.is_some())
     }
 
-    /// sRGB albedo: of each of `particles` if a material has a texture or the mesh has colours of its own, otherwise of
-    /// each material.
+    /// The sRGB albedo of each of `particles` if a material has a texture or the mesh has colours of its own. Otherwise
+    /// the sRGB albedo of each material.
     pub(crate) fn albedo(&self, particles: impl IndexedParallelIterator<Item = Particle>) -> Albedo {
         if self.has_colors() {
             return Albedo::OfParticle(particles.map(|particle| self.albedo_srgb8(&particle)).collect());

@@ -32,7 +32,7 @@ const RUNS_DRY: f64 = 0.34;
 /// How many steps the line of a touch at a single place has.
 const STRAIGHT_STEPS: usize = 8;
 
-/// The least slant that a surface counts with, as in `paint.vert`.
+/// The least slant that is used for a surface, as in `paint.vert`.
 const LEAST_SLANT: f64 = 0.05;
 
 /// A point of a line in the picture.
@@ -51,8 +51,7 @@ struct LinePoint {
     slant: f64,
     /// Unit.
     normal_in_world: DVec3,
-    /// Offset of this point from the point of the surface that its depth belongs to, pixels: zero, except past the ends
-    /// of the line.
+    /// Offset from the surface point that gives this point its depth, pixels. Zero, except past the ends of the line.
     off_px: DVec2,
 }
 
@@ -136,7 +135,7 @@ impl PaintingView<'_> {
         }
     }
 
-    /// A touch at a single place: straight, as long as it states, along the strokes round it.
+    /// The line of a touch at a single place: straight, of the touch's stated length, along the strokes round it.
     fn straight(
         &self,
         laid: &LaidTouch,
@@ -255,7 +254,7 @@ impl PaintingView<'_> {
     }
 }
 
-/// Where the colour of a touch is found: the middle of what is seen of it.
+/// Where the colour of a touch is found: the middle of its visible part.
 struct Anchor {
     at_px: DVec2,
     depth: f64,

@@ -1,5 +1,5 @@
-//! Lays touches (strokes placed by hand) onto surfaces at rest: finds the places of a triangle mesh that each runs
-//! through. From there they are carried as particles are.
+//! Lays touches (strokes placed by hand) onto surfaces at rest: finds the places of a triangle mesh that each touch
+//! runs through. From then on these places move with the mesh as particles do.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -21,7 +21,7 @@ use crate::frame::Brushes;
 use crate::lights::linear;
 use crate::regions::{BodyRegions, RegionRule};
 
-/// Steps of a touch between two of its points, and the least and the most that it has as a whole.
+/// Steps of a touch between two of its points, and the least and most steps of a whole touch.
 const STEPS_BETWEEN: usize = 8;
 const STEPS: std::ops::RangeInclusive<usize> = 24..=192;
 
@@ -71,7 +71,7 @@ pub(crate) struct TouchPlace {
     pub(crate) normal: DVec3,
 }
 
-/// Where touches lie, kept for the next time: finding places on a large mesh takes longer than all else that they need.
+/// Remembers where touches lie, because finding their places on a large mesh takes longer than all other work on them.
 #[derive(Default)]
 pub(crate) struct TouchMemo(HashMap<String, Remembered>);
 
@@ -175,7 +175,7 @@ impl TouchInputs<'_> {
     }
 }
 
-/// The places of a surface that a touch through these points runs through: a single one for a single point.
+/// The places of a surface that a touch through these points runs through. A single point gives a single place.
 fn places_of(points: &[TouchPoint], surface: &BodySurface) -> Vec<TouchPlace> {
     let given: Vec<(DVec3, DVec3)> = points
         .iter()
@@ -184,7 +184,7 @@ fn places_of(points: &[TouchPoint], surface: &BodySurface) -> Vec<TouchPlace> {
         .collect();
     let positions: Vec<DVec3> = given.iter().map(|(at, _)| *at).collect();
     let Some(near) = Near::of(surface, &positions) else { return Vec::new() };
-    // The mesh may be another one than when the points were set: first they are put onto it.
+    // The mesh may have changed since the points were set, so the points are first moved onto it.
     let given: Vec<(DVec3, DVec3)> = given
         .into_iter()
         .filter_map(|(at, normal)| near.place(at, normal).map(|place| (place.position, normal)))
@@ -195,7 +195,8 @@ fn places_of(points: &[TouchPoint], surface: &BodySurface) -> Vec<TouchPlace> {
     if path.is_empty() {
         return given.first().and_then(|&(at, normal)| near.place(at, normal)).into_iter().collect();
     }
-    // Which way the surface faces is the mean of the points' normals, weighted by the inverse square of their distance.
+    // The normal to look for at a place is the mean of the points' normals, weighted by the inverse square of their
+    // distance.
     let onto = |path: &[DVec3]| -> Vec<TouchPlace> {
         let place = |&at: &DVec3| {
             let weight = |&(point, normal): &(DVec3, DVec3)| {
@@ -250,7 +251,7 @@ impl<'a> Near<'a> {
         Some(Self { surface, triangles })
     }
 
-    /// The place nearest to a point, of those that face about this way; of all places, if none does.
+    /// The nearest place to `at` that faces about the same way as `normal`. If none does, the nearest place of all.
     fn place(&self, at: DVec3, normal: DVec3) -> Option<TouchPlace> {
         let mesh = &self.surface.mesh;
         let normal = normal.normalize_or_zero();

@@ -56,7 +56,7 @@ pub(crate) struct TraitInputs {
     parts: Arc<BodyParts>,
     /// Hash of the object's name, the scene's seed and the layer.
     name_hash: u32,
-    /// Whether any stroke fits the form.
+    /// Whether any strokes are fitted to the form (the setting `fit`).
     fits: bool,
     /// For each part, pixels of a picture 720 high per model unit, at the reference pose.
     scales: Vec<f64>,
@@ -82,13 +82,15 @@ pub(crate) struct Traits {
     pub(crate) name_hash: u32,
     /// The region of each particle where there are dabs; empty where it follows from the triangles.
     dabbed: Vec<u16>,
-    /// Slow noise of each particle: of hue and value; of how firm edges are and where scumble and contours lie.
+    /// Two slow noises of each particle: one for hue and value, one for how firm edges are and where scumble and
+    /// contours lie.
     pub(crate) drift: Vec<[f32; 2]>,
-    /// The size of the form at each particle; empty where no stroke fits the form.
+    /// The size of the form at each particle; empty where no strokes are fitted to the form.
     form: FormMemo,
 }
 
-/// The size of the form at each particle, model units, found when it is first asked for: few of all particles are ever seen.
+/// The size of the form at each particle, model units. It is computed on first use, because few particles are ever
+/// seen.
 #[derive(Default)]
 struct FormMemo(Vec<AtomicU32>);
 
@@ -101,9 +103,9 @@ impl FormMemo {
     const UNKNOWN: u32 = 0;
 
     fn at(&self, particle: usize, find: impl FnOnce() -> f32) -> f32 {
-        // Where no stroke fits the form, any form is large enough.
+        // Where no strokes are fitted to the form, its size must not limit them.
         let Some(known) = self.0.get(particle) else { return f32::INFINITY };
-        // Two threads that ask at once find the same.
+        // Two threads that ask at once compute the same size.
         let bits = known.load(Ordering::Relaxed);
         if bits != Self::UNKNOWN {
             return f32::from_bits(bits);
@@ -150,7 +152,7 @@ impl Traits {
         self.parts.of_triangle[self.particles.triangle(particle)] as usize
     }
 
-    /// The size of the form at a particle, model units; infinite where no stroke fits the form.
+    /// The size of the form at a particle, model units; infinite where no strokes are fitted to the form.
     #[inline]
     pub(crate) fn form(&self, particle: usize) -> f32 {
         self.form.at(particle, || {
@@ -223,7 +225,7 @@ impl TraitInputs {
         }
     }
 
-    /// The traits as they were kept.
+    /// The traits, restored from a kept file.
     pub(crate) fn of_kept(&self, dabbed: Vec<u16>, drift: Vec<[f32; 2]>) -> Traits {
         Traits { drift, ..self.without_noise(dabbed) }
     }

@@ -39,8 +39,8 @@ impl PictureView {
             .shifted(self.pose.shift * (0.5 * height_px))
     }
 
-    /// The same map as [`PictureView::screen_map`], but by way of OpenGL's matrices, as the paper's own solve needs
-    /// it.
+    /// The same map as [`PictureView::screen_map`], but through OpenGL's matrices, as the source paper's own solver
+    /// needs it.
     pub(crate) fn clip_view(&self, world_from_model: glam::DAffine3) -> ClipView {
         let size_px = DVec2::new(f64::from(self.size_px[0]), f64::from(self.size_px[1]));
         let clip_from_model =

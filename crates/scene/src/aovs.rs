@@ -32,14 +32,14 @@ pub enum Aov {
     StrokeId,
     /// Angles of strokes.
     StrokeAngle,
-    /// Trust in the turn of strokes.
+    /// How far the turn of strokes can be trusted.
     StrokeKappa,
     /// Ranks of strokes.
     StrokeRank,
     /// Layers of strokes.
     StrokeLayer,
-    /// Colour of the paint and the ground, before the light in which the picture hangs shades the relief of the paint.
-    /// The scene's own light is in it.
+    /// Colour of the paint and the ground. It includes the scene's own light, but not the light of the room in which
+    /// the picture hangs, which shades the relief of the paint.
     PaintColor,
     /// Height of the paint.
     PaintHeight,
@@ -180,7 +180,7 @@ pub const AOVS: [AovRow; 26] = [
         "stroke.layer",
         "stroke.layer.X",
         "half",
-        "its layer of paint, from 1 for the underpainting to 7 for the lights; 0 where no stroke is",
+        "its layer of paint, from 1 for the underpainting to 7 for the lights, 8 for touches; 0 where no stroke is",
     ),
     row(
         Aov::PaintColor,

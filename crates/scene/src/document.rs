@@ -58,13 +58,15 @@ pub struct Scene {
     /// A whole number from 0; another one changes every random choice at once.
     #[serde(default, skip_serializing_if = "is_default")]
     pub seed: u32,
-    /// What is seen where nothing is painted; left out in a scene with a shot that has lights, a plain sky as bright as the shot.
+    /// The colour that shows where nothing is painted. A scene that states no background, and has a shot with lights,
+    /// gets a plain sky as bright as the shot.
     #[serde(default, skip_serializing_if = "is_default")]
     pub background: Color,
     /// The background over time, frames strictly increasing; then `background` itself is not used.
     #[serde(default, skip_serializing_if = "is_default")]
     pub background_keys: Vec<BackgroundKey>,
-    /// A glTF file beside the scene: its objects, camera, lights, motion, and its frames where `timeline` states none, are the scene's.
+    /// A glTF file beside the scene. Its objects, camera, lights and motion become the scene's, and so do its frames if
+    /// `timeline` states none.
     #[serde(default, skip_serializing_if = "is_default")]
     pub shot: Option<String>,
     /// What the shot's file holds, once it was read; not part of the file.
@@ -76,10 +78,11 @@ pub struct Scene {
     /// The pose in which stroke directions are stated.
     #[serde(default, skip_serializing_if = "is_default")]
     pub reference: Reference,
-    /// More poses, at most 16: a surface that the reference does not face takes the one that faces it best.
+    /// More poses in which stroke directions are stated, at most 16. Where a surface does not face the reference, the
+    /// pose that it faces best is used.
     #[serde(default, skip_serializing_if = "is_default")]
     pub further_references: Vec<Reference>,
-    /// The camera and its keys. May be left out where the scene has a shot, which has one.
+    /// The camera and its keys. May be left out if the scene has a shot with a camera.
     #[serde(default)]
     pub camera: Camera,
     /// Stops of light, from −16 to 16: each doubles the brightness of all lights.
@@ -120,11 +123,12 @@ fn default_size() -> (u32, u32) {
 usual_fields! {
     /// Frame range and rate.
     pub struct Timeline {
-        /// Frames per second, more than 0 and at most 1000000. In a scene with a shot, 24 without frames counts as not stated: then it is that of the shot's keys.
+        /// Frames per second, more than 0 and at most 1000000. If the scene has a shot and `timeline` states no frames,
+        /// a rate of 24 counts as left out: the shot's keys then give the rate.
         pub fps: f64 = 24.0; saved always,
         /// First frame of the shot.
         pub first: i64 = 0; saved always,
-        /// Last frame of the shot; it is part of it.
+        /// Last frame of the shot, included.
         pub last: i64 = 0; saved always,
         /// Which animation of the shot plays, where there are several: its name; left out, all of them together.
         pub animation: Option<String> = None,
@@ -159,8 +163,8 @@ pub enum Reference {
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Camera {
-    /// Which camera of the shot is looked through, where there are several: the name of its node; left out, the one that sees the most
-    /// objects when the shot begins.
+    /// Which camera of the shot is used, if the shot has several: the name of the camera's node. Left out, the camera
+    /// that sees the most objects when the shot begins.
     #[serde(default, skip_serializing_if = "is_default")]
     pub of_shot: Option<String>,
     /// How the camera projects.
@@ -220,7 +224,7 @@ pub struct CameraKey {
     pub frame: f64,
     /// Where the eye is, world space.
     pub eye: [f64; 3],
-    /// What it looks at, world space; differs from `eye`, and not straight up or down from it.
+    /// The point that the camera looks at, world space; not `eye` itself, and not straight above or below `eye`.
     pub target: [f64; 3],
     /// Turns the camera about its gaze, degrees; the picture turns the other way.
     #[serde(default, skip_serializing_if = "is_default")]
@@ -258,10 +262,11 @@ fn is_one_frame(frames: &u32) -> bool {
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Object {
-    /// Unique; strokes take their looks from it, so a renamed object is painted anew.
+    /// Unique. How the strokes turn out depends on the name, so a renamed object is painted anew.
     pub name: String,
-    /// Path of the mesh, relative to the scene file: an OBJ or glTF file, or one node of it, as in `props.glb#Lamp`; left out, that of the shot's object of this name; or a built-in one, `impasto:backdrop` (a floor and a wall) or `impasto:patch`
-    /// (a round piece of floor).
+    /// The mesh: the path, relative to the scene file, of an OBJ or glTF file, or of one node of a glTF file, as in
+    /// `props.glb#Lamp`; or a built-in mesh, `impasto:backdrop` (a floor and a wall) or `impasto:patch` (a round piece
+    /// of floor). Left out, the mesh of the shot's object of this name.
     #[serde(default)]
     pub mesh: String,
     /// The only group of the mesh that is used; left out, the whole mesh.
@@ -273,23 +278,25 @@ pub struct Object {
     /// How many particles it has, at most 16000000; left out, found from the coverage.
     #[serde(default, skip_serializing_if = "is_default")]
     pub particles: Option<u64>,
-    /// How many frames each pose is held, from 1 to 1000: with 1 it moves in every frame, with 2 "on twos"; counted
-    /// from the first frame.
+    /// For how many frames each pose is held, from 1 to 1000, counted from the first frame. With 1 the object moves in
+    /// every frame, with 2 "on twos".
     #[serde(default = "one_frame", skip_serializing_if = "is_one_frame")]
     pub hold: u32,
-    /// Static scale of the mesh, applied before anything is sampled; not inherited by children.
+    /// Constant scale of the mesh, applied before strokes are placed on it; children do not inherit it.
     #[serde(default, skip_serializing_if = "is_default")]
     pub scale: Scale,
     /// Which axis of the mesh file points up.
     #[serde(default, skip_serializing_if = "is_default")]
     pub up: Up,
-    /// Path of a mesh of equal topology that keys may turn this one into.
+    /// Path of a mesh with equal topology, into which keys can turn this mesh.
     #[serde(default, skip_serializing_if = "is_default")]
     pub morph: Option<String>,
-    /// Path of a PC2 point cache with as many points as the mesh file, an OBJ: where they are, frame by frame, in the mesh file's own space.
+    /// Path of a PC2 point cache: where the points of the mesh file are, frame by frame, in the mesh file's own space.
+    /// The mesh file must be an OBJ with as many points as the cache.
     #[serde(default, skip_serializing_if = "is_default")]
     pub cache: Option<String>,
-    /// The shape in which strokes are laid and sized; what is combed in another is carried back to it.
+    /// The shape of the object in which strokes are laid and sized. If strokes are combed while the object has another
+    /// shape, their directions are carried back to this one.
     #[serde(default, skip_serializing_if = "is_default")]
     pub rest: Rest,
     /// Overrides the materials of the mesh file.

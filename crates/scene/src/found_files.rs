@@ -7,8 +7,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// The files that were found while a scene was read. Copies share one list.
 #[derive(Clone, Debug, Default)]
 pub struct FoundFiles {
-    /// By the path at which a file was found: the path, relative to the scene's folder, at which its name would find it
-    /// if there were no extra folders. `None` if there is no such path.
+    /// For the path at which each file was found, the place to which the file could be moved, so that the name that the
+    /// scene or a mesh calls it by leads there, and [`AssetFolders`] need not be searched. The place is a path relative
+    /// to the scene's folder; `None` if no place in that folder will do.
     places: Arc<Mutex<BTreeMap<PathBuf, Option<PathBuf>>>>,
 }
 
@@ -36,8 +37,9 @@ impl FoundFiles {
         places.insert(path.to_owned(), place);
     }
 
-    /// By the path of each file that was found: the path, relative to the scene's folder, at which its name would find
-    /// it if there were no extra folders. `None` if there is no such path.
+    /// For the path at which each file was found, the place to which the file could be moved, so that the name that the
+    /// scene or a mesh calls it by leads there, and [`AssetFolders`] need not be searched. The place is a path relative
+    /// to the scene's folder; `None` if no place in that folder will do.
     pub fn places(&self) -> BTreeMap<PathBuf, Option<PathBuf>> {
         self.places.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }

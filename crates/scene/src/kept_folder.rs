@@ -67,7 +67,7 @@ pub struct ToWrite<'a> {
     pub bytes: u64,
     /// Writes these bytes.
     pub write: &'a dyn Fn(&mut dyn Write) -> io::Result<()>,
-    /// Whether a file of the same size that is there already is replaced. One of another size always is.
+    /// Whether an existing file of the same size is replaced. A file of another size always is.
     pub replace: bool,
 }
 
@@ -123,8 +123,9 @@ impl KeptFolder {
         file.finish()
     }
 
-    /// Removes the files that were used longest ago until all others fit in `most_bytes`, and unfinished files of
-    /// processes that were killed long ago. The file of `key` stays in any case, as do files whose names are not ours.
+    /// Removes the files that were used longest ago until the others fit in `most_bytes`. Also removes old unfinished
+    /// files, left over from processes that were killed. The file of `key` stays in any case, as do files whose names
+    /// are not ours.
     pub fn tidy(&self, key: &str) {
         let entries = fs::read_dir(&self.path).into_iter().flatten().flatten();
         let mut files: Vec<(SystemTime, u64, PathBuf)> = Vec::new();
@@ -191,7 +192,7 @@ mod tests {
         folder.file(&key(number)).exists()
     }
 
-    /// Says that a file was used so many seconds ago.
+    /// Marks a file as last used so many seconds ago.
     fn used(path: &Path, seconds_ago: u64) {
         let then = SystemTime::now() - Duration::from_secs(seconds_ago);
         File::options().write(true).open(path).unwrap().set_modified(then).unwrap();

@@ -94,7 +94,7 @@ pub const MAX_GUIDES: usize = 4096;
 /// Points of all guides of a scene.
 pub const MAX_GUIDE_POINTS: usize = 65_536;
 
-/// Dabs of a scene that choose faces of regions.
+/// Dabs of a scene that select the faces of its regions.
 pub const MAX_DABS: usize = 65_536;
 
 /// Painted amounts of a scene: lists of dabs.
@@ -127,7 +127,7 @@ pub const MAX_PATCHES: usize = 16_384;
 /// Numbers without a natural limit in a noise-displaced material.
 pub const NOISE_RATE: std::ops::RangeInclusive<f64> = -1000.0..=1000.0;
 
-/// Layers of a noise-displaced material: each but the first is looked up twice for every pixel.
+/// Layers of a noise-displaced material. Each but the first costs two texture lookups for every pixel.
 pub const NOISE_LAYERS: std::ops::RangeInclusive<f64> = 1.0..=64.0;
 
 /// Intensity and threshold of a noise-displaced material.

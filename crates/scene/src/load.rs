@@ -36,8 +36,8 @@ use source::error_in;
 pub struct LoadOptions {
     /// Where the files that the scene names may lie, besides the scene's folder.
     pub folders: AssetFolders,
-    /// Values in place of those of the file, in order (`--set PATH=VALUE`): a field path and RON. Text needs no
-    /// quotes; an item of a list is named by its index or its name, as in `objects[0].particles` and
+    /// Values that replace those of the file, in order (`--set PATH=VALUE`): each is a field path and RON. Text needs
+    /// no quotes; an item of a list is named by its index or its name, as in `objects[0].particles` and
     /// `objects.apple.particles`; `style.RotatingStrokes.solver` and `style.solver` are the same field.
     pub overrides: Vec<(String, String)>,
     /// How a mesh without a scene is placed.
@@ -169,7 +169,7 @@ struct Made {
     warnings: Vec<Problem>,
 }
 
-/// Says which axis was taken to be up, for a mesh of which that is not certain.
+/// A warning that says which axis was taken to be up, for a mesh whose up axis is not certain.
 fn unsure_of_up(path: &Path, scene: &Scene) -> Problem {
     let up = scene.objects.first().map_or(Up::Y, |object| object.up);
     let name = Up::ALL.iter().find(|(_, known)| *known == up).map_or("y", |(name, _)| name);
@@ -250,7 +250,7 @@ fn finish(
 /// Findings about the document, and warnings about the file of its shot.
 type ShotRead = Result<(Vec<Finding>, Vec<Problem>), Report>;
 
-/// Reads the shot that a document names, and puts it on the stage unless a shot stands there.
+/// Reads the shot that a document names, and puts it on the stage. Does nothing if a shot is there already.
 fn enter_shot(reader: &MeshReader, scene_path: &Path, scene: &mut Scene, folders: &AssetFolders) -> ShotRead {
     let Some(name) = scene.shot.clone().filter(|_| scene.stage.shot.is_none()) else {
         return Ok((Vec::new(), Vec::new()));

@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// The largest peak that [`peak_since_last_bytes`] has read. That function resets the system's own record of the peak.
 static MOST: AtomicU64 = AtomicU64::new(0);
 
-/// Bytes that can still be allocated: what the system has free or can free, within the limits of the control group and of the process
-/// (`ulimit -v`, `ulimit -d`).
+/// Bytes that can still be allocated: what the system has free or can free, within the limits of the control group and
+/// of the process (`ulimit -v`, `ulimit -d`).
 pub fn available_bytes() -> Option<u64> {
     let of_system = field_bytes("/proc/meminfo", "MemAvailable:");
     let number = |path: &str| std::fs::read_to_string(path).ok()?.trim().parse::<u64>().ok();
@@ -24,8 +24,8 @@ pub fn left_of_process_bytes() -> Option<u64> {
     [("Max address space", "VmSize:"), ("Max data size", "VmData:")].into_iter().filter_map(left).min()
 }
 
-/// The bytes that may be allocated: `wanted`, or without it all that is available; never more than the process's own
-/// limits leave.
+/// The bytes that may be allocated: `wanted`, or all available memory if `wanted` is `None`. It is never more than the
+/// process's own limits leave.
 pub fn granted_bytes(wanted: Option<u64>) -> Option<u64> {
     match wanted {
         Some(wanted) => Some(left_of_process_bytes().map_or(wanted, |left| left.min(wanted))),

@@ -89,7 +89,7 @@ impl Texture {
                 Wrap::Mirror => 1.0 - (along.rem_euclid(2.0) - 1.0).abs(),
                 Wrap::Clamp => along,
             };
-            // The cast brings numbers below 0 to 0.
+            // The cast turns negative numbers into 0.
             ((unit * size as f32) as u32).min(size - 1)
         };
         let [width, height] = self.size_px;

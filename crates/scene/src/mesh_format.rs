@@ -42,8 +42,8 @@ pub fn max_bytes(path: &Path) -> u64 {
     }
 }
 
-/// The files that must be copied with a mesh file in `root` to another folder: those found in `root` that it names, and
-/// with glTF also its sidecar and the point caches that the sidecar names.
+/// The files that must come along when a mesh file in `root` is copied to another folder: those in `root` that the mesh
+/// file names. For glTF, these include its sidecar and the point caches that the sidecar names.
 ///
 /// # Errors
 /// A [`Report`] where the file cannot be read or has errors.

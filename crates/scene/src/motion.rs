@@ -1,5 +1,5 @@
-//! Evaluates keyframes: camera, objects, lights, strokes and background at any frame, as pure functions of the document and the
-//! frame.
+//! Evaluates keyframes: camera, objects, lights, strokes and background at any frame, as pure functions of the document
+//! and the frame.
 
 mod span;
 mod values;
@@ -25,14 +25,14 @@ pub struct CameraPose {
     pub target: DVec3,
     /// Turn of the camera about its gaze, radians in (−π, π], counter-clockwise as seen from behind it.
     pub roll_rad: f64,
-    /// Shift of the lens: added to where things show, in half heights of the picture, Y up.
+    /// Shift of the lens, which moves everything in the picture; in half heights of the picture, Y up.
     pub shift: DVec2,
     /// The lens, with the field of view of this frame.
     pub lens: Lens,
 }
 
 impl CameraPose {
-    /// The camera that stands at a matrix, world from view: −Z forward, Y up, without scale.
+    /// The camera with this matrix (world from view, without scale). It looks along −Z, and Y is up.
     fn of_matrix(world_from_view: DMat4, lens: Lens, shift: DVec2) -> Self {
         let eye = world_from_view.w_axis.truncate();
         let [up, back] = [world_from_view.y_axis, world_from_view.z_axis].map(|axis| axis.truncate());
@@ -60,8 +60,8 @@ impl CameraPose {
 /// the last key.
 ///
 /// Eye, target, roll and field of view are interpolated as numbers, with the `ease` of the earlier key. A key without a
-/// field of view keeps the one of the key before it. Until a key states one, it is that of the lens. Without keys, the
-/// camera is that of the shot, if it has one.
+/// field of view keeps that of the key before it. Until a key states a field of view, the lens's own holds. Without
+/// keys, the shot's camera is used, if the shot has one.
 pub fn camera_at(scene: &Scene, frame: f64) -> CameraPose {
     let keys = &scene.camera.keys;
     if keys.is_empty()
@@ -192,8 +192,8 @@ impl ShotPoses {
     }
 }
 
-/// How the shot bends every object by joints and shape keys, in the order of the file; `None` for those that it does not bend. An object
-/// with keys of its own still bends as the shot has it.
+/// How the shot bends every object by joints and shape keys, in the order of the file; `None` for objects that it does
+/// not bend. The shot bends an object even if the object has keys of its own.
 pub fn bends_at(scene: &Scene, frame: f64) -> Vec<Option<BendPose>> {
     let Some(shot) = &scene.stage.shot else { return vec![None; scene.objects.len()] };
     let mut of_shot = ShotPoses::default();
@@ -254,8 +254,8 @@ fn held_frame(scene: &Scene, object: &Object, frame: f64) -> f64 {
     }
 }
 
-/// For each object, the index of its parent. Of several objects with the parent's name, it is the first one. A parent
-/// that closes a cycle is left out.
+/// For each object, the index of its parent. If several objects have the parent's name, the first one is taken. A
+/// parent that closes a cycle is left out.
 pub(crate) fn parent_indices(objects: &[Object]) -> Vec<Option<usize>> {
     if objects.iter().all(|object| object.parent.is_none()) {
         return vec![None; objects.len()];
@@ -347,8 +347,8 @@ pub fn key_at(scene: &Scene, object: &Object, frame: f64) -> ObjectKey {
     }
 }
 
-/// A pose as a key at a frame. Shear and mirroring are lost, and of a mirrored or flattened pose the rotation too; the
-/// scale is brought within [`limits::KEY_SCALE`].
+/// A pose as a key at a frame. Shear and mirroring are lost. A mirrored or flattened pose loses its rotation too. The
+/// scale is clamped to [`limits::KEY_SCALE`].
 pub fn key_of_pose(pose: DAffine3, frame: f64) -> ObjectKey {
     let [x, y, z] = [pose.matrix3.x_axis, pose.matrix3.y_axis, pose.matrix3.z_axis];
     let scale = DVec3::new(x.length(), y.length(), z.length());
@@ -376,8 +376,8 @@ pub fn rotation_from_euler_deg(angles_deg: DVec3) -> DMat3 {
     about_z * (about_y * about_x)
 }
 
-/// The Euler angles in degrees from which [`rotation_from_euler_deg`] makes this rotation. Where the angle about Y is
-/// ±90, one of the other two could be anything; it is 0.
+/// The Euler angles in degrees from which [`rotation_from_euler_deg`] makes this rotation. If the angle about Y is ±90,
+/// one of the other two angles is arbitrary; it is set to 0.
 pub fn euler_deg_from_rotation(rotation: DMat3) -> DVec3 {
     let (z, y, x) = rotation.to_euler(EulerRot::ZYX);
     DVec3::new(x, y, z).map(f64::to_degrees)

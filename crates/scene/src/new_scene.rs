@@ -54,17 +54,17 @@ pub struct Placing {
 pub struct NewScene {
     /// The scene.
     pub scene: Scene,
-    /// Whether another axis could as well be up: a person should look.
+    /// Whether another axis could just as well be up, so that a person should check.
     pub up_is_unsure: bool,
 }
 
 /// A scene with one model before a ground, framed with a margin of a tenth whatever its size and position.
 ///
 /// The model is the first object and is named after the file. If it has groups and no colours, each group is an object,
-/// moved by the first one. Objects name the mesh by its bare file name, so the scene must lie in the same folder. A
-/// model without colours gets one, chosen by its name. With [`ViewFrom::Auto`], an open mesh that would show its back
-/// is seen from the side that shows most of its front; if that is from below, there is no ground, since the floor would
-/// hide the mesh.
+/// and the first of these is the parent of the others. Objects name the mesh by its bare file name, so the scene must
+/// lie in the same folder. A model without colours gets one, chosen by its name. With [`ViewFrom::Auto`], an open mesh
+/// that would show its back is seen from the side that shows most of its front; if that is from below, there is no
+/// ground, since the floor would hide the mesh.
 pub fn for_mesh(path: &Path, mesh: &MeshFile, placing: Placing) -> NewScene {
     let name = object_name(path);
     let name_hash = scheme::name_hash(&name);
@@ -97,7 +97,8 @@ pub fn for_mesh(path: &Path, mesh: &MeshFile, placing: Placing) -> NewScene {
     NewScene { scene, up_is_unsure: stance.up_is_unsure }
 }
 
-/// The model as one object, or as one for each group where these have no colours yet.
+/// The model as one object. A model without colours becomes one object for each group, if it has from 2 to
+/// [`MOST_COLORED_GROUPS`] groups.
 fn objects_of(name: &str, mesh_name: &str, mesh: &MeshFile, scheme: &Scheme) -> Vec<Object> {
     let colored = |object: Object, color: Color| Object {
         material: Some(MaterialOverride { color: Some(color), gloss: Some(GLOSS), ..Default::default() }),

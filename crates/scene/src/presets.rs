@@ -13,9 +13,9 @@ pub const DEFAULT_PRESET: &str = "oil study";
 /// The preset of a scene in ink that names none.
 pub const INK_PRESET: &str = "ink";
 
-/// The source paper's own rule, complete: equal counts per polygon at random places, of which as many show as the
-/// polygon's projected area asks for, one brush, the full neighbour sum in every frame, no jitter and no other layer.
-/// It holds for a scene, not for a region.
+/// The source paper's own rule, complete. Every polygon has the same number of strokes, at random places, and shows as
+/// many of them as its projected area asks for. There is one brush, the full neighbour sum in every frame, no jitter
+/// and no other layer. The rule holds for a whole scene, not for a region.
 pub const PAPER_PRESET: &str = "paper";
 
 /// The name that a scene's list of layers uses for the tone under all of them.

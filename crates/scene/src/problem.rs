@@ -52,8 +52,8 @@ impl Severity {
 pub struct Report(pub Vec<Problem>);
 
 impl Problem {
-    /// For a file that another file names and that is missing: its path beside the file that names it. `None` for any
-    /// other problem. The name is read from the message, which is that of [`crate::assets::AssetError::Missing`].
+    /// If the problem is that a named file is missing, the path of that file, beside the file that names it. `None` for
+    /// any other problem. The name is read from the message, which is that of [`crate::assets::AssetError::Missing`].
     pub fn missing_file(&self) -> Option<PathBuf> {
         let (named, _) = self.message.split_once("\" was not found (tried ")?;
         let (_, name) = named.rsplit_once('"')?;

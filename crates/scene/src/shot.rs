@@ -33,13 +33,13 @@ pub struct Shot {
     object_of_name: HashMap<String, usize>,
     /// The node of the camera that is looked through.
     camera: Option<usize>,
-    /// Whether the scene names a camera, even one that the file lacks: then no cut leads to another camera.
+    /// Whether the scene names a camera, even one that the file lacks. If so, the sidecar's cuts are ignored.
     is_chosen: bool,
-    /// The lights as they are at rest, each with its node; the soft light all around has none.
+    /// The lights as they are at rest, each with its node; the ambient light has none.
     lights: Vec<(Light, Option<usize>)>,
     /// A light's intensity in the scene, over that in the file.
     exposure: f64,
-    /// Intensity of the soft light all around, which stands for the light that surfaces give each other.
+    /// Intensity of the ambient light, which stands for the light that surfaces reflect onto each other.
     around: f64,
     /// For each light of the file, a factor on the intensities of its keys.
     key_factors: Vec<f64>,
@@ -57,10 +57,10 @@ struct ShotObject {
 /// What a scene chooses of a shot's file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Choice {
-    /// The camera that is looked through, by the name of its node; left out, that of the sidecar's cuts, or else the
+    /// The name of the node of the camera that is looked through. `None`: the camera of the sidecar's cuts, or else the
     /// one that sees the most objects.
     camera: Option<String>,
-    /// The animation that plays; left out, all of them together.
+    /// The name of the animation that plays. `None`: all animations together.
     animation: Option<String>,
 }
 
@@ -88,8 +88,8 @@ fn playing(file: &GltfFile, name: Option<&str>, odd: &mut Vec<[String; 2]>) -> A
 }
 
 impl Shot {
-    /// The shot in a file that a scene calls `name`. Also returns what a user should know of the file: for each, a
-    /// message and the mend.
+    /// The shot in a file that a scene calls `name`. Also returns what a user should know about the file, each as a
+    /// message and its mend.
     pub(crate) fn new(file: Arc<GltfFile>, name: &str, choice: &Choice) -> (Self, Vec<[String; 2]>) {
         let mut odd = Vec::new();
         let animator = playing(&file, choice.animation.as_deref(), &mut odd);

@@ -68,7 +68,7 @@ impl StrokesFile {
         pictures
     }
 
-    /// The same without the brushes that are pictures. A mix of nothing else is left out.
+    /// The same without the brushes that are pictures. A mix that holds only pictures is left out.
     pub fn without_pictures(&self) -> Self {
         let mut bare = self.clone();
         let strokes = &mut bare.strokes;

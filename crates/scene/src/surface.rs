@@ -1,4 +1,5 @@
-//! Turns faces into a mesh: cuts them into triangles, shares vertices, adds missing normals. Every mesh format ends here.
+//! Turns faces into a mesh: cuts them into triangles, shares vertices, adds missing normals. Every mesh format ends
+//! here.
 
 mod polygon;
 
@@ -100,7 +101,7 @@ struct Triangle {
 pub(crate) struct Builder<'a> {
     geometry: &'a Geometry,
     triangles: Vec<Triangle>,
-    /// Cutting a polygon with care takes tests of its corners against each other; this many more may be made.
+    /// How many more point-in-triangle tests may be made; cutting a polygon with care needs them.
     tests_left: u64,
     /// Whether the file's normals are ignored where they run along their face.
     drops_along: bool,
@@ -137,8 +138,8 @@ impl<'a> Builder<'a> {
             .map(|part| empty().cut(part * share..((part + 1) * share).min(count), &spent))
             .collect();
         if spent.into_inner() >= polygon::MAX_TESTS {
-            // The tests are used up. Which polygons must do without them depends on the polygons before, so all are cut again in
-            // order.
+            // The tests are used up. Which polygons must do without tests depends on the polygons before them, so all
+            // are cut again in order.
             return empty().cut(0..count, &AtomicU64::new(0)).mended();
         }
         let mut whole = empty();
@@ -161,7 +162,7 @@ impl<'a> Builder<'a> {
     /// show. Does so only if the area of all triangles is far too large for a body of this size, and never if vertices
     /// are kept apart.
     fn drop_doubled(&mut self) {
-        /// The area of a mesh over that of the box around it, from which on doubled triangles are looked for.
+        /// Doubled triangles are looked for if the mesh has at least this many times the area of the box around it.
         const MUCH_AREA: f64 = 16.0;
         if self.geometry.keeps_vertices {
             return;
@@ -182,7 +183,7 @@ impl<'a> Builder<'a> {
         self.triangles.retain(|triangle| {
             let mut places =
                 triangle.vertices.map(|vertex| bits(geometry.positions[vertex as usize].to_array()));
-            // The corners from the least one on, in the same winding.
+            // The corners begin with the least one; their winding stays.
             let least = (0..3).min_by_key(|&corner| places[corner]).unwrap_or_default();
             places.rotate_left(least);
             let is_new = seen.insert(places);
@@ -223,9 +224,9 @@ impl<'a> Builder<'a> {
         Some(normals.iter().all(|normal| normal.as_dvec3().dot(across).abs() < NEARLY_ALONG))
     }
 
-    /// Cuts a range of the faces. A part of the faces stops when all cores together have `spent` too many tests, because
-    /// [`Self::new`] then starts again. A range of all faces goes on to the end: when its tests are used up, it cuts
-    /// without them.
+    /// Cuts a range of the faces. A part of the faces stops when all cores together have `spent` too many tests,
+    /// because [`Self::new`] then starts again. A range of all faces goes on to the end: when its tests are used up, it
+    /// cuts without them.
     fn cut(mut self, faces: Range<usize>, spent: &AtomicU64) -> Self {
         self.triangles.reserve(faces.len());
         let ends = &self.geometry.ends;
@@ -285,7 +286,8 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// The mesh. Corners that agree in all values are one vertex; vertices are numbered in the order of their first use.
+    /// The mesh. Corners that agree in all values are one vertex; vertices are numbered in the order of their first
+    /// use.
     pub fn finish(&self) -> Built {
         let Geometry { positions, uvs, normals, colors, keeps_vertices, .. } = self.geometry;
         let made_normals = self.corner_normals();
@@ -355,8 +357,8 @@ impl<'a> Builder<'a> {
         Built { mesh, face_of_triangle, source_of_vertex }
     }
 
-    /// The file's normals for a triangle. `None` if a corner has none, or if they run along the triangle and such are
-    /// ignored.
+    /// The file's normals for a triangle. `None` if a corner has none, or if they run along the triangle and such
+    /// normals are ignored.
     fn file_normals(&self, triangle: &Triangle) -> Option<[Vec3; 3]> {
         self.stated_normals(triangle).filter(|_| !self.drops_along || self.is_along(triangle) == Some(false))
     }
@@ -415,8 +417,8 @@ struct Around {
     place_of_vertex: Vec<u32>,
     /// Where the triangles of each place begin in `list`, and a last entry for its end.
     first: Vec<u32>,
-    /// The triangles of all places, place by place: three times the triangle's number, plus which corner (0 to 2) is at the
-    /// place.
+    /// The triangles of all places, place by place: three times the triangle's number, plus which corner (0 to 2) is at
+    /// the place.
     list: Vec<u32>,
     /// Unit normals of the triangles.
     normals: Vec<DVec3>,

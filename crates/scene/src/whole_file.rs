@@ -18,7 +18,8 @@ const PRIVATE_MODE: u32 = 0o600;
 /// finished; dropped before that, it is removed.
 ///
 /// A link is followed: the file it points to is replaced. A file that is replaced passes on its permissions, and one
-/// that is read-only is left alone. What is no regular file (a device, a pipe) is never replaced: it is written into.
+/// that is read-only is left alone. A target that is no regular file (a device, a pipe) is never replaced; the contents
+/// are written into it.
 #[derive(Debug)]
 pub struct WholeFile {
     writer: BufWriter<File>,
@@ -92,7 +93,8 @@ impl WholeFile {
         std::os::unix::fs::OpenOptionsExt::mode(&mut options, mode);
         #[cfg(not(unix))]
         let _ = mode;
-        // Opened here, so that an error is what the system said, without the name of the unfinished file.
+        // The closure opens the file itself, so that an error is the system's own, without the name of the unfinished
+        // file.
         let part = tempfile::Builder::new()
             .prefix(&prefix)
             .suffix(".part")

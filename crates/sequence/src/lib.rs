@@ -146,7 +146,8 @@ impl Sequence {
         })
     }
 
-    /// Draws the frames that must be drawn, on as many threads as is worth it, and hands all over in their order.
+    /// Draws the frames that must be drawn, on as many threads as pay off, and hands all frames to `take_in` in their
+    /// order.
     fn each<E>(
         &self,
         renderer: &mut Renderer,

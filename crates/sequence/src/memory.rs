@@ -8,8 +8,8 @@ use impasto_scene::memory;
 
 use crate::shot::Wanted;
 
-/// The most memory that one painter takes while it draws and encodes pictures of this size, bytes. What was prepared is
-/// not counted. Measured with llvmpipe at 7680 x 4320 and 8192 x 8192.
+/// The most memory that one painter takes while it draws and encodes pictures of this size, bytes. The memory of the
+/// prepared scene is not counted. Measured with llvmpipe at 7680 x 4320 and 8192 x 8192.
 pub(crate) fn picture_bytes(scene: &Scene, wanted: Wanted, size_px: [u32; 2], renderer: &Renderer) -> u64 {
     let style = scene.style.settings();
     let samples = samples_that_fit(style.preparation().samples, size_px, renderer.max_side_px());

@@ -60,7 +60,8 @@ impl<'a> Painter<'a> {
         let surfaces = wanted.has_any(impasto_aovs::OF_SURFACES);
         self.renderer.keep(Keeps::of_size(sequence.options.size_px, surfaces));
         let frame = sequence.painting.at(job.frame_number as f64, &sequence.options);
-        // Bodies bend for the next frame while this one is drawn, unless another painter bends them already.
+        // While this frame is drawn, the bodies are bent for the next one. With several painters, another one does that
+        // anyway.
         if let Some(next) = job.next.filter(|_| self.is_alone) {
             sequence.painting.foresee(next as f64);
         }

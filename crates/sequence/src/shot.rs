@@ -42,7 +42,7 @@ pub enum PngDepth {
     /// 8, enough to look at.
     #[default]
     Eight,
-    /// 16, to be worked on.
+    /// 16, for editing the picture further.
     Sixteen,
 }
 

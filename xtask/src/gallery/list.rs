@@ -138,7 +138,7 @@ pub(super) const PICTURES: &[Picture] = &[
             &[("regions.sky.strokes.bend_deg", "-110")],
         ],
     ),
-    // A globe and a deer, combed, turned all the way round.
+    // A globe and a deer whose strokes follow combed guides, turned all the way round.
     Picture {
         columns: 2,
         panels: &[

@@ -45,7 +45,7 @@ impl Times {
         }
     }
 
-    /// Takes in that all tests of a program have ended, and computes how long each took.
+    /// Computes how long each test of a program took, once all of them have ended.
     fn close(&mut self) {
         let mut order: Vec<&str> = self.ended.iter().map(|(name, _)| name.as_str()).collect();
         order.sort_unstable();

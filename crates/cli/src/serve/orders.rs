@@ -60,7 +60,7 @@ pub(super) struct RenderOrder {
     pub ahead: usize,
 }
 
-/// What is to be done, one after the other.
+/// Something to do. Orders are carried out one after the other.
 pub(super) enum Order {
     Prepare {
         id: u64,

@@ -76,8 +76,8 @@ pub struct CarriedPlace {
 }
 
 impl CarriedPlace {
-    /// The unit normal now of the side whose unit normal at rest is `at_rest`. Where the surface has collapsed, it is
-    /// `at_rest` itself.
+    /// The unit normal now, on the side of the surface whose unit normal at rest is `at_rest`. Where the surface has
+    /// collapsed, it is `at_rest` itself.
     pub fn normal(&self, at_rest: DVec3) -> DVec3 {
         self.area_normal(at_rest).normalize_or(at_rest)
     }
@@ -147,9 +147,9 @@ impl Carrier {
         words.into_iter().map(AtomicU64::into_inner).collect()
     }
 
-    /// Particles that were baked at rest, carried to where they are now: N'' = F N'. **The length of a normal is then the area of the
-    /// surface now over that at rest**: projected areas come out per unit of surface at rest. `height` is how far a
-    /// particle is lifted off the surface.
+    /// Carries particles that were baked at rest to where they are now; their lifts become N'' = F N'. **The length of
+    /// a carried normal is the area of the surface now over its area at rest**, so projected areas are per unit of
+    /// surface at rest. `height` is how far a particle is lifted off the surface.
     pub fn carry(
         &self,
         mesh: &TriangleMesh,

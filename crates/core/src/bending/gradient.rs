@@ -80,8 +80,8 @@ impl Gradients {
         Self { place_of_vertex, places, edges }
     }
 
-    /// F at each vertex when the vertices are at these positions, columns in model space: it takes a step on the surface at rest to the
-    /// same step now, and the normal at rest to about the normal now.
+    /// F at each vertex when the vertices are at these positions; columns in model space. F takes a step on the surface
+    /// at rest to the same step now, and the normal at rest to about the normal now.
     pub fn at(&self, positions: &[Vec3]) -> Vec<Mat3> {
         let mut of_place = vec![Mat3::IDENTITY; self.places.len()];
         of_place.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, gradients)| {

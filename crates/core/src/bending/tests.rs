@@ -161,7 +161,7 @@ fn a_joint_that_there_is_not_moves_nothing_to_nowhere() {
     assert!(bent.positions[0].is_finite() && bent.normals == [Vec3::X]);
 }
 
-/// Two triangles that share an edge at rest. Each triangle has vertices of its own there.
+/// Two triangles that share an edge at rest. Each triangle has its own vertices along that edge.
 fn hinge() -> TriangleMesh {
     TriangleMesh {
         positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Y, Vec3::X, Vec3::new(1.0, 1.0, 0.0)],

@@ -13,7 +13,7 @@ const ASPECT: f32 = 6.2;
 struct Brush {
     /// How many hairs across.
     hairs: f32,
-    /// How far the start of the mark, where the brush is full, and its end are rounded, in half widths.
+    /// How far both ends of the mark are rounded, in half widths: the start, where the brush is full, then the end.
     caps: [f32; 2],
     /// How ragged the end is, as a share of the length.
     ragged: f32,
@@ -214,7 +214,7 @@ struct AcrossHere {
     rows: [Between; STREAKS],
 }
 
-/// How many lattices streaks are made of: three for the paint, one for how far another colour is mixed in.
+/// How many lattices make the streaks: three for the paint, one for how far another colour is mixed in.
 const STREAKS: usize = 4;
 
 /// Streaks that the hairs draw.

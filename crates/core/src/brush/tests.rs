@@ -41,7 +41,7 @@ fn paint_is_spread_evenly() {
 
 #[test]
 fn hairs_run_along_the_stroke() {
-    // Along the middle of a mark the height changes less than across it.
+    // In the middle of a mark, the height changes less along the stroke than across it.
     for name in ["flat", "filbert", "dry"] {
         let mark = &marks_of(name).unwrap()[0];
         let at = |x: usize, y: usize| f32::from(mark.texels[y * SIZE[0] + x][1]);

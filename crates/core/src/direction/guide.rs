@@ -7,9 +7,9 @@ use glam::DVec3;
 pub struct Guide {
     /// At least two points; no two consecutive ones coincide.
     points: Vec<Corner>,
-    /// How far it reaches, model units.
+    /// How far the guide reaches, model units.
     radius: f64,
-    /// How far strokes on it follow it, 0..=1.
+    /// How far strokes on the guide follow it, 0..=1.
     strength: f64,
     falloff: Falloff,
     /// Centre and radius of a ball round the points.

@@ -224,8 +224,8 @@ mod tests {
 
     use super::*;
 
-    /// The relaxed angles along the middle row, in degrees, of a plane of 30 by 30 samples. Before, its left half is at
-    /// 0 degrees and its right half at `angle_deg`; 10 columns on either side of the seam are free.
+    /// Relaxes a plane of 30 by 30 samples, and returns the angles along its middle row, in degrees. At first its left
+    /// half is at 0 degrees and its right half at `angle_deg`; 10 columns on either side of the seam are free.
     fn middle_row(symmetry: Symmetry, angle_deg: f64) -> Vec<f64> {
         let positions: Vec<Vec3> =
             (0..900).map(|i| Vec3::new((i % 30) as f32, (i / 30) as f32, 0.0)).collect();

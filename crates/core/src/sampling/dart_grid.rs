@@ -19,7 +19,8 @@ pub(super) struct Dart {
 /// How many darts are tested together.
 const LANES: usize = 8;
 
-/// So many darts in two cells are a crowd, as where faces lie on each other.
+/// A search reads two neighbouring cells as one run. A run with more darts than this is crowded, as happens where faces
+/// lie on each other.
 const CROWDED: usize = 256;
 
 /// Size of a cell in search radii, a little over 2 and 4 because of rounding. A search reads two neighbouring cells
@@ -198,8 +199,8 @@ impl DartGrid {
         let last = self.mask as usize;
         let run = self.starts[bucket] as usize..self.starts[(bucket + 2).min(last + 1)] as usize;
         if run.len() > CROWDED && !is_first {
-            // The bucket of the position's own x comes first: where faces lie on each other, the other bucket may hold
-            // half of all darts, none of them near.
+            // The second bucket holds the position's own x, so it is searched before the whole run: where faces lie on
+            // each other, the first bucket may hold half of all darts, none of them near.
             let middle = self.starts[bucket + 1] as usize;
             if self.any_in_run(middle..run.end, position, radius_sq, found) {
                 return true;

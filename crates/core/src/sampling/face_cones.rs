@@ -27,8 +27,8 @@ impl FaceCones {
         Self { cones: surface.faces.iter().map(|face| Cone::of(surface, face)).collect() }
     }
 
-    /// Whether any normal of the first face and any of the second have a positive dot product (`true`) or a negative
-    /// one (`false`). `None` if that may depend on the points.
+    /// The sign of the dot product of a normal of the first face and a normal of the second: `true` if it is always
+    /// positive, `false` if it is always negative. `None` if it may depend on the points.
     #[inline]
     pub(super) fn same_side(&self, first: u32, second: u32) -> Option<bool> {
         let alike = first == second;

@@ -9,8 +9,8 @@ use super::dart_grid::{Dart, DartGrid};
 use super::face_cones::FaceCones;
 use super::{Particle, Surface, hexagonal_spacing};
 
-/// Least distance between particles, as a share of the hexagonal spacing of as many particles as the level is meant to
-/// end with.
+/// Least distance between the particles of a level. It is a share of the hexagonal spacing for the number of particles
+/// that the level is meant to end with.
 const SPACING: f64 = 0.56;
 
 /// Candidates thrown per particle that a level is meant to add. More is smoother and slower.
@@ -63,7 +63,7 @@ impl Default for ProgressiveState {
 }
 
 impl ProgressiveState {
-    /// The state as two numbers, to be kept for another process.
+    /// The state as two numbers, to be stored for another process.
     pub fn to_numbers(self) -> [u64; 2] {
         [u64::from(self.thrown), self.level_end as u64]
     }

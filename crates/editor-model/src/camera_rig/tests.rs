@@ -107,7 +107,7 @@ fn zooming_keeps_the_point_under_the_cursor() {
         if let Some([near, far]) = depths(&view) {
             assert!(near < view.distance() && view.distance() < far, "too near: {near}, {far}");
         }
-        // Back at a usual distance, the planes come together again, so that depths stay told apart.
+        // Back at a usual distance, the clip planes are near each other again, so that depths can be told apart.
         let back = (1.0 / view.distance()).ln() / ZOOM_PER_STEP.ln();
         view.zoom(back, point);
         if let Some([near, far]) = depths(&view) {

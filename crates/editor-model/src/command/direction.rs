@@ -17,7 +17,7 @@ use crate::selection::{Item, Selection};
 pub enum RegionTarget {
     /// An existing region.
     Named(String),
-    /// A new region that covers the whole object of this name, made in the gesture's entry of the history.
+    /// A new region that covers the whole object of this name. The gesture and its region are one entry of the history.
     NewOn(String),
 }
 
@@ -335,7 +335,7 @@ fn recapture(scene: &mut Scene, frame: i64) -> Result<Done, Refusal> {
     let mut regions = std::mem::take(&mut scene.regions);
     for region in &mut regions {
         let on = region.on.object().map(str::to_owned);
-        // Guides of a region with a reference of its own refer to that one.
+        // If a region has a reference of its own, its guides refer to that reference.
         let follows_the_scene = region.reference.is_none();
         for guide in region.guides.iter_mut().filter(|guide| follows_the_scene && guide.view.is_none()) {
             guide.view = view_of(guide.object.as_deref().or(on.as_deref()));

@@ -181,7 +181,7 @@ fn duplicate_object(scene: &mut Scene, name: &str) -> Result<String, Refusal> {
     let mut copy = object.clone();
     copy.name = names::unique(name, scene.objects.iter().map(|object| object.name.as_str()));
     copy.locked = false;
-    // The shot does not know the copy, so that the copy gets as keys what the shot says of the object.
+    // The shot does not move the copy, so the copy gets keys: the motion that the shot gives the object.
     if scene.is_moved_by_shot(&object) {
         copy.keys = keys_of_shot(scene, &object);
     }

@@ -1,4 +1,4 @@
-//! The keys of everything that can be keyed: whose they are, moving them, copying them, and values at a frame.
+//! The keys of everything that can be keyed: who owns them, how they are moved and copied, and values at a frame.
 
 use std::borrow::Cow;
 
@@ -15,26 +15,26 @@ use crate::refusal::Refusal;
 /// The owner of keys.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum KeyOf {
-    /// The shot camera's.
+    /// The shot camera.
     Camera,
-    /// An object's.
+    /// The object of this name.
     Object(String),
-    /// A light's.
+    /// The light of this name.
     Light(String),
-    /// The background's.
+    /// The background.
     Background,
-    /// Of the strokes of the scene or of a region.
+    /// The strokes of the scene or of a region.
     Strokes(StrokesOf),
 }
 
 /// A value to key: anything but a pose.
 #[derive(Clone, Debug, PartialEq)]
 pub enum KeyedValue {
-    /// Of a light, by name: what the key states; its frame and ease are not read.
+    /// The values of a light, by its name. The frame and the ease of the [`LightKey`] are not read.
     Light(String, LightKey),
     /// The background.
     Background(Color),
-    /// Of strokes: what the key states; its frame and ease are not read.
+    /// The values of strokes. The frame and the ease of the [`StrokesKey`] are not read.
     Strokes(StrokesOf, StrokesKey),
 }
 
@@ -66,7 +66,7 @@ impl KeyedValue {
         })
     }
 
-    /// Whose value it is.
+    /// The owner of the value.
     pub fn of(&self) -> KeyOf {
         match self {
             Self::Light(name, _) => KeyOf::Light(name.clone()),
@@ -142,7 +142,7 @@ fn strokes_keys(scene: &Scene, of: &StrokesOf) -> Vec<StrokesKey> {
     presets::resolve(scene, region).keys
 }
 
-/// What keys do to strokes at a frame.
+/// The values that the keys give to strokes at a frame.
 pub fn strokes_at(scene: &Scene, of: &StrokesOf, frame: f64) -> StrokesKey {
     motion::stroke_key_at(&strokes_keys(scene, of), frame)
 }
@@ -161,13 +161,13 @@ fn put<K: Key>(keys: &mut Vec<K>, mut key: K) {
 
 /// A list of keys of any kind.
 pub(super) trait KeyList {
-    /// Moves the keys at these frames, or copies of them; they replace keys on which they land.
+    /// Moves the keys at these frames, or copies of them. A key that lands on another key replaces it.
     fn shift(&mut self, frames: &[f64], by: f64, copies: bool);
     /// Removes the keys at these frames.
     fn delete(&mut self, frames: &[f64]);
     /// Sets the ease of the keys at these frames.
     fn set_ease(&mut self, frames: &[f64], ease: Ease);
-    /// Whether there is none.
+    /// Whether the list has no keys.
     fn is_bare(&self) -> bool;
 }
 
@@ -211,7 +211,7 @@ pub(super) fn list<'a>(scene: &'a mut Scene, of: &KeyOf) -> Result<&'a mut dyn K
     })
 }
 
-/// The frames of the keys of each owner, the owners in order of first appearance.
+/// Groups the frames of keys by their owner. The owners are in the order in which they first appear.
 pub(super) fn by_owner(keys: &[(KeyOf, f64)]) -> Vec<(&KeyOf, Vec<f64>)> {
     let mut owners: Vec<(&KeyOf, Vec<f64>)> = Vec::new();
     for (of, frame) in keys {

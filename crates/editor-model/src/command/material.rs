@@ -25,7 +25,8 @@ pub(super) fn set_material(
     Ok(Done::new(format!("{words} of {name}")))
 }
 
-/// What differs between two materials, in words; *Material* if several things differ, or one that has no word here.
+/// Says in words what differs between two materials. If several things differ, or if the difference has no word here,
+/// this is *Material*.
 fn changed(before: &MaterialOverride, now: &MaterialOverride) -> &'static str {
     let with = |change: fn(&mut MaterialOverride, &MaterialOverride)| {
         let mut changed = before.clone();

@@ -65,12 +65,12 @@ pub enum Regions {
     SetStroke(StrokesOf, StrokeChange),
     /// Replaces all stroke settings by those that were copied.
     PasteStrokes(StrokesOf, Box<StrokeSettings>),
-    /// Replaces the stroke settings by those of a preset of the user's own. Keys and `layer` stay; so do a scene's
-    /// ground and order of layers if the preset states none.
+    /// Replaces the stroke settings by those of a preset that the user made. Keys and `layer` stay. A scene also keeps
+    /// its ground and its order of layers if the preset states none.
     ApplyPreset {
         /// Whose settings.
         of: StrokesOf,
-        /// The preset; pictures of its brushes are named as the scene finds them.
+        /// The preset. It names the pictures of its brushes by paths at which the scene finds them.
         preset: Box<StrokesFile>,
         /// Its name.
         name: String,
@@ -218,7 +218,7 @@ fn set_stroke(settings: &mut StrokeSettings, change: &StrokeChange) -> Result<Do
     Ok(Done::new(text))
 }
 
-/// Replaces the settings of one layer of paint. Returns the text of the entry of the history.
+/// Replaces the settings of one layer of paint. Returns the text for the history.
 fn paint_layer(settings: &mut StrokeSettings, layer: &LayerSettings) -> String {
     let layer = &LayerSettings { color: layer.color.map(in_file), ..layer.clone() };
     let name = &layer.name;
@@ -235,7 +235,7 @@ fn paint_layer(settings: &mut StrokeSettings, layer: &LayerSettings) -> String {
         hidden if hidden == was_hidden => format!("Paint: {name}"),
         Some(true) => format!("Hide layer {name}"),
         Some(false) => format!("Show layer {name}"),
-        // `hidden` is no longer stated: the inherited value counts, which is assumed to be the opposite of the old one.
+        // `hidden` is no longer stated, so the inherited value counts. It is assumed to be the opposite of the old one.
         None if was_hidden == Some(false) => format!("Hide layer {name}"),
         None => format!("Show layer {name}"),
     }

@@ -17,8 +17,8 @@ pub enum SceneEdit {
     SetSize(u32, u32),
     /// Sets the seed of all random choices.
     SetSeed(u32),
-    /// Sets what the objects stand on. The first ground of the scene goes, with its regions and what is painted on it;
-    /// the new one has its colour. Children of the old one move to its parent.
+    /// Sets what the objects stand on. The scene's first ground is removed, with its regions and everything that is
+    /// painted on it. The new ground gets the colour of the old one. Children of the old ground move to its parent.
     SetGround(Ground),
     /// Sets the background: what shows where nothing is painted.
     SetBackground(Color),

@@ -11,19 +11,19 @@ use crate::refusal::Refusal;
 /// A pose to key.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pose {
-    /// Of the camera.
+    /// The camera's pose.
     Camera(CameraPose),
-    /// Of an object, in its parent's space; its frame and ease are not read.
+    /// An object's pose in its parent's space. The frame and the ease of the [`ObjectKey`] are not read.
     Object(String, ObjectKey),
 }
 
 /// Keys and the timeline.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Time {
-    /// Sets a key with the current pose at a frame.
+    /// Sets a key at a frame, with the pose or value that its owner has there.
     SetKey(KeyOf, f64),
-    /// Gives own keys to the camera or an object that the scene's shot moves: one per frame, without those that lie on
-    /// a straight line between their neighbours.
+    /// Gives keys of its own to the camera or an object, in place of the motion from the scene's shot. There is one key
+    /// per frame, without those that lie on a straight line between their neighbours.
     OwnKeys(KeyOf),
     /// Sets a new pose at a frame. If there are no keys at other frames, the old pose is also keyed at the reference's
     /// frame, so that there is a motion between the two.
@@ -110,7 +110,7 @@ pub fn ease_name(ease: Ease) -> &'static str {
     }
 }
 
-/// Whether two eases are of one kind; all curves are.
+/// Whether two eases are of the same kind. All curves are of one kind.
 pub fn same_ease(one: Ease, other: Ease) -> bool {
     std::mem::discriminant(&one) == std::mem::discriminant(&other)
 }
@@ -119,7 +119,7 @@ fn counted(keys: &[(KeyOf, f64)]) -> String {
     if keys.len() == 1 { "1 key".to_owned() } else { format!("{} keys", keys.len()) }
 }
 
-/// Numbers of keys count as equal up to this difference, relative for numbers above 1.
+/// Two numbers in keys count as equal up to this difference. For numbers above 1, the difference is relative.
 const SAME: f64 = 1e-9;
 
 fn own_keys(scene: &mut Scene, of: &KeyOf) -> Result<Done, Refusal> {

@@ -71,7 +71,7 @@ fn lay(scene: &mut Scene, touches: &[Touch]) -> Result<Done, Refusal> {
     Ok(Done::new(text).selecting(Selection::only(Item::Touch(last))))
 }
 
-/// A touch that may be changed: its object is not locked.
+/// A touch, to be changed. Refused if its object is locked.
 pub(super) fn touch_mut<'a>(scene: &'a mut Scene, name: &str) -> Result<&'a mut Touch, Refusal> {
     let index = scene.touches.iter().position(|touch| touch.name == name);
     let index = index.ok_or_else(|| Refusal::unknown("touch", name))?;

@@ -23,7 +23,7 @@ pub enum SaveError {
     /// It has no file yet.
     #[error("this scene has no file yet: choose a name")]
     Unnamed,
-    /// The scene would not find its files from the folder of the file that was chosen.
+    /// The scene would not find the files that it names if it were saved in the chosen folder.
     #[error("from {} the scene would not find {mesh:?}: save it in {}, or put the file there first", target.display(), folder.display())]
     FilesElsewhere {
         /// The file that was chosen.
@@ -112,8 +112,8 @@ impl Document {
 
     fn may_save_over(&self, target: &Path) -> Result<(), SaveError> {
         let real = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
-        // Compared by `loaded.path`: a recovered copy of which it is not known what was lost has no `file`, but must not
-        // overwrite its origin.
+        // Compares with `loaded.path`, not with `file`. If it is not known what a recovered copy lost, the copy has no
+        // `file`, but must not overwrite the file that it came from.
         let is_own = real(target) == real(&self.loaded.path);
         match self.unread_parts().next().filter(|_| is_own) {
             Some(first) => Err(SaveError::Problems {
@@ -171,8 +171,8 @@ impl Document {
         names.into_iter().filter(|name| !impasto_scene::built_in_mesh::is_built_in(name))
     }
 
-    /// Reads the scene's file, its meshes and pictures again, as one entry of the history, so that edits can be brought
-    /// back. If the file has errors, nothing changes.
+    /// Reads the scene's file, its meshes and its pictures again. This is one entry of the history, so undo brings the
+    /// edits back. If the file has errors, nothing changes.
     ///
     /// # Errors
     /// What is wrong with the file.
@@ -215,7 +215,7 @@ impl Document {
     /// makes an entry of the history, with a note of the objects that came and went.
     ///
     /// # Errors
-    /// What is wrong with the files, in the words to show; then the old ones stay.
+    /// What is wrong with the files, in the words to show. The scene then keeps the files as it read them before.
     pub fn read_files_again(&mut self) -> Result<Step, Refusal> {
         let scene = self.scene().without_shot();
         let (meshes, caches, textures, brushes) = Default::default();
@@ -235,7 +235,7 @@ impl Document {
         let text = "Read the shot again".to_owned();
         let was_edited = self.is_edited();
         self.history.push(text.clone(), change, [before, self.selection.clone()]);
-        // What a shot brings is not saved, so it is no unsaved edit.
+        // What comes from a shot is not saved in the scene file, so a change of it is no unsaved edit.
         if !was_edited {
             self.history.mark_saved();
         }
@@ -262,7 +262,8 @@ impl Document {
         files
     }
 
-    /// The unsaved work, for the recovery copy. A text that is being edited beside the scene is not known here.
+    /// The unsaved work, for the recovery copy. If the user is editing the source text, that text is not included: the
+    /// document does not know it.
     pub fn work(&self, at_unix_secs: u64) -> Work {
         let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         let copy = Copy {

@@ -21,7 +21,7 @@ use crate::source::Source;
 pub struct ProblemRow {
     /// The problem, and its place in the text.
     pub problem: Problem,
-    /// What is used until it is mended, as a sentence; empty for warnings.
+    /// What is used until the problem is mended, as a sentence; empty for warnings.
     pub instead: String,
     /// The possible repairs, the best last.
     pub repairs: Vec<Repair>,
@@ -37,7 +37,7 @@ pub enum Repair {
     },
     /// Reads the files again, in case the missing one is there now.
     Retry,
-    /// Another mesh for an object.
+    /// Lets the user choose another mesh for an object.
     Locate {
         /// The object.
         object: String,
@@ -48,7 +48,7 @@ pub enum Repair {
         loss: usize,
         /// What its button says: *Rename*, *Use leaf.obj*.
         verb: String,
-        /// Whether it is certain: nothing else can have been meant.
+        /// Whether the change is certain, because nothing else can have been meant.
         is_certain: bool,
     },
     /// Moves the points of a guide onto the surface.
@@ -98,8 +98,8 @@ impl Document {
         self.open_losses().count()
     }
 
-    /// Whether saving over the scene's file would lose a part of its text that could not be read. A mesh that is missing
-    /// or cannot be used is no such part: the scene goes on to name it.
+    /// Whether saving over the scene's file would lose a part of its text that could not be read. A mesh that is
+    /// missing or cannot be used does not count, because the saved scene still names it.
     pub fn saving_loses(&self) -> bool {
         self.unread_parts().next().is_some()
     }
@@ -178,7 +178,7 @@ impl Document {
             _ => read.loaded,
         };
         let change = SceneChange::between(self.scene(), &loaded.scene);
-        // The same text and the same scene: only its files were read again, so nothing is to be saved.
+        // If text and scene are the same, only the scene's files were read again, and there is nothing to save.
         let is_same = change.is_none() && self.source.as_ref().is_some_and(|source| source.text == text);
         let stays_saved = is_same && !self.is_edited();
         let sources = [self.source.clone(), after.clone()];
@@ -241,7 +241,8 @@ impl Document {
     }
 }
 
-/// The repairs for a missing file. A mesh is not brought: the user chooses another one ([`Repair::Locate`]).
+/// The repairs for a missing file. A mesh gets no [`Repair::Bring`], because the user can choose another mesh with
+/// [`Repair::Locate`].
 fn missing_file(problem: &Problem, is_mesh: bool) -> Vec<Repair> {
     let Some(to) = problem.missing_file() else { return Vec::new() };
     let bring = (!is_mesh).then_some(Repair::Bring { to });
@@ -323,7 +324,8 @@ fn merged_list<T: Clone + PartialEq>(
     }
     for (index, item) in left.iter().enumerate() {
         if find(from, item).is_none() && find(right, item).is_none() {
-            // An item that `left` added goes behind the nearest earlier item of `left` that `merged` has, else first.
+            // `left` added this item. It goes behind the nearest item before it in `left` that `merged` has, or first
+            // if there is none.
             let before = left[..index].iter().rev().find_map(|before| find(&merged, before));
             merged.insert(before.map_or(0, |at| at + 1), item.clone());
         }

@@ -34,8 +34,8 @@ impl Document {
         Ok(Self { stamp, source, ..document })
     }
 
-    /// Opens a copy of unsaved work. Paths stay relative to the scene's original folder. The text that the scene was read
-    /// from comes back with its problems, if they are still the same.
+    /// Opens a copy of unsaved work. Paths stay relative to the scene's original folder. The text that the scene was
+    /// read from comes back with its problems, if they are still the same.
     ///
     /// # Errors
     /// If nothing of the copy can be read.
@@ -44,18 +44,20 @@ impl Document {
         let read_from = copy.source.as_ref().and_then(|text| {
             Some(Source::with_any_losses(&salvage::salvage_text(&copy.path, text, options).ok()?))
         });
-        // Where files came or went since, what the copy lacks would be taken for what the user has deleted.
+        // If files came or went since the copy was made, it is not known what was lost: what the copy lacks would look
+        // as if the user had deleted it.
         let is_known = read_from.as_ref().is_some_and(|source| {
             let has_box = |mesh: &String| source.has_stand_in(mesh);
             copy.losses == Some(source.losses_hash())
                 && salvaged.losses.iter().all(|loss| loss.mesh.as_ref().is_some_and(has_box))
         });
-        // A scene that was read with losses must not overwrite its file if it is not known what was lost.
+        // A scene that was read with losses may overwrite its file only if it is known what was lost.
         let file = copy.file.clone().filter(|_| !copy.lossy || is_known);
         let stamp = copy.stamp.filter(|_| file.is_some());
         let is_as_read = read_from.as_ref().is_some_and(|source| source.scene == salvaged.loaded.scene);
         let source = match &copy.unread {
-            // An edited text is shown beside a source, whether anything was lost or not.
+            // The user was editing the source text. That edit is shown beside a source, so there must be one, even if
+            // nothing was lost.
             Some(_) => read_from.or_else(|| Some(Source::with_any_losses(&salvaged))),
             None => read_from.filter(|_| is_known).or_else(|| Source::of(&salvaged)),
         };

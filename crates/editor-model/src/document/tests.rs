@@ -144,13 +144,13 @@ fn a_missing_mesh_is_listed_and_does_not_keep_the_scene_from_being_saved() {
     assert!(document.loss_count() == 1 && !document.saving_loses());
     document.apply(&seed(9)).expect("done");
     document.save().expect("saved");
-    // The list goes on, with the line in the text that was written.
+    // After saving, the mesh is still listed, with its line in the saved text.
     let rows = document.problems();
     assert_eq!(rows[0].repairs, [Repair::Retry, Repair::Locate { object: "leaf".to_owned() }]);
     let place = rows[0].problem.place.expect("a place");
     let line = folder.text().lines().nth(place.line - 1).expect("the line").to_owned();
     assert!(line[place.column - 1..].starts_with("\"lost.obj\""), "{place:?} in {line}");
-    // The file is as the scene, and its text can be read again once the mesh is there.
+    // The file holds the scene as it is. Its text can be read again once the mesh is there.
     let again = folder.open();
     assert_eq!(again.scene(), document.scene());
     assert_eq!((again.scene().seed, again.scene().regions.len(), again.loss_count()), (9, 1, 1));
@@ -204,7 +204,7 @@ fn a_file_changed_outside_is_not_saved_over_and_can_be_read_again() {
     document.reload().expect("read");
     assert_eq!((document.scene().seed, document.is_edited()), (9, false));
     assert!(!document.is_changed_outside());
-    // Undo brings back the dropped edits.
+    // Undo brings back the edits that reading dropped.
     document.undo().expect("undone");
     assert_eq!((document.scene().seed, document.is_edited()), (1, true));
     document.save().expect("the change outside is known since it was read");
@@ -257,7 +257,8 @@ fn a_scene_whose_mesh_or_folder_is_gone_is_saved_elsewhere_and_what_is_missing_i
     }
 }
 
-/// What comes back of a document, with an edited text beside it, after its window was killed.
+/// Writes a recovery copy of a document, after `change` has edited that copy. Returns the recovered document and the
+/// copy as it was read back.
 fn brought_back(
     document: &Document,
     change: impl Fn(&mut crate::recovery::Copy),
@@ -276,13 +277,13 @@ fn a_copy_of_a_scene_with_losses_never_takes_the_place_of_its_file() {
     let folder = Folder::with(&broken());
     let mut document = folder.open();
     document.apply(&Command::Scene(SceneEdit::SetSize(640, 480))).expect("done");
-    // What could not be read comes back as it was, to be mended before the file is written over.
+    // The unreadable parts come back as they were. They must be mended before the file can be overwritten.
     let (mut back, _) = brought_back(&document, |_| {});
     assert_eq!(back.scene().size, (640, 480));
     assert_eq!(back.source().expect("a source").text, broken());
     assert_eq!(back.loss_count(), document.loss_count());
     assert!(matches!(back.save(), Err(SaveError::Problems { .. })));
-    // Where the text is not known, the copy knows nothing of its file.
+    // Without the source text, the recovered document has no file.
     let (mut back, _) = brought_back(&document, |copy| copy.source = None);
     assert_eq!(back.scene().size, (640, 480));
     assert!(matches!(back.save(), Err(SaveError::Unnamed)));
@@ -300,7 +301,7 @@ fn what_was_missing_when_a_copy_was_made_and_is_there_again_is_not_taken_for_del
         .keep(&document.work(1))
         .expect("kept");
     let copy = crate::recovery::Recovery::offers(place.path())[0].copy.clone();
-    // The mesh that was missing comes.
+    // The missing mesh is put in its place.
     fs::write(folder.0.path().join("leaf.obj"), QUAD).expect("written");
     for unread in [None, Some("(version: 1)".to_owned())] {
         let has_text = unread.is_some();

@@ -205,7 +205,7 @@ impl Editor {
                 }
                 return true;
             }
-            // The tool may take a point of a guide; else the selection is deleted.
+            // The tool may delete one point of a guide. If it does not, the selection is deleted.
             Action::Delete
                 if self.session.mode == Mode::Paint && (self.hand.is_busy() || self.pointer_px.is_some()) =>
             {
@@ -218,8 +218,8 @@ impl Editor {
         true
     }
 
-    /// Takes up a tool, and changes to a mode that has it, if the current one has not. Cancels the interaction under
-    /// way.
+    /// Takes up a tool. If the current mode does not have this tool, changes to a mode that does. Cancels the
+    /// interaction under way.
     pub fn take_up(&mut self, tool: Tool, view: &View) {
         self.cancel(view);
         match (tool.is_for_paint(), self.session.mode) {

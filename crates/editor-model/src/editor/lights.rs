@@ -67,8 +67,8 @@ impl Editor {
         self.light_places().into_iter().find(|place| place.light.name == *name)
     }
 
-    /// The command that moves or turns a light: by a key at the frame that is shown, if the light has keys. `None` if
-    /// lights of its kind cannot be changed so. `delta` is given in `axes`.
+    /// The command that moves or turns a light. If the light has keys, the command sets a key at the frame that is
+    /// shown. `None` if lights of this kind cannot be moved or turned like that. `delta` is given in `axes`.
     pub(super) fn light_command(&self, name: &str, delta: TransformDelta, axes: DMat3) -> Option<Command> {
         // As it was at the beginning of the drag, not as it is previewed.
         let (stored, frame) = (self.document.scene(), self.session.frame);

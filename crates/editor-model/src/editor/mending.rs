@@ -14,7 +14,8 @@ pub enum Mend {
     Fix(usize),
     /// Repairs all losses whose repair is certain.
     FixCertain,
-    /// Moves a guide onto the surface that it belongs to: name of its region, and its index there.
+    /// Moves a guide onto the surface that it belongs to. The guide is given by the name of its region and its index
+    /// in that region.
     Snap(String, usize),
     /// Reads this text in place of the source.
     ReadText(String),
@@ -117,7 +118,8 @@ fn version_of(document: &Document) -> (u64, bool) {
 
 fn take_in(document: &mut Document, news: News) -> Result<Step, Refusal> {
     let first = |report: Report| Refusal::of(&report);
-    // A source without open losses is there for a text that is being edited, or for edits that may be taken back: it stays.
+    // A source may have no open losses: it is then stored for a text that the user is editing, or because undo may
+    // reopen a loss. Such a document does not count as read in part.
     let read_in_part = document.source().filter(|_| document.loss_count() > 0);
     match (news, read_in_part.map(|source| source.text.clone())) {
         // The user may be repairing the file in another program: it is read as far as possible, to show what is still

@@ -191,8 +191,8 @@ impl Editor {
             TransformDelta::Scale(factors) if factors.max_element() - factors.min_element() < 1e-12 => {
                 (about_pivot(pivot, DMat3::from_diagonal(factors)), "Scale")
             }
-            // `Shift` and `key_of` take only one factor for all axes, so uneven factors stretch the object itself,
-            // along its own axes whichever space was chosen.
+            // `Shift` and `key_of` take only one factor for all axes, so uneven factors stretch the object itself.
+            // They apply along its own axes, whichever space was chosen.
             TransformDelta::Scale(factors) => {
                 let object = active.clone();
                 return Some(Command::Arrange(Arrange::Stretch { object, factors }));

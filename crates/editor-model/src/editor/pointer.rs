@@ -51,7 +51,7 @@ pub struct PointerEvent {
     pub pressure: f64,
 }
 
-/// A pressure as tools take it, whatever a driver reports.
+/// Turns the pressure that a driver reports into one that tools can use: finite, and in 0..=1.
 fn sound(pressure: f64) -> f64 {
     if pressure.is_finite() { pressure.clamp(0.0, 1.0) } else { 1.0 }
 }
@@ -62,7 +62,7 @@ impl Editor {
         if !event.at_px.is_finite() {
             return;
         }
-        // A mouse always reports full pressure; a pen reports less, already while it hovers.
+        // A mouse always reports full pressure. A pen reports less, even while it hovers.
         self.session.has_pen |= event.pressure < 1.0;
         let before_px = self.pointer_px.unwrap_or(event.at_px);
         (self.held, self.at_secs) = (event.held, event.at_secs);
@@ -233,8 +233,8 @@ impl Editor {
         Some(Item::Region(self.document.shown().scene.regions.get(region)?.name.clone()))
     }
 
-    /// Asks for the menu of what is under the pointer, which is selected first: in Paint the region, else the light or
-    /// object.
+    /// Selects the thing under the pointer, and asks for its menu. In Paint the thing is the region, else it is the
+    /// light or object.
     fn ask_for_menu(&mut self, at_px: DVec2, view: &View) {
         let region = || self.region_at(at_px, view).filter(|_| self.session.mode == Mode::Paint);
         let item = region().or_else(|| self.item_at(at_px, view));
@@ -246,7 +246,7 @@ impl Editor {
         self.requests.push(Request::Menu(item));
     }
 
-    /// Whether an object has a built-in mesh, as the floor and the wall of a new scene.
+    /// Whether an object has a built-in mesh, like the floor and the wall of a new scene.
     fn is_scenery(&self, name: &str) -> bool {
         let object = self.document.scene().objects.iter().find(|object| object.name == name);
         object.is_some_and(|object| is_built_in(&object.mesh))
@@ -315,7 +315,8 @@ impl Editor {
         there.unwrap_or_else(|| view.at_depth_of(at_px, self.camera().target))
     }
 
-    /// The surface under the pointer; `None` for a built-in backdrop, since who points at it means the models before it.
+    /// The point of a surface under the pointer. `None` for a built-in backdrop: a user who points at it means the
+    /// models in front of it.
     fn model_at(&self, at_px: DVec2, view: &View) -> Option<DVec3> {
         let hit = self.hit(at_px, view)?;
         let object = self.document.shown().scene.objects.get(hit.object)?;
@@ -352,7 +353,8 @@ impl Editor {
         self.picker.pick(&view.ray(at_px), &self.poses(), visible)
     }
 
-    /// Passes an event to the tool of Paint and carries out its result. Whether the tool had a command to carry out.
+    /// Passes an event to the tool of Paint and carries out its result. Returns whether the tool had a command to carry
+    /// out.
     pub(super) fn tool(&mut self, event: ToolEvent, view: &View) -> bool {
         let poses = self.poses();
         let loaded = std::sync::Arc::clone(self.document.loaded());
@@ -407,7 +409,7 @@ impl Editor {
 
     fn add_light(&mut self, at_px: DVec2, view: &View) {
         let toward = self.about(at_px, view);
-        // Off the surface, towards the eye: a light inside the object would not show.
+        // The light is off the surface, towards the eye, because a light inside the object would not show.
         let to_eye = (view.camera.eye - toward) * 0.25;
         let kind = self.session.options.light;
         self.run(&Command::Arrange(Arrange::AddLight { kind, at: toward + to_eye, toward }));

@@ -38,7 +38,7 @@ pub enum Request {
     MaximiseViewport,
     /// Gives the keyboard to the next area of the window.
     NextArea,
-    /// Shows the dialog in which one sets what is rendered.
+    /// Shows the dialog in which the user sets what is rendered.
     Render,
     /// Shows the dialog of [`Self::Render`] for a movie.
     ExportMovie,

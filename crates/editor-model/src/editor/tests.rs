@@ -211,7 +211,7 @@ fn stroke_previews_show_from_the_first_movement_until_the_pointer_rests() {
     assert_eq!(comb_preview.along, DVec2::X);
     assert!((comb_preview.at_px - at - DVec2::new(20.0, 0.0)).length() < 1e-6, "{comb_preview:?}");
 
-    // The strokes previewed in the ring are those that the whole picture has there.
+    // The ring previews the same strokes that the whole picture has there.
     let painting = editor.painting().expect("it is prepared");
     let options = impasto_painting::FrameOptions::new([960, 540]);
     let camera = editor.camera();
@@ -299,7 +299,7 @@ fn with_backdrop() -> Editor {
     editor
 }
 
-/// A place of the picture where the wall shows.
+/// A place in the picture where the wall shows.
 fn on_the_wall(editor: &Editor) -> DVec2 {
     let view = view(editor);
     let scene = editor.document().scene();

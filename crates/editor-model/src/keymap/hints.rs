@@ -1,8 +1,8 @@
-//! Words that name keys, as the status line has them, in the keys that are in use.
+//! Hints that name keys, as in the status line. They are written with the usual keys, and shown with the keys in use.
 
 use super::{Action, Keymap, Preset};
 
-/// The usual keys, as hints are written, and what they do.
+/// The usual keys, as hints name them, and what these keys do.
 const USUAL: [(&str, &[Action]); 6] = [
     ("F", &[Action::SizeRadius]),
     ("G R S", &[Action::Move, Action::Turn, Action::Scale]),
@@ -13,8 +13,8 @@ const USUAL: [(&str, &[Action]); 6] = [
 ];
 
 impl Keymap {
-    /// Hints such as `[F] radius  [Middle] orbit`, with the keys in use in place of the usual ones. A hint for what has
-    /// no key is left out.
+    /// Hints such as `[F] radius  [Middle] orbit`, with the keys in use in place of the usual ones. If an action has no
+    /// key, its hint is left out.
     pub fn in_own_keys(&self, hints: &str) -> String {
         // Two spaces stand before a hint; a bracket elsewhere belongs to a name.
         let apart = format!("  {hints}");

@@ -1,12 +1,12 @@
 //! Keys that the user chose: only what differs from the preset. A key that the user chose wins over a key of the
-//! preset. So a change holds with either preset, and taking it back returns the key to the command that had it.
+//! preset. So the choice applies with either preset, and undoing it returns the key to the command that had it.
 
 use std::collections::BTreeMap;
 
 use super::table::BINDINGS;
 use super::{Action, Chord, Key, Keymap, Scope, Where};
 
-/// A command of the list of keys: one row of `BINDINGS`, that is an action and the scopes in which its keys work.
+/// A command in the list of keys. It is one row of `BINDINGS`: an action, and the scopes in which its keys work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct CommandId(usize);
 
@@ -17,7 +17,7 @@ pub struct CommandKeys {
     pub id: CommandId,
     /// Its keys now.
     pub chords: Vec<Chord>,
-    /// Whether these are not the preset's.
+    /// Whether these keys differ from the preset's.
     pub is_changed: bool,
 }
 
@@ -91,8 +91,8 @@ impl CommandId {
         }
     }
 
-    /// Whether the two cannot share a key: they work in the same scope, or one works everywhere and the other in a
-    /// mode. (Modal tools, fields and lanes may take a key that otherwise works everywhere.)
+    /// Whether the two commands cannot share a key: they work in the same scope, or one works everywhere and the other
+    /// in a mode. (Modal tools, fields and lanes may take a key that otherwise works everywhere.)
     fn meets(self, other: Self) -> bool {
         let is_mode = |place: &Where| {
             matches!(place, Where::In(Scope::Arrange | Scope::Paint | Scope::Animate) | Where::Everywhere)
@@ -151,7 +151,7 @@ impl Keymap {
         })
     }
 
-    /// The commands that would lose a key if a command got these keys.
+    /// The commands that would lose a key if the command `id` got these keys.
     pub fn losers(&self, id: CommandId, chords: &[Chord]) -> Vec<CommandId> {
         let loses = |other: &CommandKeys| {
             other.id.meets(id) && other.chords.iter().any(|chord| chords.contains(chord))
@@ -159,8 +159,8 @@ impl Keymap {
         self.commands().filter(loses).map(|other| other.id).collect()
     }
 
-    /// The commands of Animate, or of everywhere, that these keys would no longer reach on a lane if the lane command
-    /// `id` had them. Empty if `id` is not a lane command.
+    /// The commands that a focused lane would hide if its command `id` had these keys: they have one of these keys, and
+    /// work in Animate or everywhere. Empty if `id` is not a command of lanes.
     pub fn hidden(&self, id: CommandId, chords: &[Chord]) -> Vec<CommandId> {
         if BINDINGS[id.0].holds != [Where::In(Scope::Lane)] {
             return Vec::new();
@@ -182,7 +182,7 @@ impl Keymap {
 
     /// The keymap with these keys for a command; other commands lose them.
     ///
-    /// Keys that the command cannot have change nothing.
+    /// If the command cannot have one of the keys, nothing changes.
     pub fn with(&self, id: CommandId, chords: Vec<Chord>) -> Self {
         let mut keymap = self.clone();
         if chords.iter().any(|chord| id.refusal(*chord).is_some()) && chords != self.usual(id) {

@@ -47,7 +47,7 @@ fn no_key_does_two_things_in_one_scope() {
                 }
             }
         }
-        // A mode may not hide a key that holds everywhere; modal tools, fields and lanes may take the keys they name.
+        // A mode must not hide a key that works everywhere. Modal tools, fields and lanes may take such keys.
         for (&(place, chord), &action) in &taken {
             if place != Where::Everywhere
                 && let Some(&shadowed) = taken.get(&(Where::Everywhere, chord))
@@ -231,7 +231,7 @@ fn menus_write_keys_as_people_do() {
         assert!(!action.name().is_empty());
         for keymap in keymaps() {
             let text = keymap.shortcut_text(action);
-            // The modes have no keys where the digits choose views instead.
+            // The modes have no keys if the digits choose views instead.
             let digit = matches!(action, Action::Arrange | Action::Paint | Action::Animate)
                 && keymap.digits == Digits::NumPad;
             // These have no key: they are only in the menu and the command search.
@@ -248,7 +248,7 @@ fn menus_of_a_mode_show_no_key_that_does_something_else_in_it() {
         (Action::Delete, Scope::Paint, Some("Delete")),
         (Action::SetKey, Scope::Animate, Some("I")),
         (Action::SetKey, Scope::Paint, None),
-        // A key that does nothing here is shown: it is to be learnt.
+        // A key that does nothing in this mode is still shown, so that users learn it.
         (Action::Touch, Scope::Arrange, Some("U")),
         (Action::Save, Scope::Paint, Some("Ctrl S")),
     ] {

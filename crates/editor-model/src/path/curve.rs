@@ -5,8 +5,8 @@ use glam::DVec2;
 
 use super::STEP_PX;
 
-/// A curve through the reported points. It ends at the last point but one, because how it bends on the way to a point
-/// depends on the point after that.
+/// A curve through the reported points. It ends at the last point but one, because the piece that leads to a point
+/// also depends on the next point.
 #[derive(Clone, Debug)]
 pub(super) struct PointerCurve {
     /// The last points, at most three; neighbours are never at the same place.
@@ -97,8 +97,8 @@ impl PointerCurve {
     }
 }
 
-/// Mirrors a point in the line that crosses the middle of `from` and `to` at a right angle. The image lies on the
-/// circle through all three points, and stands in for a point that the curve lacks at its start or end.
+/// Mirrors a point in the perpendicular bisector of `from` and `to`. The image lies on the circle through all three
+/// points. It stands in for a point that the curve lacks at its start or end.
 fn mirrored(point: DVec2, from: DVec2, to: DVec2) -> DVec2 {
     let along = (to - from).normalize_or_zero();
     point - along * (2.0 * (point - (from + to) * 0.5).dot(along))

@@ -18,8 +18,8 @@ pub struct MirrorAxes {
 }
 
 impl MirrorAxes {
-    /// What positions are multiplied by, for each mirror image. One axis gives one image, two give three, and three
-    /// give seven.
+    /// For each mirror image, the factors that positions are multiplied by. One axis gives one image, two give three,
+    /// and three give seven.
     pub fn flips(self) -> Vec<DVec3> {
         let on = [self.x, self.y, self.z];
         (1..8usize)

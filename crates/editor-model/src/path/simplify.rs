@@ -1,5 +1,5 @@
-//! Removes points from a path, so that a guide has few, while the path stays within a given distance of what it was
-//! (Ramer 1972; Douglas and Peucker 1973).
+//! Removes points from a path, so that its guide has few points. The path stays within a given distance of what it
+//! was (Ramer 1972; Douglas and Peucker 1973).
 
 use glam::DVec3;
 use impasto_scene::document::GuidePoint;

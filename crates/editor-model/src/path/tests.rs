@@ -208,7 +208,7 @@ fn a_fold_in_front_of_the_same_object_is_not_drawn_across() {
         Some(Hit { position_in_model: hit.position_in_model * (1.0 - nearer.z / 4.0) + nearer, ..hit })
     });
     assert_eq!(folded.pieces().len(), 2);
-    // A steep step, but of one surface, does not cut the path.
+    // A steep step does not cut the path if the surface is connected there.
     let steep = drag(&across, &SETTINGS, &mut |at_px| {
         let hit = on_plane(&front(), at_px)?;
         let nearer = ((at_px.x - 318.0) / 4.0).clamp(0.0, 1.0) * 0.5;

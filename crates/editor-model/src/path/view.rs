@@ -45,13 +45,13 @@ impl ObjectView {
         Self { eye, target, rays, frame: None }
     }
 
-    /// The same view at a frame, of an object that bends.
+    /// The same view, with the frame for an object that bends.
     pub fn at_frame(self, frame: Option<f64>) -> Self {
         Self { frame, ..self }
     }
 
-    /// The view that a guide states if it was drawn in this one; `None` if this is the reference. `middle` is a point
-    /// of the guide.
+    /// What a guide that was drawn in this view states as its view; `None` if this view is the reference. `middle` is a
+    /// point of the guide.
     pub fn guide_view(&self, reference: &Self, middle: DVec3) -> Option<GuideView> {
         if self.is_same_as(reference) {
             return None;

@@ -15,8 +15,8 @@ use obvhs::bvh2::builder::build_bvh2;
 use obvhs::ray::RayHit;
 use obvhs::{Boundable, BvhBuildParams};
 
-/// A point of a surface, in the object's own space. All but `position_now` is of the surface at rest, because the
-/// document states everything there.
+/// A point of a surface, in the object's own space. All fields but `position_now` are of the surface at rest, because
+/// the document states everything on that surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
     /// Index of its triangle.
@@ -32,7 +32,7 @@ pub struct SurfacePoint {
     pub normal: DVec3,
     /// Normal of the flat triangle, unit, of the same side.
     pub face_normal: DVec3,
-    /// Whether that side is the triangle's back, from where its corners wind clockwise.
+    /// Whether that side is the triangle's back, the side from which its corners wind clockwise.
     pub flipped: bool,
 }
 
@@ -141,7 +141,7 @@ impl SurfaceTree {
         self.now.bounds
     }
 
-    /// Whether joints, targets or a cache may bend it.
+    /// Whether joints, shape keys or a point cache may bend the surface.
     pub(super) fn bends(&self) -> bool {
         self.surface.bends()
     }
@@ -295,7 +295,7 @@ impl SurfaceTree {
         let normals = self.mesh().triangles[triangle as usize]
             .map(|vertex| self.mesh().normals[vertex as usize].as_dvec3());
         let smooth = blend(normals, barycentric).normalize_or(winding);
-        // A file's normals may point to the other side than its winding: the winding decides.
+        // A file's normals and its winding may disagree about the side. Then the winding decides.
         let normal = if smooth.dot(face_normal) < 0.0 { -smooth } else { smooth };
         let (position, position_now) =
             (blend(corners, barycentric), blend(self.corners(triangle), barycentric));

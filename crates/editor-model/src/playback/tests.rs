@@ -85,7 +85,7 @@ fn drops_are_counted_and_remembered_exactly() {
     let course = course(0, 9, 10.0);
     let mut playback = Playback::default();
     playback.play(0.0, course, 0.0);
-    // The frame is asked for only once, in the middle of frame 3.
+    // Playback ticks only once, in the middle of frame 3.
     assert_eq!(playback.tick(course, 0.35), Some(3.0));
     assert!(playback.shown(3.0, 0.35));
     assert_eq!((playback.dropped(), playback.missed().collect::<Vec<_>>()), (2, vec![1, 2]));

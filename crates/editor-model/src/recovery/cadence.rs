@@ -10,8 +10,8 @@ pub struct Cadence {
 }
 
 impl Cadence {
-    /// Whether a copy is due now; if so, it counts as made. `edited` is a number that is another one after each edit, or
-    /// `None` if there are no unsaved edits. The time is the caller's clock.
+    /// Whether a copy is due now; if so, it counts as made. `edited` is a number that changes with each edit, or `None`
+    /// if there are no unsaved edits. The time is that of the caller's clock.
     pub fn is_due(&mut self, edited: Option<u64>, now_secs: f64, after_secs: f64) -> bool {
         let Some(version) = edited else {
             *self = Self::default();
@@ -44,17 +44,17 @@ mod tests {
         let mut cadence = Cadence::default();
         assert!(!cadence.is_due(None, 0.0, 10.0));
         assert!(!cadence.is_due(Some(5), 10.0, 10.0));
-        // More edits do not put it off.
+        // More edits do not delay the copy.
         assert!(!cadence.is_due(Some(6), 19.0, 10.0));
         assert!(cadence.is_due(Some(60), 20.0, 10.0));
         assert!(!cadence.is_due(Some(60), 1000.0, 10.0), "nothing new");
         // The time counts from the next edit on.
         assert!(!cadence.is_due(Some(61), 1001.0, 10.0));
         assert!(cadence.is_due(Some(61), 1011.0, 10.0));
-        // Saved in between.
+        // The user saves in between.
         assert!(!cadence.is_due(None, 1012.0, 10.0));
         assert!(!cadence.is_due(Some(62), 1013.0, 10.0));
-        // What is edited after that is copied too.
+        // Edits after the save are copied, too.
         assert!(cadence.is_due(Some(63), 1023.0, 10.0));
     }
 }

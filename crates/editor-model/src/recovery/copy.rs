@@ -1,5 +1,5 @@
-//! The file of a copy of unsaved work: a scene file, headed by comment lines that say what it is a copy of and hold the text
-//! that the scene was read from, if parts of that could not be read.
+//! The file of a copy of unsaved work: a scene file with comment lines above it. The comments say what it is a copy of.
+//! If parts of the text that the scene was read from could not be read, the comments also hold that text.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -16,17 +16,17 @@ use crate::stamp::{Stamp, hash};
 const FIRST: &str = "// Impasto: a copy of unsaved work, 1";
 const LAST: &str = "// end of what it is a copy of";
 
-/// What begins each line of the text that the scene was read from, and of that text as it is being edited.
+/// What each line begins with: in the text that the scene was read from, and in that text as the user is editing it.
 const SOURCE: &str = "// source| ";
 const UNREAD: &str = "// edited| ";
 
-/// Longer texts are not kept beside the scene.
+/// Longer texts are not written above the scene.
 const MAX_BESIDE_BYTES: usize = 4 << 20;
 
 /// Unsaved work to be copied.
 #[derive(Clone, Debug)]
 pub struct Work {
-    /// The copy without its text, which is made of the scene when it is written.
+    /// The copy without its text. The text is made from the scene when the copy is written.
     pub copy: Copy,
     /// The scene.
     pub scene: Arc<LoadedScene>,
@@ -45,7 +45,7 @@ pub struct Copy {
     pub at_unix_secs: u64,
     /// How many unsaved entries of the history there are.
     pub changes: usize,
-    /// Whether parts of the scene's text could not be read, so that it must not overwrite its file.
+    /// Whether parts of the scene's text could not be read, so that the copy must not overwrite the scene's file.
     pub lossy: bool,
     /// The scene as text; empty before it is written.
     pub text: String,
@@ -53,7 +53,7 @@ pub struct Copy {
     pub source: Option<String>,
     /// A hash of what could not be read in that text.
     pub losses: Option<u64>,
-    /// That text as the user was editing it, before it was read.
+    /// The text in `source` as the user has edited it; the scene was not read from it yet.
     pub unread: Option<String>,
 }
 
@@ -95,7 +95,7 @@ impl Work {
 impl Copy {
     /// Reads a copy back; none if it is not complete.
     pub(super) fn read(file: &Path) -> Option<Self> {
-        // A text of empty lines is the longest beside the scene, since each line gets its prefix.
+        // A text of empty lines takes the most space above the scene, since each line gets a prefix.
         let most_beside = (2 * (SOURCE.len() + 1) * MAX_BESIDE_BYTES) as u64;
         let bytes = read_regular_file(file, MAX_SCENE_BYTES + most_beside + (64 << 10)).ok()?;
         Self::parse(std::str::from_utf8(&bytes).ok()?)

@@ -15,7 +15,7 @@ pub struct Keeper {
     thread: Option<JoinHandle<()>>,
 }
 
-/// The result of an order: of each copy that was written, and of each order that failed.
+/// The result of an order. There is one for each copy that was written, and for each order that failed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Kept {
     /// The copy was written. The number is the time when it was made, seconds since 1970.
@@ -34,7 +34,7 @@ impl Keeper {
     /// Starts a thread that writes the copies of one session.
     ///
     /// # Errors
-    /// If the system starts no thread.
+    /// If the system cannot start a thread.
     pub fn new(recovery: Recovery) -> std::io::Result<Self> {
         let (orders, to_do) = mpsc::channel();
         let (told, done) = mpsc::channel();
@@ -49,7 +49,7 @@ impl Keeper {
         self.order(Order::Keep(Box::new(work)));
     }
 
-    /// Removes the copy: its work is saved, or was given up.
+    /// Removes the copy, because its work was saved or discarded.
     pub fn forget(&self) {
         self.order(Order::Forget);
     }

@@ -76,7 +76,7 @@ fn the_copy_of_a_living_session_is_not_offered_and_one_copy_not_twice() {
     let offers = Recovery::offers(folder.path());
     assert_eq!(offers.len(), 1);
     assert!(Recovery::offers(folder.path()).is_empty(), "a copy is offered though another window holds it");
-    // Answered with "later", it is offered again.
+    // If the user answers "later", the copy is offered again.
     drop(offers);
     let offers = Recovery::offers(folder.path());
     assert_eq!(offers.len(), 1);

@@ -46,8 +46,8 @@ impl FileKind {
         matches!(self, Self::Png8 | Self::Png16 | Self::PngAndExr)
     }
 
-    /// The endings of a frame's files; the first is that of the pattern. For a movie: those that it may have, the usual
-    /// one first.
+    /// The endings of a frame's files; the first is that of the pattern. For a movie, the endings that it may have, the
+    /// usual one first.
     pub const fn endings(self) -> &'static [&'static str] {
         match self {
             Self::Png8 | Self::Png16 => &["png"],
@@ -65,7 +65,7 @@ impl FileKind {
             return output.to_owned();
         }
         let stem = ending.and_then(|_| output.rfind('.')).map_or(output, |at| &output[..at]);
-        // A movie has no number in its name, and frames have one again.
+        // The name of a movie has no frame number. If frames replace a movie, their names get a number again.
         let stem = match self {
             Self::Movie => stem.trim_end_matches('#').trim_end_matches(['_', '-', '.']).to_owned(),
             _ if stem.is_empty() || stem.ends_with(['/', '\\']) => stem.to_owned(),
@@ -143,7 +143,7 @@ impl AovChoice {
     /// The colour alone.
     pub const NONE: Self = Self::These(AovSet::NONE);
 
-    /// What files of this scene hold; what its style lacks is left out.
+    /// The AOVs that files of this scene hold, without those that its style lacks.
     pub fn set(self, scene: &Scene) -> AovSet {
         let wanted = match self {
             Self::OfScene => aovs_of(scene),

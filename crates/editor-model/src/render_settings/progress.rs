@@ -24,12 +24,12 @@ pub enum Outcome {
     Failed(String),
 }
 
-/// How far rendering is.
+/// How far rendering has come.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RenderProgress {
     /// What is being done.
     pub stage: Stage,
-    /// How many frames there are to be.
+    /// How many frames there will be.
     pub total: u64,
     /// How many frames were written.
     pub written: u64,

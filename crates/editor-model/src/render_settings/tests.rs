@@ -81,7 +81,7 @@ fn files_that_are_there_are_counted_and_the_scenes_own_refused() {
     assert_eq!(capitals.plan(&document, 0.0).unwrap().existing_count(), 2, "files end in small letters");
     #[cfg(unix)]
     {
-        // A frame's name that is a link to what the scene is read from.
+        // The name of one frame is a link to the file that the scene is read from.
         std::os::unix::fs::symlink(folder.path().join("s.ron"), folder.path().join("f_05.png")).unwrap();
         let words = settings.plan(&document, 0.0).unwrap().ready().unwrap_err().to_string();
         assert!(words.contains("s.ron"), "{words}");

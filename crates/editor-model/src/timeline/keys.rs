@@ -186,7 +186,7 @@ impl KeysHand {
         None
     }
 
-    /// Shifts the frames of the selection, to where a command is about to move or copy the selected keys. Returns the
+    /// Shifts the frames of the selection to where a command is about to move or copy the selected keys. Returns the
     /// old selection.
     pub(crate) fn go(&mut self, by: f64) -> Vec<KeyAt> {
         let before = self.selected.clone();

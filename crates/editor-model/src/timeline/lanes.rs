@@ -76,8 +76,8 @@ pub fn keyed_frames(scene: &Scene) -> Vec<f64> {
     frames
 }
 
-/// The ease that a click changes this one to; repeated clicks go through all named eases. `None` for a curve: it was made
-/// by hand, and no click throws it away.
+/// The ease that a click changes this one to. Repeated clicks go through all named eases. `None` for a curve: it was
+/// made by hand, so a click must not discard it.
 pub fn next_ease(ease: Ease) -> Option<Ease> {
     Some(match ease {
         Ease::Smooth => Ease::Linear,

@@ -24,8 +24,8 @@ pub(super) fn factor(of: Amount, raises: bool, strength: f64) -> f64 {
     ((by * 1000.0).round() / 1000.0).clamp(*of.range().start(), *of.range().end())
 }
 
-/// The dabs of a drag that touched these points. `felt` gives two factors for a point: that by which `radius` is
-/// multiplied for its dab, and that which the dab paints.
+/// The dabs of a drag that touched these points. `felt` gives two factors for a point: the first multiplies `radius`,
+/// the second is what the dab paints.
 pub(super) fn dabs(
     touched: &[PathPoint],
     radius: f64,

@@ -86,7 +86,7 @@ impl Brush {
             ToolEvent::Release { pressure } => {
                 let stroke = self.stroke.take().map(|on| Stroke { path: on.path.lifted(pressure), ..on });
                 let commit = stroke.as_ref().and_then(|on| on.command(around));
-                // A command selects its region; a stroke that gives none still selects the region that it was on.
+                // A command selects its region. A stroke without a command still selects the region that it was on.
                 let on = stroke.filter(|on| on.on.region.is_some() && commit.is_none());
                 let select = on.map(|on| Item::Region(on.on.name));
                 ToolOutput { commit, select, ..ToolOutput::saying(words(tool, around)) }
@@ -259,7 +259,7 @@ impl Act {
         matches!(self, Self::Add | Self::TakeAway | Self::AddNew)
     }
 
-    /// Whether it leaves dabs with radii and strengths of their own; else the whole gesture has one of each.
+    /// Whether each dab has its own radius and strength. Otherwise the whole gesture has one radius and one strength.
     fn leaves_dabs(self) -> bool {
         self.is_for_regions() || matches!(self, Self::Raise | Self::Lower)
     }
@@ -310,8 +310,8 @@ impl Act {
         }
     }
 
-    /// Finds the surface under a pixel where a drag may go: on the object of its press and, except for the region
-    /// brush, within its region.
+    /// A function that finds the surface under a pixel, if the drag may go there. A drag stays on the object of its
+    /// press. All brushes but the region brush also stay in the region of the press.
     fn picks<'a>(
         self,
         on: &'a Paintable,
@@ -329,7 +329,7 @@ impl Act {
 }
 
 impl Stroke {
-    /// The factors of the pen's pressure on what the ring shows.
+    /// The factors by which the pen's pressure changes the ring that is shown.
     fn felt_now(&self, around: &Surroundings) -> Felt {
         match self.does.leaves_dabs() {
             true => Felt::of(self.path.pressure(), around.options),

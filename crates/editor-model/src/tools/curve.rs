@@ -30,7 +30,8 @@ const DOUBLE_SECS: f64 = 0.4;
 const DOUBLE_PX: f64 = 4.0;
 /// A press on a handle is a click until the pointer has moved this far.
 const CLICK_PX: f64 = 3.0;
-/// How far the line through the points that a guide keeps may be from the drawn curve, as a share of the radius.
+/// A guide keeps only some points of the drawn curve. The line through them may be this far from the curve, as a share
+/// of the radius.
 const TOLERANCE: f64 = 0.05;
 
 /// The state of the curve tool.
@@ -61,7 +62,7 @@ struct Drawing {
 struct Dragging {
     grip: Grip,
     from_px: DVec2,
-    /// `None` until the pointer has moved; on a line it is set by the press already.
+    /// `None` until the pointer has moved. If a line is gripped, the press already sets the command.
     command: Option<Box<Command>>,
 }
 

@@ -52,7 +52,8 @@ fn erased_spans(from: &GuidePoint, to: &GuidePoint, touched: &[PathPoint], radiu
         .iter()
         .filter(|stamp| stamp.normal.dot(normal) > 0.0)
         .filter_map(|stamp| {
-            // Solves |start + t·way − stamp| = radius for t; without a solution both are NaN, and nothing is erased.
+            // Solves |start + t·way − stamp| = radius for t. Without a solution both values of t are NaN, and nothing
+            // is erased.
             let off = start - stamp.position;
             let (a, b, c) = (way.length_squared(), way.dot(off), off.length_squared() - radius * radius);
             let root = (b * b - a * c).sqrt();

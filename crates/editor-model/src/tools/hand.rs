@@ -22,7 +22,7 @@ pub struct Hand {
     tool: Option<Tool>,
     held: ToolState,
     sizing: Option<Sizing>,
-    /// Set from a press that ended a resizing until its release, because that press begins no gesture.
+    /// True between the press that ends a resizing and the release of the button: this press begins no gesture.
     ignores_release: bool,
     at_px: Option<DVec2>,
 }

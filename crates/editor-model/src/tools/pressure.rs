@@ -8,12 +8,12 @@ use crate::session::{Pressure, ToolOptions};
 /// The lightest touch of a pen gives this share of the radius or strength, so that no gesture is lost.
 const LEAST: f64 = 0.05;
 
-/// The factors that pressure puts on a brush.
+/// The factors by which pressure scales a brush.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Felt {
-    /// On the radius.
+    /// For the radius.
     pub(super) radius: f64,
-    /// On the strength.
+    /// For the strength.
     pub(super) strength: f64,
 }
 
@@ -43,7 +43,7 @@ impl Felt {
         if self.strength == 1.0 { strength } else { amounts::short(strength * self.strength, 1.0) }
     }
 
-    /// The options of a brush that is this much smaller, for its ring.
+    /// The options with the radius scaled, for the ring of the brush.
     pub(super) fn options(self, around: &Surroundings) -> ToolOptions {
         ToolOptions { radius_px: around.options.radius_px * self.radius, ..around.options.clone() }
     }

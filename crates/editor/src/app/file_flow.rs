@@ -342,7 +342,7 @@ impl EditorApp {
         }
     }
 
-    /// Asks for a file to save to. If the scene's text was edited and not read, asks about that first.
+    /// Asks for a file to save to. If the scene's text has edits that are not applied yet, asks about them first.
     pub(super) fn save_asking(&mut self, ask: FileAsk) {
         match self.unsaved() {
             Some(Unsaved::Text) => self.wait_for(Next::Save(ask), Unsaved::Text),
@@ -350,8 +350,8 @@ impl EditorApp {
         }
     }
 
-    /// Saves to the document's own file. If the scene's text was edited and not read, asks about that first, unless the
-    /// save will be refused for what is wrong with the scene.
+    /// Saves to the document's own file. If the scene's text has edits that are not applied yet, asks about them first.
+    /// Does not ask if the save will be refused anyway, because of problems in the scene.
     pub(super) fn save_own_asking(&mut self) {
         match self.unsaved() {
             Some(Unsaved::Text) if !self.editor.document().saving_loses() => {
@@ -415,7 +415,7 @@ impl EditorApp {
         if Present::of(document) == Present::Nothing {
             return self.open(path);
         }
-        // A document that has no file and names none moves to the mesh's folder; `live_in` checks that.
+        // `live_in` moves the document to the mesh's folder if the document has no file and names no files.
         if let Some(folder) = std::path::absolute(path).ok().as_deref().and_then(Path::parent) {
             self.editor.live_in(folder);
         }

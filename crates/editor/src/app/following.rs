@@ -1,6 +1,6 @@
 //! `impasto edit --follow`: follows another program, which writes its frame and view to our standard input as lines of
-//! JSON: `{"frame": 12}` goes to a frame, `"view": {"eye": …, "target": …}` to a free view, `"view": null` to the shot
-//! camera.
+//! JSON. `{"frame": 12}` goes to a frame, `{"view": {"eye": …, "target": …}}` to a free view, and `{"view": null}` to
+//! the shot camera.
 
 use std::io::{BufRead as _, Read as _};
 use std::sync::mpsc::{Receiver, channel};

@@ -34,7 +34,7 @@ impl FrameView {
     /// Begins with the first of these frames.
     ///
     /// # Errors
-    /// When there is none, or the system gives no thread.
+    /// If there are no frames, or the system gives no thread.
     pub(super) fn open(
         (done, frames): (u64, Vec<(i64, PathBuf)>),
         fps: f64,
@@ -54,8 +54,8 @@ impl FrameView {
         }
     }
 
-    /// Shows the frame that is due. If its file is not read yet while frames play, goes back to the latest frame
-    /// before it that is read, or that is shown already.
+    /// Shows the frame that is due. While frames play, its file may not be read yet. Then shows the latest earlier
+    /// frame that is read, or that is shown already.
     fn follow(&mut self, ui: &Ui, now_secs: f64) {
         let (at, count) = (self.frames.at(), self.frames.count());
         let most = if self.frames.is_playing() { count } else { 1 };

@@ -51,8 +51,8 @@ fn view_of(pose: &CameraPose) -> LastView {
     }
 }
 
-/// A free view from a remembered one, with the shot's lens. If only one of the two is orthographic, the lens is
-/// switched as by [`FreeView::toggle_orthographic`]. The zoom of an orthographic view is not remembered.
+/// A free view from a remembered one, with the shot's lens. If only the view or only the lens is orthographic, the lens
+/// is switched as by [`FreeView::toggle_orthographic`]. The zoom of an orthographic view is not remembered.
 pub(super) fn free_view(view: &LastView, shot: &CameraPose) -> FreeView {
     let mut free = FreeView::new(CameraPose {
         eye: DVec3::from(view.eye),

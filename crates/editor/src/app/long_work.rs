@@ -288,7 +288,7 @@ impl EditorApp {
                         self.editor.run(&Command::Arrange(command));
                         let of = TroubleOf::ChangedOutside(News::Files);
                         if self.troubles.iter().any(|trouble| trouble.of == of) {
-                            // The mesh that was missing may be the one that was replaced.
+                            // The replaced mesh may be the one that was missing, so read the changed files again.
                             self.changed_outside(News::Files);
                         }
                     }

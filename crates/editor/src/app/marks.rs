@@ -25,11 +25,11 @@ use crate::viewport::overlay::{
 use crate::viewport::surface_map::{Face, FacePlace, StandingBody, SurfaceMap};
 use crate::viewport::{Framing, HairLook, Marks, direction_marks};
 
-/// Cells per point of the map of visible surfaces, at rest and while the view moves.
+/// The map of visible surfaces has this many cells per point: first at rest, then while the view moves.
 const CELLS_PER_POINT: f64 = 0.5;
 const MOVING_CELLS_PER_POINT: f64 = 0.2;
 
-/// The cached marks of each picture that is shown: of one, or of the two of a comparison.
+/// The cached marks of the pictures that are shown: two in a comparison, otherwise one.
 #[derive(Default)]
 pub(super) struct MarkCache {
     halves: [Half; 2],
@@ -91,7 +91,11 @@ pub(super) struct Fresh {
 impl MarkCache {
     /// Updates the marks whose inputs have changed.
     pub(super) fn refresh(&mut self, editor: &Editor, picture_flow: &PictureFlow, picture: &PictureView<'_>) {
-        let Some(painting) = editor.painting() else { return };
+        let Some(painting) = editor.painting() else {
+            // The marks of the scene before would lie over a scene that was opened just now.
+            self.halves = Default::default();
+            return;
+        };
         let Some(&framing) = picture_flow.layout().framings().get(picture.index) else { return };
         let session = &editor.session;
         if editor.time().playback.is_playing() {

@@ -275,7 +275,7 @@ impl EditorApp {
         let mut asks: Vec<Ask> = Vec::new();
         self.likely_meshes.follow(self.editor.document());
         let works = self.works(ui.ctx());
-        // What is lost again, as after an undo, is told again.
+        // Losses that come back, for instance after an undo, open the list of problems again.
         let losses = self.editor.document().loss_count();
         self.sheets.problems |= losses > self.losses_told;
         self.losses_told = losses;

@@ -90,6 +90,7 @@ impl PictureFlow {
     /// Drops all pictures, as when another document is opened or the scene has become empty.
     pub(super) fn forget(&mut self) {
         self.pictures.clear();
+        (self.strokes, self.strokes_of) = (0, Vec::new());
         self.asked = None;
         self.preparing = None;
     }
@@ -293,7 +294,7 @@ impl PictureFlow {
     }
 }
 
-/// The driver of pictures that are drawn beside the window's own OpenGL.
+/// The driver that draws the pictures, independent of the window's own OpenGL.
 pub(super) fn driver_of(choice: DriverChoice) -> Driver {
     match choice {
         DriverChoice::Auto => Driver::Auto,

@@ -1,4 +1,4 @@
-//! Says for which of the viewport's pictures the overlay makes its marks, and that picture's camera and frame.
+//! Names the picture of the viewport that the overlay makes its marks for, with the picture's camera and frame.
 
 use impasto_scene::motion::CameraPose;
 

@@ -1,4 +1,4 @@
-//! Presets: saves, lists and applies those of the user's own, and has pictures painted of all.
+//! Saves, lists and applies the user's own presets, and has pictures of all presets painted.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -23,10 +23,10 @@ use crate::panels::problems::TroubleOf;
 use crate::preset_pictures::{PresetPictures, SceneOf, Wanted};
 use crate::window::Waker;
 
-/// At most so many presets get a picture; further ones are chosen by their names.
+/// At most this many presets get a picture; further ones are chosen by their names.
 const MOST_PICTURES: usize = 40;
 
-/// The user's presets, and the pictures of all.
+/// The user's presets, and the pictures of all presets.
 pub(super) struct PresetFlow {
     /// The presets in the user's folder.
     pub(super) own: Vec<OwnPreset>,
@@ -34,14 +34,14 @@ pub(super) struct PresetFlow {
     of: Option<StrokesOf>,
     driver: Driver,
     waker: Waker,
-    /// What paints the pictures, from the first that is wanted on.
+    /// Paints the pictures; `None` until the first one is wanted.
     painter: Option<PresetPictures>,
     pictures: BTreeMap<String, TextureHandle>,
     /// What the pictures show: the version of the scene, whose strokes, and the frame at which the list was opened.
     shows: Option<(u64, StrokesOf, f64)>,
     /// Whether the list was open in the last pass.
     is_listed: bool,
-    /// Whether the pictures are being painted, or are there.
+    /// Whether the pictures are being painted, or are done.
     paints: bool,
 }
 
@@ -88,16 +88,16 @@ impl PresetFlow {
 }
 
 impl EditorApp {
-    /// Looks which presets are in the user's folder.
+    /// Lists the presets in the user's folder.
     pub(super) fn list_presets(&mut self) {
         self.presets.own = presets_folder().map_or_else(Vec::new, |folder| presets_in(&folder));
     }
 
-    /// Has pictures of all presets painted for these strokes, unless they are there or under way already.
+    /// Has pictures of all presets painted for these strokes, unless they are already done or being painted.
     pub(super) fn picture_presets(&mut self, of: StrokesOf) {
         self.presets.is_listed = true;
         let (version, now) = (self.editor.shown().1, self.editor.session.frame.round());
-        // While the list is open, the shot may play.
+        // Keeps the frame at which the list was opened, because the shot may play while the list is open.
         let opened_at = self.presets.shows.as_ref().filter(|_| self.presets.paints).map(|(.., frame)| *frame);
         let frame = opened_at.unwrap_or(now);
         let shows = Some((version, of.clone(), frame));
@@ -179,7 +179,7 @@ impl EditorApp {
         }
     }
 
-    /// Saves again what could not be saved.
+    /// Tries again to save settings that could not be saved.
     pub(super) fn save_preset_again(&mut self, of: StrokesOf, path: &Path) {
         self.settled(&TroubleOf::SavePreset(of.clone(), path.to_owned()));
         self.presets.of = Some(of);

@@ -94,7 +94,7 @@ impl RenderFlow {
         self.is_open = true;
     }
 
-    /// How many frames are finished, and the files of those that can be viewed; `None` if still `before` are finished,
+    /// How many frames are finished, and the files of those that can be viewed. `None` if the number is still `before`,
     /// or if there is no rendering.
     pub(super) fn finished_since(&self, before: u64) -> Option<(u64, Vec<(i64, PathBuf)>)> {
         let running = self.running.as_ref()?;

@@ -45,7 +45,7 @@ enum About {
     Changed,
     /// Saving would overwrite what another program has written.
     SavingOver,
-    /// The scene has this many problems left, the first in this line, so that it cannot be saved over its file.
+    /// Problems are left, so the scene cannot be saved over its file: how many, and the line of the first one.
     Losses(usize, usize),
 }
 
@@ -103,7 +103,7 @@ impl SafeKeeping {
     }
 }
 
-/// A number that is another one after each edit of the scene or of its text.
+/// A number that changes with each edit of the scene or of its text.
 fn version_of(document: &Document, unread: Option<&str>) -> u64 {
     let revision = document.revision();
     unread.map_or(revision, |text| revision.wrapping_add(hash(text.as_bytes())))

@@ -12,7 +12,7 @@ use crate::panels::problems::{Settle, Trouble, TroubleOf};
 impl EditorApp {
     /// Lists a failure and shows the list.
     pub(super) fn trouble(&mut self, of: TroubleOf, words: String) {
-        // What else could be done about a missing file is for a command line.
+        // Leaves out the advice that helps only on the command line.
         let words = words.replace(", or name its folder with --asset-dir", "");
         let (words, mend, settles): (_, _, &'static [Settle]) = match &of {
             TroubleOf::Save(_) => {
@@ -48,7 +48,7 @@ impl EditorApp {
         }
     }
 
-    /// Takes what was settled off the list.
+    /// Removes a failure that was settled from the list.
     pub(super) fn settled(&mut self, of: &TroubleOf) {
         self.troubles.retain(|trouble| trouble.of != *of);
     }
@@ -76,7 +76,7 @@ impl EditorApp {
             (Settle::SaveAs, _) => self.save_asking(FileAsk::SaveAs),
             (Settle::Locate, _) => match self.object_without_mesh() {
                 Some(object) => self.choose_mesh(object),
-                // It is there again.
+                // No mesh is missing any more.
                 None => self.settle(index, Settle::Retry),
             },
             (Settle::Retry, TroubleOf::Save(None)) => self.save_own_asking(),

@@ -81,7 +81,7 @@ impl EditorApp {
         let name = &self.editor.document().shown().scene.objects[object].name;
         self.editor
             .turned_deg(object)
-            .map_or_else(String::new, |turned| format!("{name} turned {turned:.0}°"))
+            .map_or_else(String::new, |turned| format!("{name} turned {:.0}°", turned.round() + 0.0))
     }
 
     fn take(&mut self, events: ViewportEvents, asks: &mut Vec<Ask>, view: &View) {

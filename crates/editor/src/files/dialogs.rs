@@ -31,7 +31,7 @@ pub const PATIENCE: Duration = Duration::from_secs(3);
 pub struct Answer {
     /// What was asked.
     pub ask: FileAsk,
-    /// The file; none if the user cancelled. To save, its name has the right ending, and an existing file may be
+    /// The file; none if the user cancelled. When saving, its name has the right ending, and an existing file may be
     /// replaced.
     pub path: Option<PathBuf>,
 }
@@ -53,7 +53,8 @@ pub struct FileDialogs {
     open: Option<Open>,
 }
 
-/// Shows the desktop's dialog and waits for the answer. The path is the start folder or, to save, the proposed file.
+/// Shows the desktop's dialog and waits for the answer. The path is the start folder or, when saving, the proposed
+/// file.
 type Choose = fn(FileAsk, &Path) -> Option<PathBuf>;
 
 struct Open {
@@ -80,8 +81,8 @@ impl FileDialogs {
         self.open.is_some()
     }
 
-    /// Asks for a file. `start` is the folder to start in or, to save, the proposed file. Does nothing while another
-    /// dialog is open.
+    /// Asks for a file. `start` is the folder to start in or, when saving, the proposed file. Does nothing while
+    /// another dialog is open.
     pub fn open(&mut self, ctx: &Context, ask: FileAsk, start: &Path) {
         if self.open.is_some() {
             return;
@@ -116,7 +117,8 @@ impl FileDialogs {
             ShownAs::Desktop(answers) => match (answers.try_recv(), open.since.elapsed()) {
                 (Ok(Some(path)), _) => {
                     let completed = ask.completed(path.clone());
-                    // The desktop has asked whether to replace only for the name as it was typed, without the ending.
+                    // The desktop asked about replacing only the file whose name was typed. The file with the added
+                    // ending is another one, so the sheet asks about it.
                     if completed != path && completed.symlink_metadata().is_ok() {
                         open.shown = ShownAs::Sheet(PathSheet::asking_to_replace(ask, &completed));
                         ctx.request_repaint();
@@ -197,7 +199,7 @@ fn has_session_bus() -> bool {
     is_set("XDG_RUNTIME_DIR").is_some_and(|folder| PathBuf::from(folder).join("bus").exists())
 }
 
-/// The lists that the desktop's dialog offers: the words of each, and the endings of its files.
+/// The filters that the desktop's dialog offers: the words of each filter, and the endings of its files.
 fn filters(ask: FileAsk) -> Vec<(&'static str, Vec<String>)> {
     const SCENES: &[&str] = &["ron"];
     const MESHES: &[&str] = &["obj", "gltf", "glb"];

@@ -108,7 +108,7 @@ impl FileAsk {
     }
 }
 
-/// The path with the whole ending of a preset; what is typed may have a part of it.
+/// The path with the whole ending of a preset. The typed path may already have a part of that ending.
 fn as_preset(mut path: PathBuf) -> PathBuf {
     if is_preset(&path) {
         return path;

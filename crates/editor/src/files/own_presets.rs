@@ -96,8 +96,8 @@ pub fn preset_command(document: &Document, of: &StrokesOf, path: &Path) -> Resul
     Ok(command(&preset))
 }
 
-/// The scene of `trial` with the preset in the file `path`, whose pictures stay where they are; `None` if it cannot be
-/// applied.
+/// The scene of `trial` with the preset in the file `path` applied. The preset's pictures are not copied. `None` if the
+/// preset cannot be applied.
 pub fn seen_with_preset(trial: &Trial, of: &StrokesOf, path: &Path) -> Option<LoadedScene> {
     let preset = Box::new(strokes_file::load(path).ok()?);
     let command = Command::Regions(Regions::ApplyPreset { of: of.clone(), preset, name: name_of(path) });
@@ -110,8 +110,8 @@ fn in_words(Report(problems): &Report) -> String {
     words.join("; ")
 }
 
-/// Makes the pictures of a preset's brushes available in `folder`: copies those that lie elsewhere, and names them as
-/// they are found from there. No file is overwritten.
+/// Makes the pictures of a preset's brushes available in `folder`: copies those that lie elsewhere, and renames the
+/// brushes to the pictures' paths relative to `folder`. No file is overwritten.
 fn take_brushes_along(
     preset: &mut StrokesFile,
     file_of: impl Fn(&str) -> Option<PathBuf>,
@@ -121,7 +121,7 @@ fn take_brushes_along(
         let file = file_of(name).ok_or_else(|| format!("the file of the brush {name} is not there"))?;
         Ok((name.to_owned(), file))
     });
-    // All are looked for before one is copied.
+    // Finds all files before it copies any.
     let found: Vec<(String, PathBuf)> = found.collect::<Result<_, String>>()?;
     let mut renamed: Vec<(String, String)> = Vec::new();
     for (name, file) in found {

@@ -53,7 +53,7 @@ pub struct PathSheet {
 }
 
 impl PathSheet {
-    /// A sheet that starts in the folder `start` or, to save, with the file `start` in the field.
+    /// A sheet that starts in the folder `start` or, when saving, with the file `start` in the field.
     pub fn new(ask: FileAsk, start: &Path) -> Self {
         let is_file = ask.is_save() && !start.is_dir();
         let typed = if is_file { name_of(start) } else { String::new() };

@@ -120,7 +120,7 @@ fn a_frame_that_found_no_room_is_not_read_again_and_again() {
     }
     assert_eq!(kept(&reading, 3), [0, 2], "the large one is let go, and the next is read");
     assert_eq!(reading.shared.board().next(), None);
-    // Once it is the most urgent, it is read.
+    // Once the large frame is the most urgent, it is read.
     reading.want(vec![1, 2], [64, 64]);
     while reading.picture(1).is_none() {
         next();

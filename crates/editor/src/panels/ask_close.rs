@@ -49,7 +49,7 @@ pub enum Question {
         age: String,
         /// How many entries of the copy's history the file lacks.
         changes: usize,
-        /// Whether it holds an edited text that was not read.
+        /// Whether the copy holds edits of the text that were not applied.
         has_text: bool,
         /// Whether the file has changed since the copy was made.
         of_another: bool,

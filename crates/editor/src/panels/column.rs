@@ -31,7 +31,7 @@ pub fn column(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     Panel::right(whole).default_size(width).size_range(240.0..=480.0).frame(frame).show(ui, |ui| {
         // In a low window the inspector keeps a part of the height.
         let most = (ui.available_height() * MOST_TREE).clamp(64.0, 640.0);
-        // What a low window leaves of the tree is not remembered for a higher one.
+        // The height that the tree has in a low window is not remembered for a higher window.
         let top = if most < tree_height { low } else { top };
         let top = Panel::top(top).default_size(tree_height.min(most)).size_range(most.min(96.0)..=most);
         let top = top.resizable(true);
@@ -48,7 +48,7 @@ pub fn column(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     });
 }
 
-/// Keeps rows that are scrolled out of a part from showing in the other.
+/// Hides the rows that are scrolled out of their part, so that they do not show in the other part.
 fn clip(ui: &mut Ui) {
     ui.set_clip_rect(ui.clip_rect().intersect(ui.max_rect()));
 }

@@ -13,7 +13,7 @@ use crate::widgets::{self, Button, Tip, key_of};
 use crate::window::tab_pressed;
 
 const BAR: f32 = 44.0;
-/// Room for the scrubbing line that is never given up.
+/// The least width that is kept for the scrubbing line, points.
 const LEAST_LINE: f32 = 120.0;
 
 /// What the viewer shows.
@@ -183,7 +183,7 @@ fn words(ui: &mut Ui, room: Rect, shown: &ViewerShown<'_>) -> Rect {
     };
     let count = format!("frame {number}, {} of {}", index + 1, frames.count());
     let rate = format!("{} fps{dropped}", frames.fps());
-    // The numbers change while frames play, but the line must keep its length: so room is kept for the widest.
+    // The numbers change while frames play, but the line must keep its length. So room is kept for the widest numbers.
     let most =
         format!("frame {}, {} of {}", frames.frame(frames.count() - 1).0, frames.count(), frames.count());
     let most_rate = format!("{} fps, 0000 dropped", frames.fps());

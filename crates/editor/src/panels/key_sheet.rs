@@ -36,8 +36,8 @@ enum Doing {
     ListeningStill(CommandId, String),
     /// The command is to get these keys, which belong to the other commands now: the sheet asks whether to take them.
     Asking(CommandId, Vec<Chord>, Vec<CommandId>),
-    /// The command works while a key on a lane is selected. There, these keys would do it instead of the other
-    /// commands: the sheet asks whether it is to get them.
+    /// The command works only while a key on a lane is selected. While it works, these keys would no longer reach the
+    /// other commands. The sheet asks whether the command is to get the keys.
     AskingToHide(CommandId, Vec<Chord>, Vec<CommandId>),
     /// The sheet asks whether all keys are to be the usual ones again.
     AskingReset,

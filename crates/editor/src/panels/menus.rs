@@ -255,7 +255,8 @@ fn listed_problems(shown: &PanelInput<'_>) -> Result<Ask, &'static str> {
     (problems::count(shown) > 0).then_some(Ask::ShowProblems).ok_or("Nothing is wrong")
 }
 
-/// What the menus hold beside actions: the words, and the request or why it cannot be made.
+/// The entries of the menus that ask for something else than an action: their words, and the request or why it cannot
+/// be made.
 pub(super) fn others(shown: &PanelInput<'_>) -> [(&'static str, Result<Ask, &'static str>); 4] {
     [
         (words_of(Problems), listed_problems(shown)),

@@ -107,7 +107,7 @@ impl<'a> PanelInput<'a> {
         }
     }
 
-    /// The first shortcut of an action that does nothing else in this mode, as text; empty if it has none.
+    /// The first shortcut of an action that means no other action in this mode, as text; empty if there is none.
     pub fn keys_of(&self, action: Action) -> String {
         let scope = match self.session.mode {
             Mode::Arrange => Scope::Arrange,
@@ -209,8 +209,8 @@ pub enum Ask {
     SaveCopy,
     /// Carry out this action, as its key would.
     Act(Action),
-    /// Take over this session: mode, tools, overlays and frame. If its mode or its tool is another one than now, only
-    /// that is taken over.
+    /// Take over this session: mode, tools, overlays and frame. If its mode differs from the current one, take over
+    /// only the mode; else if its tool differs, only the tool.
     Session(Box<Session>),
     /// Do this on the timeline.
     Timeline(TimelineEvent),
@@ -222,9 +222,9 @@ pub enum Ask {
     Recapture(i64),
     /// Stop this work in the background.
     StopWork(work::WorkKind),
-    /// Look which presets the user has.
+    /// List the user's own presets.
     ListPresets,
-    /// The list of presets is open, for the strokes of the scene or of a region; asked in each pass while it is.
+    /// The list of presets is open, for the strokes of the scene or of a region. Sent in each pass while it is open.
     PicturePresets(StrokesOf),
     /// Let the user choose a file, and save these settings as a preset there.
     SavePreset(StrokesOf),

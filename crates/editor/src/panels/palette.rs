@@ -73,7 +73,7 @@ fn contents(ui: &mut egui::Ui, memory: &mut Memory, shown: &PanelInput<'_>, asks
     escape || runs
 }
 
-/// What may be meant by what was typed, the most likely first.
+/// The entries that match the typed text, the most likely first.
 fn found(typed: &str, entries: Vec<Entry>) -> Vec<Entry> {
     let mut found: Vec<_> =
         entries.into_iter().filter_map(|entry| Some((distance(typed, &entry.words)?, entry))).collect();
@@ -81,8 +81,8 @@ fn found(typed: &str, entries: Vec<Entry>) -> Vec<Entry> {
     found.into_iter().map(|(_, entry)| entry).collect()
 }
 
-/// How far a name is from what was typed: 0 if the name begins with it, 1 if a word of the name does, 2 if it stands
-/// anywhere in the name, 3 if the name only has its letters in order. None if there is no match.
+/// How far a name is from the typed text. 0: the name begins with the text. 1: a word of the name begins with it. 2:
+/// the text stands anywhere in the name. 3: the name only has the text's letters in order. None: no match.
 fn distance(typed: &str, name: &str) -> Option<u8> {
     let (typed, name) = (typed.trim().to_lowercase(), name.to_lowercase());
     if name.starts_with(&typed) {

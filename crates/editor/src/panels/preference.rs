@@ -15,7 +15,7 @@ pub enum Preference {
     Keys(Preset),
     /// What the digits above the letters do.
     Digits(Digits),
-    /// Whether strokes are shown as a comb would lay them, before the press.
+    /// Whether the user sees, before the press, how a comb would lay the strokes.
     ForeseeStrokes(bool),
     /// Whether animations that are not needed are left out.
     ReducedMotion(bool),

@@ -1,6 +1,6 @@
 //! The panel of problems, at the bottom of the window. It lists what is wrong with the scene, its meshes and its
-//! textures, and what failed in the window, each with what mends it. While parts of a scene could not be read, its text
-//! is beside the list.
+//! textures, and what failed in the window. Each entry offers what mends it. If parts of the scene could not be read,
+//! the text of the scene is shown beside the list.
 
 mod list;
 mod source;
@@ -31,7 +31,8 @@ pub(super) fn count(shown: &PanelInput<'_>) -> usize {
     shown.document.problem_count() + shown.troubles.len()
 }
 
-/// The button of the status line that shows the panel, while there is anything to list or an edited text to read.
+/// The button in the status line that shows the panel. It is there while there are problems, or an edited text that has
+/// not been read yet.
 pub(super) fn chip(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let count = count(shown);
     if count == 0 && unread_text(ui.ctx(), shown.document).is_none() {

@@ -67,7 +67,7 @@ pub fn render_sheet(
     shown: &RenderShown<'_>,
     settings: &mut RenderSettings,
 ) -> Option<RenderAsk> {
-    // A menu takes `Esc` and `Enter` for itself, and so does a field, which they take the focus from.
+    // An open menu uses `Esc` and `Enter` itself. So does a field that has the focus: these keys end its focus.
     let is_theirs = egui::Popup::is_any_open(ctx) || ctx.memory(|memory| memory.focused()).is_some();
     sheet(ctx, "Render settings", WIDTH, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;

@@ -80,7 +80,7 @@ fn undo_button(
     }
 }
 
-/// The least room for the document's name beside what is said of it, points.
+/// The least room for the document's name if words such as *edited* stand beside it, points.
 const LEAST_NAME: f32 = 48.0;
 
 /// The document's name; it is cut off with an ellipsis if it would reach the mode switch.
@@ -94,7 +94,7 @@ fn document(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
         (false, false) => "",
     };
     let of_words = text_width(ui, words, type_face::small()) + if off { 4.0 } else { 0.0 };
-    // Where there is no room for the words, the dot or the lock says them.
+    // If there is no room for the words, only the dot or the lock is shown.
     let has_room = ui.available_width() >= LEAST_NAME + 22.0 + of_words;
     let mark = match words {
         "" => 0.0,

@@ -44,7 +44,7 @@ const SIZES: [(f32, &str, &str); 4] = [
     (1.5, "150 %", "Interface size 150 %"),
 ];
 
-/// Shows the sheet over everything. Returns how it was left, once it is.
+/// Shows the sheet over everything. Returns how the user left it, once that happens.
 pub fn welcome(ctx: &egui::Context, choices: &mut Choices) -> Option<Left> {
     sheet(ctx, "Welcome", WIDTH, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
@@ -65,7 +65,7 @@ pub fn welcome(ctx: &egui::Context, choices: &mut Choices) -> Option<Left> {
     })
 }
 
-/// Whether the key was pressed that opens a scene, which the first card shows.
+/// Whether the user pressed the shortcut that opens a scene. The first card shows this shortcut.
 fn opens(ui: &Ui, keymap: &Keymap) -> bool {
     let opens = |event: &egui::Event| {
         let egui::Event::Key { key, pressed: true, modifiers, .. } = event else { return false };

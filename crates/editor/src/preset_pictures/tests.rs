@@ -1,4 +1,4 @@
-//! Tests of the pictures of presets: every one is another, and a new list ends the old one.
+//! Tests of the pictures of presets: each preset gets a picture of its own, and a new list ends the old one.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -26,7 +26,7 @@ fn apples(presets: &[&str]) -> Vec<Wanted> {
     presets.iter().map(with).collect()
 }
 
-/// Tells that it was begun, and waits until it may go on.
+/// A picture that never comes: making its scene sends to `begun`, and then waits for `may_go_on`.
 fn held(begun: mpsc::Sender<()>, may_go_on: mpsc::Receiver<()>) -> Wanted {
     let channels = Mutex::new((begun, may_go_on));
     let scene = Arc::new(move || {
@@ -45,7 +45,7 @@ fn each_preset_gets_a_picture_of_its_own_and_a_new_list_ends_the_old_one() {
         let _ = woken.send(());
     };
     let pictures = PresetPictures::start(Driver::Auto, wake).expect("a thread");
-    // The first of the old list is under way when the new list comes. Its second must never be begun.
+    // The old list's first picture is under way when the new list comes. Its second picture must never be begun.
     let [(first, begins), (second, begins_too)] = [mpsc::channel(), mpsc::channel()];
     let [(go_on, may_go_on), (stay, may_stay)] = [mpsc::channel(), mpsc::channel()];
     pictures.want(vec![held(first, may_go_on), held(second, may_stay)], ShaderTexts::default());

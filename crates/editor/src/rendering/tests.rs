@@ -41,7 +41,7 @@ fn is_whole(path: &Path) -> bool {
 #[test]
 fn frames_are_written_and_those_that_are_there_can_stay() {
     let folder = tempfile::tempdir().unwrap();
-    // A file that ends as PNG files do stays; one that was cut does not.
+    // A file stays if its last bytes are those of a PNG file. A file that was cut off is replaced.
     let mine = b"mine\0\0\0\0IEND\xae\x42\x60\x82";
     std::fs::write(folder.path().join("f_01.png"), mine).unwrap();
     std::fs::write(folder.path().join("f_02.png"), "cut").unwrap();

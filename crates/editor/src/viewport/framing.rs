@@ -74,8 +74,8 @@ impl Framing {
         self.size_px()[1] as f32 * self.shot.height() / self.viewport.height()
     }
 
-    /// Where a picture of this size belongs, whose shot is this high, so that its shot covers this one: the whole viewport,
-    /// unless the picture was drawn before the viewport got its size.
+    /// Where to draw a picture of this size whose shot is this high, so that its shot covers the shot of this framing.
+    /// That is the whole viewport, unless the picture was drawn before the viewport got its size.
     pub fn place_of(&self, size_px: [u32; 2], shot_height_px: f32) -> Rect {
         if size_px == self.size_px() {
             return self.viewport;

@@ -60,7 +60,7 @@ impl Layout {
         self.area
     }
 
-    /// The framings of the pictures: one, or in a comparison that of the reference and that of now.
+    /// The framings of the pictures. A comparison has two: first the reference's, then now's.
     pub fn framings(&self) -> &[Framing] {
         &self.framings
     }

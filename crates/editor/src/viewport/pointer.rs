@@ -94,7 +94,8 @@ impl Pointer {
                     push(PointerKind::Wheel(steps), self.last_px, plain(modifiers));
                 }
                 Event::Zoom(factor) if self.inside => {
-                    // What is spread between two fingers stays between them.
+                    // The view zooms by the factor by which the two fingers spread, so what lies between them stays
+                    // between them.
                     let steps = -f64::from(factor).ln() / ZOOM_PER_STEP.ln();
                     push(PointerKind::Wheel(steps), self.last_px, held);
                 }

@@ -28,7 +28,7 @@ pub struct SurfaceMap {
 }
 
 /// A face of an object.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Face {
     /// Index of the object in the scene.
     pub object: u32,
@@ -223,12 +223,13 @@ impl SurfaceMap {
     }
 }
 
-/// The columns of a row, within those of `range`, whose middles may lie in a triangle of this doubled area; a column more at
-/// either end, so that rounding loses none. A side is a corner and the way to the next.
+/// The first and the last column of a row, within `range`, whose middles may lie in a triangle. One more column is
+/// added at either end, so that rounding loses none. `area` is twice the triangle's area. A side is a corner and the
+/// vector to the next corner.
 fn columns_inside(sides: &[(DVec2, DVec2); 3], area: f64, y: f64, range: [f64; 2]) -> [f64; 2] {
     let [mut from, mut to] = range;
     for &(start, side) in sides {
-        // Along the row, the weight of the corner across grows by this much a column.
+        // From one column to the next, the weight of the corner opposite this side grows by this much.
         let slope = -side.y / area;
         let crossing = start.x + side.x * (y - start.y) / side.y - 0.5;
         if slope > 0.0 {
@@ -284,7 +285,7 @@ mod tests {
         };
         let (mut inside, mut tried) = (0, 0);
         for round in 0..400 {
-            // Thin ones, some with a level side, and large ones that reach far past the map.
+            // Small and medium triangles, and large ones that reach far past the map. Some have a level side.
             let wide = [3.0, 30.0, 4e5][round % 3];
             let mut corner = || DVec2::new(20.0 + wide * (random() - 0.5), 15.0 + wide * (random() - 0.5));
             let [a, mut b, c] = [corner(), corner(), corner()];

@@ -12,7 +12,7 @@ pub struct Dialog<'a> {
     pub title: &'a str,
     /// What one should know to answer it.
     pub words: &'a str,
-    /// What can be done, left to right; the last is the safe one, which `Enter` does.
+    /// The choices, left to right. The last is the safe one, and `Enter` chooses it.
     pub verbs: &'a [&'a str],
     /// Index of the verb that `Esc` chooses.
     pub cancel: usize,

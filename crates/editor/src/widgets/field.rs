@@ -144,7 +144,7 @@ impl<'a> NumberField<'a> {
         Self { refused: Some(why), ..self }
     }
 
-    /// Reads what is typed with `reads`, if a field accepts more than one unit.
+    /// Makes `reads` read the typed text, for a field that accepts more than one unit.
     pub fn reading(self, reads: &'a dyn Fn(&str) -> Option<f64>) -> Self {
         Self { reads: Some(reads), ..self }
     }

@@ -1,4 +1,4 @@
-//! What a control says of its keyboard focus: that a click leaves it, or that it uses no `Space`.
+//! Lets a control say that it keeps the keyboard focus after a click, or that it does not use `Space`.
 
 use egui::{Context, Id};
 
@@ -7,7 +7,7 @@ pub fn keep_focus(ctx: &Context, control: Id) {
     ctx.data_mut(|data| data.insert_temp(kept_id(), Some(control)));
 }
 
-/// The control that asked for that in this pass.
+/// The control that asked to keep the focus in this pass.
 pub(crate) fn take_kept(ctx: &Context) -> Option<Id> {
     ctx.data_mut(|data| data.remove_temp::<Option<Id>>(kept_id())).flatten()
 }
@@ -17,7 +17,7 @@ pub fn leave_space(ctx: &Context, control: Id) {
     ctx.data_mut(|data| data.insert_temp(space_id(), Some(control)));
 }
 
-/// Whether the control that has the focus said so ([`leave_space`]).
+/// Whether the control that has the focus said that it uses no `Space` ([`leave_space`]).
 pub fn leaves_space(ctx: &Context) -> bool {
     let control: Option<Id> = ctx.data(|data| data.get_temp(space_id())).flatten();
     control.is_some() && ctx.memory(|memory| memory.focused()) == control

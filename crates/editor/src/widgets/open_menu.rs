@@ -1,4 +1,4 @@
-//! Tells a press that closes an open menu from one that does something.
+//! Distinguishes a press that only closes an open menu from a press that does something.
 
 use egui::{Context, Id, Popup};
 

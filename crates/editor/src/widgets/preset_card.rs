@@ -9,10 +9,11 @@ use crate::theme::{Tokens, measure, type_face};
 /// The size of a card, points.
 pub const PRESET_CARD: Vec2 = vec2(152.0, 109.0);
 
-/// The most that the picture takes of it, points.
+/// The largest size of the picture on the card, points.
 const PICTURE: Vec2 = vec2(144.0, 81.0);
 
-/// A card, one of a group. `picture` has its size in pixels with it; without one, an icon stands in its place.
+/// A card, one of a group. `picture` is a texture and its size in pixels. Without a picture, an icon stands in its
+/// place.
 pub fn preset_card(ui: &mut Ui, name: &str, picture: Option<(TextureId, Vec2)>, on: bool) -> Response {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(PRESET_CARD, Sense::click());

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use egui::{Align, Context, Id, Response, Ui};
 
-/// A control that is not drawn within this many passes is not there.
+/// If the wanted control is not drawn within this many passes, the search for it ends.
 const PATIENCE: u8 = 4;
 
 /// The control that is to have the focus.

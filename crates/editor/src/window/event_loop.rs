@@ -26,7 +26,8 @@ const LEAST_FRAME: Duration = Duration::from_millis(8);
 /// An app can hold back new frames ([`Frame::hold`]) for at most this long.
 const MOST_HELD: Duration = Duration::from_millis(100);
 
-/// While an app holds back, pointer moves and what egui asks for after each of them cause a pass at most this often.
+/// While an app holds back frames, passes for pointer moves, and for the repaints that egui asks for after them, are at
+/// least this far apart.
 const HELD_PASS: Duration = Duration::from_millis(30);
 
 /// Why a frame is due.

@@ -6,8 +6,8 @@ use egui::{Event, RawInput};
 /// press (repeats aside) after a move or click of the pointer.
 ///
 /// A slow frame may gather a whole drag. egui looks at the pointer once per pass, and would miss it. The editor handles
-/// the keys of a pass before the pointer: if `Ctrl Z` came in the same pass as the end of a drag, the drag would
-/// still be under way for it.
+/// the keys of a pass before the pointer: if `Ctrl Z` came in the same pass as the end of a drag, the editor would
+/// handle the keys while the drag is still under way.
 pub(super) fn one_thing_each(mut input: RawInput) -> Vec<RawInput> {
     let events = std::mem::take(&mut input.events);
     let mut parts = vec![Vec::new()];

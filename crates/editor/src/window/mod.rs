@@ -3,6 +3,7 @@
 mod event_loop;
 mod focus;
 mod gl;
+mod heap;
 mod icon;
 mod input;
 mod numpad;
@@ -17,6 +18,7 @@ use winit::event_loop::EventLoopProxy;
 pub use event_loop::run;
 pub use focus::{FocusRules, tab_pressed};
 pub use gl::force_software;
+pub use heap::give_back_free_memory;
 pub use numpad::numpad_pressed;
 pub use pen::{Pens, PressureAxis, keep_pressures, pressures};
 
@@ -106,7 +108,7 @@ impl Frame<'_> {
     }
 
     /// Does not show this pass, because a better one will follow soon (while the view moves, a pass with the view's
-    /// next picture). The window keeps its last contents until a tenth of a second after they were shown, at most.
+    /// next picture). The window keeps its last contents for at most a tenth of a second after it showed them.
     pub fn hold(&mut self) {
         self.asks.hold = true;
     }

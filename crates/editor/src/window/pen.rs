@@ -168,15 +168,15 @@ fn is_of_pointer(event: &Event) -> bool {
     matches!(event, Event::PointerMoved(_) | Event::PointerButton { .. })
 }
 
-/// Gives the page the pressures of a pass's pointer events: the first ones of `pressures`, which it removes.
+/// Takes the pressures of a pass's pointer events from the front of `pressures`, and keeps them for the page.
 pub fn keep_pressures(ctx: &Context, pass: &RawInput, pressures: &mut Vec<f64>) {
     let count = pass.events.iter().filter(|event| is_of_pointer(event)).count().min(pressures.len());
     let own: Vec<f64> = pressures.drain(..count).collect();
     ctx.data_mut(|data| data.insert_temp(id(), own));
 }
 
-/// How hard a pen pressed at each pointer event (move or button) of this pass, 0..=1, in their order; 1 where the list
-/// is shorter.
+/// How hard a pen pressed at each pointer event (move or button) of this pass, 0..=1, in their order. Events beyond the
+/// end of the list have pressure 1.
 pub fn pressures(ctx: &Context) -> Vec<f64> {
     ctx.data(|data| data.get_temp(id())).unwrap_or_default()
 }
@@ -221,7 +221,7 @@ mod tests {
         WindowEvent::Touch(Touch { device_id: DeviceId::dummy(), phase, location, force, id: 1 })
     }
 
-    /// The pressures of the pointer events that these events of the window become.
+    /// Gives `pens` these events of the window. Returns the pressures of the pointer events that egui makes of them.
     fn told(pens: &mut Pens, events: &[WindowEvent]) -> Vec<f64> {
         let mut input = RawInput::default();
         for event in events {
@@ -314,7 +314,7 @@ mod tests {
         // The pen is set down, pressed and lifted in one place.
         let events = [moved(), axis(2, 0.0), pressed(), axis(2, 1200.0), axis(2, 40.0), released()];
         assert_eq!(told(&mut pens, &events), [0.0, 0.01, 0.6]);
-        // Until the pointer is farther away than the steadying string is long, the path takes the greatest pressure.
+        // While the pointer stays within the length of the steadying string, the path takes the greatest pressure.
         assert!((felt(0.2, &[0.01, 0.6]) - 0.6).abs() < 1e-9);
         let events = [axis(2, 30.0), pressed(), moved(), axis(2, 1600.0), axis(2, 10.0), released()];
         let told = told(&mut pens, &events);

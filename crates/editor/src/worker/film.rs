@@ -1,4 +1,4 @@
-//! Exact pictures of a shot's frames, kept in memory and on the disk, so that playing again shows them at the full rate.
+//! Exact pictures of a shot's frames, kept in memory and on the disk, so that playing again shows them at full rate.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -9,11 +9,32 @@ use super::ViewJob;
 use super::film_file::FilmFile;
 use crate::files::preferences::film_folder;
 
-/// Pictures in memory take no more than this, bytes: 260 frames of a window of 1280x800.
+/// Pictures in memory take no more than this, bytes, while the disk has room for the others: 32 frames of a window of
+/// 1280x800. Reading such a frame back takes about two milliseconds.
+const EASY_BYTES: usize = 128 << 20;
+
+/// Where the disk has no room, they take no more than this, bytes: 260 such frames.
 const MOST_BYTES: usize = 1 << 30;
 
-/// They also take no more than the available memory divided by this.
+/// They never take more than the available memory divided by this.
 const SHARE: u64 = 4;
+
+/// How much memory pictures may take, bytes.
+#[derive(Clone, Copy, Debug)]
+struct Room {
+    /// While the disk has room for the others.
+    easy_bytes: usize,
+    /// Where it has none.
+    most_bytes: usize,
+}
+
+impl Room {
+    fn now() -> Self {
+        let share = impasto_scene::memory::available_bytes().map(|bytes| usize::try_from(bytes / SHARE));
+        let most_bytes = share.and_then(Result::ok).map_or(MOST_BYTES, |share| share.min(MOST_BYTES));
+        Self { easy_bytes: most_bytes.min(EASY_BYTES), most_bytes }
+    }
+}
 
 /// The exact picture of one frame.
 #[derive(Clone)]
@@ -51,7 +72,7 @@ enum Place {
 pub(super) struct Film {
     /// The oldest first.
     kept: Vec<Kept>,
-    /// For what memory has no room for; made when it is needed.
+    /// Holds the pictures for which memory has no room. Made when it is first needed.
     file: Option<FilmFile>,
 }
 
@@ -104,14 +125,14 @@ impl Film {
     /// Keeps a picture: in memory, where pictures that are not `wanted` make way, or else on the disk. If there is no
     /// room at all, it is not kept, and false is returned.
     pub(super) fn keep(&mut self, finished: Finished, wanted: &[ViewJob]) -> bool {
-        self.keep_within(finished, wanted, most_bytes(), film_folder().as_deref())
+        self.keep_within(finished, wanted, Room::now(), film_folder().as_deref())
     }
 
     fn keep_within(
         &mut self,
         finished: Finished,
         wanted: &[ViewJob],
-        most_bytes: usize,
+        room: Room,
         folder: Option<&Path>,
     ) -> bool {
         self.follow(finished.serial);
@@ -124,16 +145,14 @@ impl Film {
         let is_wanted = |kept: &Kept| wanted.iter().any(|view| kept.view.looks_like(view));
         let own = bytes_of(&finished.view);
         self.kept.retain(|kept| {
-            let goes = bytes + own > most_bytes && in_memory(kept) && !is_wanted(kept);
+            let goes = bytes + own > room.easy_bytes && in_memory(kept) && !is_wanted(kept);
             bytes -= if goes { bytes_of(&kept.view) } else { 0 };
             !goes
         });
         let Finished { view, serial, image, strokes } = finished;
-        let mut place = if bytes + own <= most_bytes {
-            Some(Place::Memory(Arc::clone(&image)))
-        } else {
-            self.file(&image, folder)
-        };
+        let within = |most: usize| (bytes + own <= most).then(|| Place::Memory(Arc::clone(&image)));
+        let place = within(room.easy_bytes).or_else(|| self.file(&image, folder));
+        let mut place = place.or_else(|| within(room.most_bytes));
         // The file only grows: once nothing in it is wanted any more, it begins anew.
         if place.is_none() && !self.kept.iter().any(|kept| !in_memory(kept) && is_wanted(kept)) {
             self.kept.retain(in_memory);
@@ -161,11 +180,6 @@ impl Film {
     }
 }
 
-fn most_bytes() -> usize {
-    let share = impasto_scene::memory::available_bytes().map(|bytes| usize::try_from(bytes / SHARE));
-    share.and_then(Result::ok).map_or(MOST_BYTES, |share| share.min(MOST_BYTES))
-}
-
 #[cfg(test)]
 mod tests {
     use impasto_editor_model::session::Shading;
@@ -185,6 +199,10 @@ mod tests {
         }
     }
 
+    fn room(bytes: usize) -> Room {
+        Room { easy_bytes: bytes, most_bytes: bytes }
+    }
+
     fn finished(view: &ViewJob, serial: u64) -> Finished {
         let image = Arc::new(ColorImage::filled([10, 10], egui::Color32::BLACK));
         Finished { view: view.clone(), serial, image, strokes: (0, Vec::new()) }
@@ -194,7 +212,7 @@ mod tests {
     fn what_is_not_wanted_any_more_makes_way_and_an_edit_drops_all() {
         let mut film = Film::default();
         let wanted = [1.0, 2.0, 3.0].map(view);
-        let room = 3 * 400;
+        let room = room(3 * 400);
         for frame in [7.0, 1.0, 2.0] {
             assert!(film.keep_within(finished(&view(frame), 1), &wanted, room, None));
         }
@@ -227,18 +245,18 @@ mod tests {
         };
         for (frame, view) in (1..).zip(&wanted) {
             let finished = Finished { image: picture(frame), ..finished(view, 1) };
-            assert!(film.keep_within(finished, &wanted, 400, place), "frame {frame}");
+            assert!(film.keep_within(finished, &wanted, room(400), place), "frame {frame}");
         }
         assert_eq!(film.frames(&wanted, 1), [1, 2, 3, 4]);
         for (frame, view) in (1..).zip(&wanted) {
             assert_eq!(film.of(view, 1).unwrap().image, picture(frame), "frame {frame}");
         }
-        // Nobody else sees the file, and none is left.
+        // The file has no name in the folder, so nothing is left there.
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
         assert_eq!(film.file.as_ref().unwrap().used_bytes(), 3 * 400);
         film.follow(2);
         assert_eq!(film.file.as_ref().unwrap().used_bytes(), 0, "another version of the scene drops all");
-        assert!(film.keep_within(finished(&wanted[0], 2), &wanted, 0, place));
+        assert!(film.keep_within(finished(&wanted[0], 2), &wanted, room(0), place));
         assert_eq!(film.frames(&wanted, 2), [1]);
         assert!(film.of(&wanted[1], 1).is_none());
         // A picture that cannot be read is not kept any more.
@@ -252,16 +270,19 @@ mod tests {
         let mut film = Film { file: Some(FilmFile::within(folder.path(), 800, 0)), ..Film::default() };
         let [old, new] = [[1.0, 2.0, 3.0].map(view), [4.0, 5.0, 6.0].map(view)];
         let keep = |film: &mut Film, view: &ViewJob, wanted: &[ViewJob]| {
-            film.keep_within(finished(view, 1), wanted, 0, None)
+            film.keep_within(finished(view, 1), wanted, room(0), None)
         };
         let kept = old.each_ref().map(|view| keep(&mut film, view, &old));
         assert_eq!(kept, [true, true, false], "the file takes two");
         let kept = new.each_ref().map(|view| keep(&mut film, view, &new));
         assert_eq!(kept, [true, true, false]);
         assert_eq!((film.frames(&old, 1), film.frames(&new, 1)), (Vec::new(), vec![4, 5]));
-        // A disk that would be too full takes nothing.
+        // A disk that would be too full takes nothing, but memory does.
         film.file = Some(FilmFile::within(folder.path(), 800, u64::MAX / 2));
         film.follow(2);
-        assert!(!film.keep_within(finished(&old[0], 2), &old, 0, None));
+        assert!(!film.keep_within(finished(&old[0], 2), &old, room(0), None));
+        let room = Room { easy_bytes: 400, most_bytes: 800 };
+        let kept = old.each_ref().map(|view| film.keep_within(finished(view, 2), &old, room, None));
+        assert_eq!(kept, [true, true, false]);
     }
 }

@@ -23,7 +23,7 @@ pub(super) struct FilmFile {
 }
 
 impl FilmFile {
-    /// An empty file in `folder`, which is made if it is not there; `None` if that cannot be.
+    /// Makes an empty file in `folder`, and the folder if it is missing. `None` if one of them cannot be made.
     pub(super) fn new(folder: &Path) -> Option<Self> {
         std::fs::create_dir_all(folder).ok()?;
         Some(Self {
@@ -64,7 +64,7 @@ impl FilmFile {
         self.used
     }
 
-    /// As [`Self::new`], with limits of its own.
+    /// As [`Self::new`], with these limits.
     #[cfg(test)]
     pub(super) fn within(folder: &Path, most_bytes: u64, left_free: u64) -> Self {
         Self { most_bytes, left_free, ..Self::new(folder).unwrap() }
@@ -73,11 +73,11 @@ impl FilmFile {
     /// Drops all pictures.
     pub(super) fn clear(&mut self) {
         self.used = 0;
-        // If the file stays long, it is written over from its beginning.
+        // If the file cannot be shortened, it is overwritten from its beginning.
         let _ = self.file.set_len(0);
     }
 
-    /// `None` where the system does not say: then nothing is put into the file.
+    /// The free bytes of the file's disk. `None` if the system does not say; then nothing is put into the file.
     #[cfg(unix)]
     fn free_bytes(&self) -> Option<u64> {
         let disk = rustix::fs::fstatvfs(&self.file).ok()?;

@@ -1,5 +1,5 @@
-//! The mailbox between the window and the painting thread: the window puts the latest job in, the thread the results,
-//! which wait until the window polls them.
+//! The mailbox between the window and the painting thread. The window puts in the latest job. The thread puts in the
+//! results, which wait until the window polls them.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -77,13 +77,17 @@ impl Mailbox {
         (latest != number).then_some((texts, latest))
     }
 
-    /// Waits for the next job; `None` once closed.
-    pub(super) fn take(&self) -> Option<Order> {
-        let orders = lock(&self.orders);
-        let mut orders = self
-            .changed
-            .wait_while(orders, |orders| orders.job.is_none() && !orders.closed)
-            .unwrap_or_else(PoisonError::into_inner);
+    /// Waits for the next job; `None` once closed. If none comes `within` this time, `pause` is called once.
+    pub(super) fn take(&self, within: Duration, pause: impl FnOnce()) -> Option<Order> {
+        let nothing = |orders: &mut Orders| orders.job.is_none() && !orders.closed;
+        let waited = self.changed.wait_timeout_while(lock(&self.orders), within, nothing);
+        let (mut orders, timeout) = waited.unwrap_or_else(PoisonError::into_inner);
+        if timeout.timed_out() {
+            drop(orders);
+            pause();
+            let waited = self.changed.wait_while(lock(&self.orders), nothing);
+            orders = waited.unwrap_or_else(PoisonError::into_inner);
+        }
         if orders.closed { None } else { orders.job.take() }
     }
 

@@ -18,12 +18,16 @@ use super::film::{Film, Finished};
 use super::mailbox::{Mailbox, Order};
 use super::view_frame::{DrawOptions, frame_of, frame_options, styled};
 use super::{Picture, Report, ViewJob};
+use crate::window::give_back_free_memory;
 
 /// Exact pictures that are not quick to draw are begun when their job is this old and no later job has come.
 const REST: Duration = Duration::from_millis(100);
 
 /// Finishing the film of a job begins when the job is this old: by then the user is likely to have paused.
 const IDLE: Duration = Duration::from_millis(800);
+
+/// Free memory goes back to the system after a pause of this length.
+const PAUSE: Duration = Duration::from_secs(3);
 
 /// Works until the mailbox is closed. If a job panics, that is reported, and the next job gets a new worker.
 pub(super) fn run(mailbox: &Mailbox, driver: Driver, wake: &dyn Fn()) {
@@ -48,7 +52,7 @@ pub(super) fn run(mailbox: &Mailbox, driver: Driver, wake: &dyn Fn()) {
     };
     // A driver takes time to open, so it is opened before there is anything to draw.
     work(None);
-    while let Some(order) = mailbox.take() {
+    while let Some(order) = mailbox.take(PAUSE, give_back_free_memory) {
         work(Some(&order));
     }
     let _ = catch_unwind(AssertUnwindSafe(|| drop(worker)));
@@ -65,7 +69,7 @@ type Tell<'a> = &'a dyn Fn(Report);
 
 struct PaintWorker {
     preparer: Preparer,
-    /// Brought up to date here; the window gets copies.
+    /// The picker is brought up to date here, and the window gets copies of it.
     picker: Picker,
     prepared: Option<(Painting, u64)>,
     /// `None` if no driver was found: then scenes are prepared, but nothing is drawn.
@@ -77,7 +81,8 @@ struct PaintWorker {
     draft_size: DraftSize,
     /// The view whose picture the renderer still holds.
     held_view: Option<usize>,
-    /// Counts the pictures drawn for views: [`Recall::of`] picks by it which absent strokes the next draft computes.
+    /// Counts the pictures drawn for views. [`Recall::of`] uses the count to pick the absent strokes that the next
+    /// draft computes.
     turn: u32,
     /// How long the last exact picture took, seconds.
     exact_s: Option<f64>,

@@ -6,7 +6,7 @@ uniform sampler2D layer_noise;   // repeats
 uniform int layer_count;         // k: the layers are 1 .. k - 1
 uniform vec2 tiling;
 uniform vec2 tile_offset;
-uniform vec2 travelled;          // how far the layers have moved, in lengths of the texture (fraction only); y is 0 unless they go round a circle
+uniform vec2 travelled;          // how far layers moved, texture lengths mod 1; y is 0 unless they go round a circle
 uniform float speed;
 uniform float first_way;         // 1: the first layer goes forward
 uniform float exponent;
@@ -16,7 +16,7 @@ uniform float bloom;
 uniform float threshold;
 
 layout(location = 0) out vec4 color;    // premultiplied, display-linear
-layout(location = 1) out vec4 glint;    // of strength 0, laid over with the alpha of the look: it hides the highlights behind it
+layout(location = 1) out vec4 glint;    // strength 0, with the alpha of the look: hides the highlights behind it
 layout(location = 2) out vec4 highlight; // as `glint`
 layout(location = 3) out vec4 glow;     // premultiplied
 

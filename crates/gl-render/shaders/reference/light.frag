@@ -19,13 +19,14 @@ layout(location = 0) out vec4 color;
 layout(location = 1) out vec4 glint;     // how strong the highlight is, 0..1
 layout(location = 2) out vec4 highlight; // what `color` leaves out, display-linear
 
-// A highlight of `Light::glint` up to the first is a faint sheen, as on plaster, and one from the second on is strong. `color` has
-// all of a sheen.
+// Values of `Light::glint`. Up to the first, a highlight is a faint sheen, as on plaster, and `color` has all of it.
+// From the second on, it is strong.
 const vec2 STRONG = vec2(0.15, 0.40);
 
 #ifndef DRAFT
-// Where the surface is seen flat, a pixel covers more of it than a texel of the shadow map, and one place alone would light up or
-// not by chance: a mean over the samples of the body.
+// How much arrives of the light that casts shadows. Where the surface is seen flat, it is a mean over the samples that
+// show the body: a pixel covers more of the surface there than a texel of the shadow map, and a single place would be
+// lit or not by chance.
 float shadow_at(LitPoint at) {
     if (samples == 1) return shadow_of_point(at);
     float id = texelFetch(depth_and_id, ivec2(gl_FragCoord.xy), 0).y;
@@ -47,8 +48,8 @@ float shadow_at(LitPoint at) {
     return wide < 1.0 ? mix(shadow_of_point(at), mean, wide) : mean;
 }
 
-// The colour of the body in this pixel: a mean over the samples that show it. Without it, a border between two colours of a
-// body would leap from pixel to pixel as it moves.
+// The colour of the body in this pixel: a mean over the samples that show the body. A single sample would make a border
+// between two colours of a moving body leap from pixel to pixel.
 vec3 mean_albedo(ivec2 at, vec4 surface, float id) {
     vec3 root = sqrt(surface.rgb);
     vec4 sum = vec4(0.0);
@@ -56,7 +57,7 @@ vec3 mean_albedo(ivec2 at, vec4 surface, float id) {
         ivec2 sample_at = at * samples + ivec2(index % samples, index / samples);
         vec4 there = texelFetch(root_albedo, sample_at, 0);
         if (texelFetch(fine, sample_at, 0).y != id || abs(there.a - surface.a) > 0.5) continue;
-        // The sample has 8 bits: where its colour is that of the pixel, the pixel knows it better.
+        // Samples have only 8 bits. Where a sample has the pixel's colour, the pixel's own value is more exact.
         bool same = all(lessThan(abs(there.rgb - min(root, 1.0)), vec3(0.006)));
         sum += vec4(same ? surface.rgb : there.rgb * there.rgb, 1.0);
     }

@@ -18,8 +18,8 @@ float away_from_lamp(vec3 position) {
     return (shadow_from_world * vec4(position, 1.0)).w;
 }
 
-// How much arrives of the light that casts shadows, 0..1: a mean over places up to `spread` texels away on the map, a grid of
-// `side` x `side`.
+// How much arrives of the light that casts shadows, 0..1: a mean over a grid of `side` x `side` places on the map, up
+// to `spread` texels away.
 float sunlit(vec3 position, vec3 normal, int side, float spread) {
     float away = away_from_lamp(position);
     if (away <= 0.0) return 1.0;
@@ -72,7 +72,8 @@ float shadow_of_point(LitPoint at) {
     return sunlit(at.position, at.normal, 3, 1.9);
 }
 
-// How much arrives at a point of the light that casts shadows. `light.frag` has its own, which knows the samples of the pixel.
+// How much arrives at a point of the light that casts shadows. `light.frag` has its own version, a mean over the
+// samples of the pixel.
 #ifdef SHADOW_OF_SAMPLES
 float shadow_at(LitPoint at);
 #else

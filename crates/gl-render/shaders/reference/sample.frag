@@ -11,7 +11,7 @@ uniform float is_lit;
 uniform float body_id;
 
 layout(location = 0) out vec2 depth_and_id;
-layout(location = 1) out vec4 root_albedo;  // square root of the colour: 8 bits hold darks too; dropped where no target takes it
+layout(location = 1) out vec4 root_albedo;  // square root of colour: 8 bits hold darks too; dropped without a target
 
 void main() {
     cut_out();

@@ -1,5 +1,5 @@
-// How much detail each body has, in blocks of a few pixels: change of colour, outlines, highlights. The result is blurred widely
-// afterwards, so that small strokes come and go slowly when a shadow sweeps over them.
+// How much detail each body has, in blocks of a few pixels: change of colour, outlines, highlights. The result is
+// blurred widely afterwards, so that small strokes come and go slowly when a shadow sweeps over them.
 #include "shared/oklab.glsl"
 uniform sampler2D reference_color;
 uniform sampler2D depth_and_id;
@@ -14,7 +14,7 @@ out vec4 detail;                     // change of colour or turn, outline 0..1, 
 
 // Change of Oklab per pixel of the scene's own size: no detail below the first, full detail above the second.
 const vec2 CHANGE = vec2(0.004, 0.034);
-// An edge of colour is narrow, and weighs more than a turn that goes on for long.
+// The weight of an edge of colour. An edge is narrow, so it counts more than a turn, which goes on for longer.
 const float EDGE = 1.6;
 // How fast the surface turns, summed over x and y, radians per pixel of the scene's own size (0.02 in the middle of a
 // ball of 100 px radius): no detail below the first, full detail above the second.

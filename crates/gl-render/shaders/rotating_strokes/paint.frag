@@ -58,7 +58,7 @@ const float HEIGHT_SCALE = 1.5;
 const float FREE = 1e6;
 const float STEEPNESS = 4.0;
 
-// The depth of the stroke's centre; for a line, of the point of its middle beside this pixel.
+// The depth of the stroke's centre; for a line, the depth of its middle beside this pixel.
 float own_depth() {
 #ifdef LINE
     return line.x;
@@ -73,8 +73,8 @@ float body_at(vec2 at_px) {
     return floor(texelFetch(surface, texel, 0).y);
 }
 
-// How much paint lies in a pixel past the stroke's own body, if paint reaches this far past it. `reach_px` differs from
-// hair to hair, by the mark's tint: the edge is ragged.
+// How much paint lies in a pixel past the stroke's own body, where paint reaches `reach_px` past that body. The reach
+// differs from hair to hair, by the mark's tint, so the edge is ragged.
 float past_body(vec2 here, float reach_px) {
     float depth = own_depth();
     float bias = 2.0 * units_per_px_at_1 * mix(depth, 1.0, orthographic);

@@ -12,7 +12,7 @@ layout(location = 3) in uvec2 bytes;         // paint, mixing
 layout(location = 4) in vec4 normal_and_bow; // normal in world space; bow of the mark in half widths
 layout(location = 5) in vec4 reach;          // overrun in px, slow noise of hue and of edges, skew
 layout(location = 6) in vec4 resolved;       // colour, presence
-layout(location = 7) in vec4 fitted;         // centre in px where it lies on its body, lightness, turn added to the angle
+layout(location = 7) in vec4 fitted;         // centre in px, moved onto its body; lightness; turn added to the angle
 #ifdef SHAPED
 layout(location = 8) in vec2 shape;          // taper, bend in radians
 #endif
@@ -69,10 +69,10 @@ const float WET_PICKUP = 0.25;
 const float BYTE = 1.0 / 255.0;
 
 #ifndef DRAFT
-// The mean colour below on the stroke's own body (not premultiplied), and how much of it is picked up: twenty places over the
-// first half of the stroke. Past the body's border lies paint of the thing beside it: no place there counts, and in proportion as
-// fewer are left, less is picked up; nor is anything where hardly any paint lies. They lie far apart, so that what passes before the
-// stroke comes to one after the other, over many frames.
+// The mean colour below the first half of the stroke (not premultiplied), at twenty places, and how much of it is
+// picked up. Only places on the stroke's own body count, since paint past its border belongs to what lies beside it.
+// The fewer places count, the less is picked up. Where hardly any paint lies, nothing is. The places are far apart, so
+// that what passes in front of the stroke reaches one after the other, over many frames.
 vec4 paint_below(vec2 center_px, mat2 turn) {
     const int PLACES = 20;
     vec4 sum = vec4(0.0);
@@ -121,8 +121,8 @@ vec4 painted_part(float least, float level, float bow, float flip) {
 }
 
 #ifndef LINE
-// The plane that the stroke lies on. Paint ends where the surface leaves this plane, as past a crease; except the
-// underpainting, which covers all, and contour lines, which follow the border.
+// The plane that the stroke lies on. Paint ends where the surface leaves this plane, as past a crease. The exceptions
+// are the underpainting, which covers all, and contour lines, which follow the border.
 vec4 plane_of_stroke(vec2 center_px) {
     vec3 n = mat3(view_from_world) * normal_and_bow.xyz;
     float facing = facing_at_px(n, place.xy);

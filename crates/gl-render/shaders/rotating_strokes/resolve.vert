@@ -28,8 +28,8 @@ const float LEAST = 0.25;
 const float LEAST = 0.004;
 #endif
 
-// The thinness of a face from which on a stroke lights its own albedo, since single pixels of a thin body are light or dark
-// by chance. The less thin the face, the more of the colour is that of the picture.
+// From this thinness of its face on, a stroke lights its own albedo, since single pixels of a thin body are light or
+// dark by chance. The less thin the face, the more of the colour is that of the picture.
 const float THIN = 0.6;
 
 // Standard deviation, across the stroke, of the Gaussian over which colours are averaged: for each layer in widths of
@@ -40,9 +40,10 @@ const float BLUR[8] = float[8](0.33, 0.20, 0.20, 0.22, 0.30, 0.60, 0.25, 0.25);
 
 // How far highlights are spread over their body, as in `RotatingStrokes`, pixels of the scene's own size.
 const float SPREAD_PX = 16.0;
-// Strokes of a highlight gather round its peak. GATHERED: a stroke lies at this share of its particle's distance from
-// the peak. Strokes fade as the highlight, where their particle lies, falls below NEAR_PEAK of its peak, and over the second
-// half of GATHER_PX (pixels of the scene's own size) from the peak: none pops as its particle comes near or goes.
+// Strokes of a highlight gather round its peak. GATHERED: a stroke's distance from the peak, as a share of its
+// particle's distance. A stroke fades as the highlight at its particle falls below NEAR_PEAK of the peak, and over the
+// second half of GATHER_PX (pixels of the scene's own size) from the peak. So none pops as its particle comes near or
+// goes.
 const float GATHERED = 0.3;
 const float GATHER_PX = 60.0;
 const float NEAR_PEAK = 0.7;
@@ -50,18 +51,19 @@ const float NEAR_PEAK = 0.7;
 // How far from itself a contour stroke looks for the end of its body, pixels of the scene's own size.
 const float OUTLINE_PX = 20.0;
 
-// How far behind the stroke another body lies to be past the end of its own: in part from the first depth on, wholly from
-// the second.
+// How far behind the stroke another body must lie to count as past the end of the stroke's own: in part from the first
+// depth on, wholly from the second.
 const vec2 BEHIND_PX = vec2(10.0, 50.0);
 
-// A stroke that other bodies hide in part is there as a whole while more than this share of it is to be seen.
+// A stroke that other bodies hide in part is wholly there while more than this share of it is visible.
 const float WHOLE = 0.75;
 
 // A leap of the depth within a body, as a share of the depth: from the first value on the body ends there in part, from
 // the second wholly. The same values as in `detail.frag`.
 const vec2 LEAP = vec2(0.01, 0.03);
 
-// How far a place is hidden, 0..1: by the stroke's own body (`by_own`) or by others that stand before the stroke's plane.
+// How far a place is hidden, 0..1, by what lies in front of the stroke's plane: the stroke's own body (`by_own`), or
+// other bodies.
 float hidden_at(vec2 offset_px, float bias, bool by_own) {
     vec2 tap_px = clamp(place.xy + offset_px, vec2(0.5), size_px - 0.5);
     vec2 there = surface_at(tap_px);
@@ -69,7 +71,8 @@ float hidden_at(vec2 offset_px, float bias, bool by_own) {
     return smoothstep(bias, 3.0 * bias, plane_depth(tap_px - place.xy) - there.x);
 }
 
-// The same between the four nearest pixels: what hides the place does so bit by bit as it comes.
+// The same, interpolated between the four nearest pixels, so that something that moves in front hides the place
+// gradually.
 float hidden_between(vec2 offset_px, float bias, bool by_own) {
 #ifdef DRAFT
     return hidden_at(offset_px, bias, by_own);
@@ -96,10 +99,10 @@ float hidden_by_others(mat2 turn, float bias, ivec2 grid, vec2 spread) {
     return hidden / float(grid.x * grid.y);
 }
 
-// How much of the stroke is there, since bodies may hide it, 0..1. Other bodies are tested over the whole stroke, and
-// make it fade only when less than `WHOLE` of it shows: the paint pass cuts off the parts that they cover. The stroke's
-// own body, which may bend in front of it, is tested round the stroke's middle; so are other bodies, for paint that is
-// never cut off.
+// How much of the stroke is there where bodies hide it, 0..1. Other bodies are tested over the whole stroke. They make
+// it fade only when less than `WHOLE` of it shows, since the paint pass cuts off the parts that they cover. The
+// stroke's own body, which may bend in front of it, is tested round the stroke's middle. For paint that is never cut
+// off, other bodies are tested there, too.
 float seen(mat2 turn) {
     float unit = units_per_px(place.z);
     float slant = max(abs(facing_at_px(mat3(view_from_world) * normal_and_bow.xyz, place.xy)), 0.2);
@@ -115,7 +118,7 @@ float seen(mat2 turn) {
 #endif
     float by_own = 0.0;
     for (int index = 0; index < PLACES; index++) {
-        // On a spiral, so that an edge comes to one after the other, wherever it comes from.
+        // On a spiral, so that an edge reaches one place after the other, whichever way it moves.
         float away_px = 1.1 * radius_px * sqrt((float(index) + 0.5) / float(PLACES));
         float angle = 2.39996323 * float(index);
         vec2 offset_px = turn * vec2(cos(angle), sin(angle)) * away_px;
@@ -125,8 +128,8 @@ float seen(mat2 turn) {
 #ifdef DRAFT
     float by_others = hidden_by_others(turn, bias, GRID, vec2(1.0));
 #else
-    // Each tap of a coarse grid would be a visible step of a stroke that fades. Where all its taps agree, those on the
-    // stroke's rim too, the fine one would find little else: what is narrower than half a stroke.
+    // With the coarse grid alone, each tap would be a visible step as a stroke fades. But where all its taps agree,
+    // those on the stroke's rim too, the fine grid would find only things narrower than half a stroke.
     float by_others = hidden_by_others(turn, bias, GRID, vec2(GRID) / vec2(GRID - 1));
     if (by_others > 0.0 && by_others < 1.0) by_others = hidden_by_others(turn, bias, FINE_GRID, vec2(1.0));
 #endif
@@ -171,7 +174,7 @@ float fullness(float lightness, float grading) {
 
 // How much a layer of small strokes is wanted here, 0..1.
 float wanted(vec3 detail) {
-    // Full early: a highlight that grows as it runs over a bump has strokes as strong as before.
+    // Full early, so that a highlight that grows as it runs over a bump gets no stronger strokes than before.
     if (kind == LIGHTS) return smoothstep(0.0, 0.14, detail.b);
     // Edges are lost in places.
     float rim = min(1.4 * detail.g, 1.0) * clamp(0.55 * (0.6 + 0.5 * reach.z), 0.0, 1.0);
@@ -179,8 +182,9 @@ float wanted(vec3 detail) {
     return clamp(max(inside, 0.0) + rim, 0.0, 1.0);
 }
 
-// The peak of the highlight that this place belongs to. Climbs the blurred highlights of the body; on a single Gaussian
-// spot one whole step would lead to the peak; shorter ones do not leap over the border of a leaf.
+// The peak of the highlight that this place belongs to, found by climbing the blurred highlights of the body. On a
+// single Gaussian spot, one whole step would lead to the peak. The steps are shorter, so as not to leap over the border
+// of a leaf.
 vec2 peak_px(float id) {
     vec2 at_px = place.xy;
     float reach_px = SPREAD_PX * px_scale;
@@ -196,8 +200,8 @@ vec2 peak_px(float id) {
     return at_px;
 }
 
-// Per pixel, how the stroke's own plane changes `even_depth`. A plane that the gaze meets flatter than by a tenth is taken
-// to be as steep as that.
+// How the stroke's own plane changes `even_depth` per pixel. A plane that faces the gaze by less than a tenth counts as
+// facing it by a tenth.
 vec2 plane_slope() {
     vec3 n = mat3(view_from_world) * normal_and_bow.xyz;
     float facing = facing_at_px(n, place.xy);
@@ -205,13 +209,13 @@ vec2 plane_slope() {
     return mix(-slope, slope / place.z, orthographic);
 }
 
-// A depth in the form in which it changes evenly along a plane, 1 at the stroke's own.
+// A depth in a form that changes linearly over the picture along a plane; 1 at the stroke's own depth.
 float even_depth(float depth) {
     return mix(place.z / depth, depth / place.z, orthographic);
 }
 
-// Whether the depth leaps between the stroke's centre and a place on its body with this `even_depth`, 0..1: along a plane,
-// the middle between them has the depth halfway. Ground that recedes has no line.
+// Whether the depth leaps between the stroke's centre and a place on its body, 0..1. `there` is the `even_depth` of the
+// place: along a plane, the value halfway to it is the mean of 1 and `there`. So ground that recedes has no line.
 float broken(vec2 halfway_px, float there, vec2 own) {
     // Nothing is known of what lies outside the picture.
     if (any(lessThan(halfway_px, vec2(0.0))) || any(greaterThan(halfway_px, size_px))) return 0.0;
@@ -254,7 +258,7 @@ vec4 outline_near(vec2 own) {
             vec2 near = mix(1.0 - part, part, vec2(step));
             vec2 there_px = clamp(floor(at) + vec2(step) + 0.5, vec2(0.5), size_px - 0.5);
             vec2 there = surface_at(there_px);
-            // Not where bodies touch: a floor has no line at the foot of what stands on it.
+            // Where bodies touch, neither ends: a floor has no line at the foot of what stands on it.
             vec2 offset_px = there_px - place.xy;
             float even = even_depth(there.x);
             float past_plane = deeper * (even - 1.0 - dot(slope, offset_px));
@@ -351,7 +355,8 @@ void main() {
     if (kind == TOUCHES) blur_px = mat2(across_px, 0.0, 0.0, across_px);
     vec2 at_px = kind == LIGHTS ? place.xy + moved : center_in_picture();
     float free = kind == LIGHTS ? 0.0 : freedom(at_px, own.y);
-    // What covers a stroke, as leaves do, changes as the view moves: its colour is taken from a wider surrounding.
+    // What covers a stroke, as leaves do, changes as the view moves. So a covered stroke takes its colour from a wider
+    // surrounding.
     blur_px *= kind == LIGHTS ? 1.0 : 1.0 + 1.5 * (1.0 - free);
     vec4 found = own_color(at_px, own.y, turn * blur_px, free);
     // Only the picture has highlights, not the stroke's own lit albedo. On thin parts single pixels glint by chance.

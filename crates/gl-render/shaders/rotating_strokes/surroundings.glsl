@@ -1,14 +1,14 @@
 // What surrounds a stroke in the reference picture. Everything here changes slowly with position, so that what depends
 // on it fades and never switches.
 uniform sampler2D reference_color;
-uniform sampler2D highlight;     // what the highlights add to that, display-linear: strokes of highlights alone have it
+uniform sampler2D highlight;     // what the highlights add to it, display-linear; only strokes of highlights take it
 uniform sampler2D depth_and_id;
 uniform sampler2D normal;        // of the surface, world space, towards the eye; 0 where noise colours it
 uniform sampler2D detail;        // in blocks: change of colour, outline, highlight, body id and half its share
 uniform float block_px;          // side of a block
 
-// How far from the stroke's centre ends of its face are looked for, to tell how thin it is; pixels of a picture of half the
-// scene's size or less, and more in larger ones.
+// How far from the stroke's centre the ends of its face are looked for, to tell how thin the face is: pixels in a
+// picture of half the scene's size or less, and more in larger ones.
 const float AROUND_PX = 8.0;
 
 // Cosine of the angle between a pixel's normal and the stroke's: below the first the pixel shows another face of the
@@ -20,12 +20,13 @@ const vec2 SAME_FACE = vec2(0.8, 0.97);
 // with the picture, since grooves have fewer pixels of depth there.
 const vec2 COVERS_PX = vec2(2.0, 6.0);
 
-// The least radius of the ring that tells whether a stroke is covered, in pictures of half the scene's size or more: within
-// a smaller one, single pixels decide by chance.
+// The least radius of the ring of places that tells whether a stroke is covered, in pictures of half the scene's size
+// or more. On a smaller ring, single pixels would decide by chance.
 const float LEAST_RING_PX = 1.6;
 
-// The stroke's centre or, where that lies beyond the picture, about where the stroke enters it: as its middle line does, but
-// strokes along the border enter straight ahead, so that the place does not leap as they turn.
+// The stroke's centre. If the centre lies outside the picture: about where the stroke's middle line enters the picture.
+// For strokes along the border, it is the point of the picture nearest to the centre instead, so that it does not leap
+// as they turn.
 vec2 center_in_picture() {
     vec2 first = vec2(0.5);
     vec2 last = vec2(textureSize(depth_and_id, 0)) - 0.5;
@@ -54,9 +55,10 @@ float plane_depth(vec2 offset_px) {
 // face count, so that a narrow face takes no colour from the wide one beside it, nor a leaf from the leaf behind it.
 // Where it is covered, the stroke has the colour of what covers it.
 //
-// A leaf that passes before the centre would switch the colour: what counts is the share of seven places that is
-// covered, the centre and a ring half a stroke's width from it or LEAST_RING_PX. Those where the body is not seen
-// tell nothing; the stroke is free by the others, as far as these are at least half of all.
+// A leaf that passes in front of a single place would switch the colour. So seven places count: the centre, and six on
+// a ring, whose radius is half the stroke's width but at least LEAST_RING_PX. The result is the share of them that is
+// not covered. Places that show other bodies tell nothing and are left out; if more than half do, the stroke counts as
+// less free.
 float freedom(vec2 center_px, float id) {
     ivec2 last = textureSize(depth_and_id, 0) - 1;
     vec2 covers_px = COVERS_PX * min(2.0 * px_scale, 1.0);
@@ -67,8 +69,8 @@ float freedom(vec2 center_px, float id) {
 #endif
     float ring_px = max(0.5 * size.y, LEAST_RING_PX * min(2.0 * px_scale, 1.0));
     float facing = max(abs(facing_at_px(mat3(view_from_world) * normal_and_bow.xyz, place.xy)), 0.05);
-    // The flatter the gaze, the less the stroke's normal says of the depth away from the centre. At the rim of a body the
-    // centre alone tells: there the near side covers the far one.
+    // The flatter the gaze, the less the stroke's normal tells of the depth away from the centre. At the rim of a body,
+    // where the near side covers the far one, only the centre counts.
     float doubt = 0.5 / facing;
     float believed = smoothstep(0.1, 0.35, facing);
 #ifdef DRAFT
@@ -76,8 +78,8 @@ float freedom(vec2 center_px, float id) {
 #else
     const int SIDE = 4;
 #endif
-    // The centre is a mean over pixels up to this far away: in a gap between two leaves, a pixel wide, one pixel decides by
-    // chance.
+    // The centre is a mean over pixels up to this far away: in a gap between two leaves that is one pixel wide, a
+    // single pixel would decide by chance.
     float center_wide_px = clamp(4.0 * px_scale, 1.0, 0.5 * float(SIDE));
     float covered = 0.0;
     float found = 0.0;
@@ -104,7 +106,7 @@ float freedom(vec2 center_px, float id) {
     return (found - covered) / max(found, 0.5 * (1.0 + float(PLACES - 1) * believed));
 }
 
-// How far a pixel of the stroke's own body shows another face than that of the stroke, 0..1. A body that noise colours has no
+// How far a pixel of the stroke's own body shows another face than the stroke's, 0..1. A body that noise colours has no
 // normals in the picture: all of it counts as one face.
 float other_face(ivec2 texel) {
     vec3 shown = texelFetch(normal, texel, 0).xyz;
@@ -123,9 +125,9 @@ vec3 color_of(ivec2 texel) {
 }
 
 // The sum of the colours of the four nearest pixels, by bilinear weights; w is the sum of these weights. Only pixels of
-// the body count, and the further the stroke is `free`, the less those of its other faces. The plain render has hard
-// edges, and a tap on a single pixel would jump at them. Beyond the picture there are none: the pixels at its border, taken
-// again and again, would decide alone.
+// the body count, and pixels of its other faces count less, the more the stroke is `free`. The plain render has hard
+// edges, at which a tap on a single pixel would jump. Pixels outside the picture do not count: if taps were clamped,
+// the pixels at the border, taken again and again, would decide alone.
 vec4 own_color_at(vec2 at_px, float id, float free) {
 #ifdef DRAFT
     ivec2 nearest = ivec2(floor(at_px));
@@ -167,14 +169,15 @@ float is_past_both(vec2 center_px, vec2 offset_px, vec2 own, float free) {
     return past == 0.0 ? 0.0 : past * is_past(center_px - offset_px, own, free);
 }
 
-// The next distance at which a face that has ended is looked at, relative to the first.
+// The distance of the second look at whether the face has ended, relative to the first.
 const float FURTHER = 1.2;
 
-// How thin the stroke's own face is, 0..1: in how many directions it has ended nearby on both sides. At a face one pixel
-// wide, such as the side of a shutter, the stroke's own has not ended: it must have ended nearer or further away, too.
+// How thin the stroke's own face is, 0..1: the share of directions in which the face ends nearby on both sides. Another
+// face one pixel wide, such as the side of a shutter, is no end. So the stroke's face must have ended at a nearer or a
+// further distance, too.
 float thinness(vec2 center_px, vec2 own, float free) {
     float around_px = AROUND_PX * max(2.0 * px_scale, 1.0);
-    // Beyond the picture nothing is known: towards its border less far is looked, and what is found there counts less.
+    // Nothing is known beyond the picture. Near its border, taps go less far, and what they find counts less.
     vec2 room_px = max(min(center_px, vec2(textureSize(depth_and_id, 0)) - center_px), 0.0) / FURTHER;
 #ifdef DRAFT
     const int DIRECTIONS = 6;
@@ -201,7 +204,8 @@ float thinness(vec2 center_px, vec2 own, float free) {
     return sum / float(2 * DIRECTIONS);
 }
 
-// The sum of the colours on a ring round the stroke's centre: `count` taps, the first at this angle in the stroke's frame.
+// The sum of the colours on a ring round the stroke's centre, of `count` taps. `first` is the angle of the first tap in
+// the stroke's frame.
 vec4 own_colors_on_ring(vec2 center_px, float id, mat2 ring_px, float free, int count, float first) {
     vec4 sum = vec4(0.0);
     for (int index = 0; index < count; index++) {
@@ -211,11 +215,11 @@ vec4 own_colors_on_ring(vec2 center_px, float id, mat2 ring_px, float free, int 
     return sum;
 }
 
-// Mean colour on the stroke's own body: a Gaussian with this standard deviation, on rings and the centre, longer
+// Mean colour on the stroke's own body: a Gaussian with this standard deviation, on rings and the centre. It is longer
 // along the stroke, so that a shadow that sweeps over it takes several frames. The less of the body is found there, the
-// more a wider surrounding counts. Two further rings count for broad strokes, between whose taps a leg could pass unseen, and where
-// only scraps of the body are seen, so that no single tap decides: the more it is covered by itself (the less the stroke is
-// `free`) or hidden by others. w is how much of the colour is known, 0..1.
+// more a wider surrounding counts. Two further rings count for broad strokes, since a leg could pass unseen between the
+// other taps. They also count where only scraps of the body are seen, because it covers itself (the stroke is less
+// `free`) or others hide it: no single tap may decide there. w is how much of the colour is known, 0..1.
 vec4 own_color(vec2 center_px, float id, mat2 sigma_px, float free) {
     const float CENTER = 0.7;
     const vec2 RINGS = vec2(0.60, 0.17);
@@ -226,7 +230,7 @@ vec4 own_color(vec2 center_px, float id, mat2 sigma_px, float free) {
     for (int widening = 0; widening < 3 && need > 0.0; widening++) {
         vec4 found = CENTER * own_color_at(center_px, id, free);
         found += RINGS.x * own_colors_on_ring(center_px, id, sigma_px, free, 6, 0.0);
-        // The weight of a body that all taps find, a quarter of which is enough.
+        // The weight if all taps find the body; a quarter of it is enough.
         float full = CENTER + 6.0 * RINGS.x;
 #ifndef DRAFT
         found += RINGS.y * own_colors_on_ring(center_px, id, 1.9 * sigma_px, free, 6, 0.52359878);
@@ -278,9 +282,9 @@ vec3 detail_at(vec2 center_px, float id) {
     return sum / max(weight, 0.7);
 }
 
-// From a place to the middle of what is seen of the stroke's own body around it. On a part that is two or three pixels wide
-// a stroke beside it would lie on the part in one frame and miss it in the next. Each tap lies between four pixels, so that
-// the middle does not leap either.
+// From a place to the middle of what is seen of the stroke's own body around it. Without this, a stroke beside a part
+// that is two or three pixels wide would lie on the part in one frame and miss it in the next. Each tap lies between
+// four pixels, so that the middle does not leap either.
 vec2 to_spine_px(vec2 center_px, vec2 own) {
     float step_px = 2.0 * px_scale;
     vec3 sum = vec3(0.0);

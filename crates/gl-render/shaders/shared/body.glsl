@@ -1,5 +1,6 @@
-// The vertices of a body where they are in this picture: whatever bends a body has moved them before they were uploaded. Every vertex
-// shader that draws bodies takes them from here; `body_program.rs` sets the uniforms. With CUTOUT a texture cuts holes.
+// The vertices of a body, which are uploaded already bent into the shape that the body has in this picture. Every
+// vertex shader that draws bodies includes this file; `body_program.rs` sets the uniforms. With CUTOUT, a texture cuts
+// holes.
 layout(location = 0) in vec3 position_in_model;
 layout(location = 1) in vec3 normal_in_model;
 layout(location = 2) in vec2 uv;

@@ -1,4 +1,5 @@
-// Holes that the alpha of a texture cuts into a body, for fragment shaders of programs with shared/body.glsl. Only with CUTOUT.
+// Cuts holes into a body by the alpha of a texture, in fragment shaders of programs with shared/body.glsl. Without
+// CUTOUT it does nothing.
 #ifdef CUTOUT
 in vec2 cut_at;
 uniform sampler2D cut_texture;

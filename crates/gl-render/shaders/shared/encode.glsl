@@ -5,8 +5,9 @@ vec3 srgb_from_linear(vec3 linear) {
     return mix(high, low, lessThanEqual(linear, vec3(0.0031308)));
 }
 
-// For styles that reckon in sRGB values, 0..1. Values between two bytes are first moved away from the middle, by a hundredth of
-// a byte at most, so that a driver's rounding on the way there and back never gives another byte.
+// For styles that compute in sRGB values, 0..1. A value almost halfway between two bytes is first moved towards the
+// nearer one, by a hundredth of a byte at most. Otherwise a driver's rounding on the way there and back could give the
+// other byte.
 vec3 linear_from_srgb(vec3 encoded) {
     vec3 nearest = roundEven(encoded * 255.0);
     encoded = clamp(encoded * 255.0, nearest - 0.49, nearest + 0.49) / 255.0;

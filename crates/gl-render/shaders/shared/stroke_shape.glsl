@@ -25,7 +25,8 @@ vec2 straightened(vec2 at_px, float per_px) {
     return vec2(atan(from_middle.x, from_middle.y) / per_px, off_px);
 }
 
-// Where a pixel lies on the mark. A bent stroke, straightened, is a trapezoid, and the mark is stretched between its sides.
+// Where a pixel lies on the mark. Straightened, a bent stroke is a trapezoid, and the mark is stretched between its
+// sides.
 vec2 on_mark(vec2 at_px, vec4 form, float leaning) {
     vec2 start = vec2(leaning, 1.0) * form.y * (1.0 + form.z);
     vec2 end = vec2(leaning, 1.0) * form.y * (1.0 - form.z);

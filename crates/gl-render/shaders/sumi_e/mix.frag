@@ -8,8 +8,9 @@ uniform vec4 background;         // alpha 0 where the paper is left out
 
 out vec4 mixed;                  // straight alpha, display-linear
 
-// In Direct3D 9 a pixel's centre lies where four texels meet, so a pixel is the mean of the texels at it, to its left
-// and above. At the left and upper edge of the picture the interior is clamped, and the silhouette wraps around.
+// In Direct3D 9 a pixel's centre lies where four texels meet. So a pixel is the mean of its own texel and of those to
+// its left, above it, and above left. At the left and upper edge of the picture the interior is clamped, and the
+// silhouette wraps around.
 float at_corner(sampler2D picture, bool wraps) {
     ivec2 size = textureSize(picture, 0);
     ivec2 at = ivec2(gl_FragCoord.xy);

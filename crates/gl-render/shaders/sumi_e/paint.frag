@@ -62,7 +62,7 @@ void main() {
         vec2 here = surface_at(gl_FragCoord.xy);
         if (here.y != own.y) alpha *= past_body(here, tint);
     }
-    // Pigment gathers at the edge; the brush gives less as it goes; hairs carry more and less.
+    // Pigment gathers at the edge, the brush gives less as it goes, and some hairs carry more than others.
     float edge = 1.0 - smoothstep(0.0, 0.16, texel.r - cut);
     float carried = (1.0 + 0.16 * edge) * mix(1.06, 0.78, u) * (1.0 + 0.20 * tint);
     vec3 taken = ink.rgb * (carried * alpha * body.x);

@@ -11,7 +11,7 @@ uniform mat4 view_from_world;
 uniform sampler2D depth_and_id;
 uniform sampler2D shares;        // of each body: 0 for a backdrop, which gets no ink, else 1
 uniform sampler2D soft;          // silhouette, interior, seal red, body
-uniform sampler2D pigments;      // a row for each palette, display values, w how far strokes keep to them, 0 past the last
+uniform sampler2D pigments;      // a row per palette: display values; w: how far strokes keep to them, 0 past the last
 uniform vec3 ink;
 uniform vec3 seal;
 uniform int kind;                // layer of paint

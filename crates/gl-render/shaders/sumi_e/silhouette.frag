@@ -1,4 +1,5 @@
-// Pass 0 of the source (the effect that `styles/sumi_e.rs` names): light from the eye, reduced to its middle values.
+// Pass 0 of the source (the effect that `styles/sumi_e.rs` names): light from the eye, with its range between the two
+// cosines of `silhouette` stretched from black to white.
 #include "shared/cutout.glsl"
 in vec3 normal_in_view;
 

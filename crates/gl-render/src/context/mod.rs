@@ -31,13 +31,13 @@ pub struct Context {
 }
 
 impl Context {
-    /// Which driver it is, and why the ones before it were not taken.
+    /// Which driver the context uses, and why the drivers that were tried before it failed.
     pub fn report(&self) -> &ContextReport {
         &self.report
     }
 
     /// OpenGL's functions, for other code that draws in this context. They act on whatever context is current
-    /// ([`Context::make_current`]), and must not be called after this one is dropped.
+    /// ([`Context::make_current`]), and must not be called after this context is dropped.
     pub fn glow(&self) -> Arc<glow::Context> {
         self.gpu.functions()
     }

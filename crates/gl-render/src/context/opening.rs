@@ -16,5 +16,6 @@ pub(super) struct Opened {
     pub(super) device: String,
 }
 
-/// OpenGL versions to ask for, best first. Mesa refuses 4.6 where it has only 4.5, and nothing here needs it.
+/// OpenGL versions to ask for, best first. 4.6 is left out: Mesa refuses it where it has only 4.5, and nothing here
+/// needs it.
 pub(super) const VERSIONS: [(u8, u8); 4] = [(4, 5), (4, 3), (4, 1), (3, 3)];

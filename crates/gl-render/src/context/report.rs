@@ -29,7 +29,7 @@ impl fmt::Display for Driver {
 }
 
 impl Driver {
-    /// What the system has to bring for this driver.
+    /// What the system must provide for this driver.
     pub fn parts(self) -> &'static [Part] {
         match self {
             Driver::Auto => &[],

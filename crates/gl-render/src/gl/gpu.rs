@@ -18,7 +18,7 @@ thread_local! {
     static CURRENT: Cell<u64> = const { Cell::new(0) };
 }
 
-/// A context, shared by everything that was created in it. It is destroyed when the last of those is dropped.
+/// A context, shared by everything that was created in it. It is destroyed when its last user is dropped.
 #[derive(Clone)]
 pub(crate) struct Gpu {
     shared: Rc<Shared>,
@@ -129,7 +129,7 @@ impl Gpu {
             Some(PassClock { since: Instant::now(), laps: Vec::new(), fragments: 0 });
     }
 
-    /// Lets the driver start with the commands so far.
+    /// Makes the driver start on the commands issued so far.
     pub(crate) fn flush(&self) {
         // SAFETY: the context is current.
         unsafe { self.gl().flush() };

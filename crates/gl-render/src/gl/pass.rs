@@ -42,7 +42,7 @@ pub(crate) enum Vertices {
     Indexed { first: u32, count: u32 },
     /// A strip of four corners for each instance.
     Quads { instances: u32 },
-    /// One strip of so many corners.
+    /// One strip of `count` corners.
     Strip { count: u32 },
 }
 

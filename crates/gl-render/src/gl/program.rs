@@ -87,7 +87,7 @@ macro_rules! value_from {
 value_from!(f32 => Float, i32 => Int, u32 => Uint, Vec2 => Vec2, Vec3 => Vec3, Vec4 => Vec4, Mat3 => Mat3, Mat4 => Mat4);
 
 impl Program {
-    /// Compiles, links and compares the shader's uniforms with those that the Rust side knows.
+    /// Compiles and links the program. Compares the shader's uniforms with those that the Rust side knows.
     pub(crate) fn new(
         gpu: &Gpu,
         files: &[&[ShaderFile]],

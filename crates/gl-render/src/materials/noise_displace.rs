@@ -1,5 +1,6 @@
-//! Draws bodies that noise colours, such as fire. Several layers of noise travel over the body; they are blended over
-//! what is behind it, and may glow. Such bodies are drawn after the rest of the reference picture, the farthest first.
+//! Draws bodies that are coloured by noise, such as fire. Several layers of noise travel over the body. The layers are
+//! blended over what is behind the body, and may glow. Such bodies are drawn after the rest of the reference picture,
+//! the farthest first.
 //!
 //! Passes:
 //! - for each body, `place` (writes depth and id, and a normal of 0), then `look` (blends the colour, hides highlights
@@ -30,11 +31,11 @@ use crate::shader_files::{NOISE_DISPLACE, SHARED};
 use crate::watch::Watch;
 use bloom::Bloom;
 
-/// Draws the bodies that noise colours.
+/// Draws the bodies that are coloured by noise.
 pub(crate) struct NoiseDisplace {
     gpu: Gpu,
     screen: VertexArray,
-    /// Created when the first body that noise colours is drawn.
+    /// Created when the first body that is coloured by noise is drawn.
     programs: Option<Programs>,
     /// Created when the first such body glows.
     bloom: Option<Bloom>,
@@ -88,12 +89,13 @@ impl NoiseDisplace {
         Ok(())
     }
 
-    /// Lets its targets go, and with them the programs of the bloom.
+    /// Drops the targets, and the bloom with its programs.
     pub(crate) fn let_go(&mut self) {
         (self.targets, self.bloom) = (None, None);
     }
 
-    /// Draws the bodies that noise colours into the reference picture: blends their colour, and replaces depth and id.
+    /// Draws the bodies that are coloured by noise into the reference picture: blends their colour, and replaces depth
+    /// and id.
     pub(crate) fn draw(
         &mut self,
         frame: &Frame,
@@ -195,7 +197,7 @@ fn set_layers<'a>(bound: Bound<'a>, layers: &NoiseLayers, travelled: Vec2, tiles
         .set("threshold", layers.threshold)
 }
 
-/// A body among those that are put in order.
+/// A body that is to be put in drawing order.
 struct Placed<'a> {
     index: usize,
     body: &'a FrameBody,

@@ -117,7 +117,7 @@ const BILLBOARD: ProgramSource = ProgramSource::new(
 /// A ring is drawn as this many straight pieces.
 const RING_PIECES: u32 = 64;
 
-/// An icon that passes behind something is dimmed, wholly when it lies this share of its depth behind.
+/// An icon behind a surface is dimmed. It is dimmed fully if it lies this share of its depth behind the surface.
 const SOFTNESS: f32 = 0.03;
 
 /// Draws billboards.

@@ -1,4 +1,4 @@
-//! What a renderer tells of its last picture beside the colour.
+//! What can be read from a renderer about its last picture, besides the colour.
 
 use impasto_painting::Frame;
 

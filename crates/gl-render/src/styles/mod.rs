@@ -26,8 +26,8 @@ pub(crate) fn samples(frame: &Frame, max_side_px: u32) -> u32 {
     }
 }
 
-/// The share of strong highlights that the colour of the reference picture has. Of a highlight that passes over a body the
-/// strokes below take a part, so that they stay calm; the strokes of highlights, where there are any, add the rest.
+/// The share of a strong highlight in the lit colour that strokes are painted with. It is below 1 if there are strokes of
+/// highlights, which add the rest: the strokes below them then stay calm when a highlight passes over a body.
 pub(crate) fn highlight_in_color(frame: &Frame) -> f32 {
     match frame.style {
         Style::RotatingStrokes(_) if frame.has_highlight_strokes => 0.6,

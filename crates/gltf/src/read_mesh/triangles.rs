@@ -15,7 +15,7 @@ pub(crate) type Triangles = Arc<Vec<[u32; 3]>>;
 pub(crate) enum Mode {
     /// Every three vertices are a triangle.
     Triangles,
-    /// Each vertex makes a triangle with the two before it; every other one is turned round, so that all wind alike.
+    /// Each vertex makes a triangle with the two before it. Every other triangle is reversed, so that all wind alike.
     Strip,
     /// Each vertex makes a triangle with the one before it and the first.
     Fan,

@@ -1,4 +1,5 @@
-//! M9, coverage and bleed: measures on frames of the shot how much of the surface is painted, and with its own colour.
+//! M9, coverage and bleed: measures, on frames of the shot, how much of the surfaces is painted, and how much of that
+//! paint has the colour of another object.
 
 use std::collections::BTreeMap;
 

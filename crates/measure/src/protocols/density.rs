@@ -28,8 +28,8 @@ const SHEET_PX: u32 = 2048;
 /// Strokes are counted within this share of the sheet's sides: near its border, strokes from beyond it are missing.
 const WINDOW: f64 = 0.85;
 
-/// Above this many wanted strokes per particle, particles run out: strokes fade over a range of ranks, and the part of
-/// it above 1 has no particles, so fewer show than are wanted.
+/// Above this many wanted strokes per particle, particles run out. Strokes fade over a range of ranks. The part of that
+/// range above rank 1 has no particles, so fewer strokes show than are wanted.
 const RUN_OUT: f64 = 0.82;
 
 /// The strokes of an object in one view.

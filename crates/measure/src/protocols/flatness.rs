@@ -31,7 +31,8 @@ pub(super) fn row(context: &mut MeasureContext<'_>) -> Result<Row, MeasureError>
     for factor in [0.5, 2.0, 4.0] {
         frames.push(strokes_by_key(&painting.seen_by(&zoomed(&camera, factor), at_rest, &options), &[]));
     }
-    // Strokes with `size_follow` are meant to change with their surface, those with keys to change over time.
+    // Strokes with `size_follow` are meant to change with their surface. Strokes with keys are meant to change over
+    // time.
     let scene = &context.loaded.scene;
     let changes: Vec<bool> = (0..=scene.regions.len())
         .map(|region| {

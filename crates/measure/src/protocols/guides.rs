@@ -1,4 +1,5 @@
-//! A part of M11, authoring: do strokes on a guide follow it as drawn, seen from where it was drawn?
+//! A part of M11, authoring: do strokes on a guide follow its line, when seen from the view in which the guide was
+//! drawn?
 
 use glam::DVec3;
 use impasto_painting::frame::LayerKind;

@@ -95,7 +95,7 @@ fn by_object(context: &MeasureContext<'_>, differences: &[Difference]) -> String
     format!("median and p95 by object: {}", words.collect::<Vec<_>>().join(", "))
 }
 
-/// Adds the same measure on the frames of the shot, which is printed but not judged.
+/// Adds the same measure on the frames of the shot. It is printed but not judged.
 fn on_shot(context: &mut MeasureContext<'_>, row: &mut Row) -> Result<(), MeasureError> {
     let version = SceneVersion::NoContour(TurnSolver::Own);
     let painting = context.painting(version)?;

@@ -1,6 +1,6 @@
 //! Measures M5, the warp error. On neighbouring frames of the shot it compares our angles with the paper's rule and
-//! with random angles. It also compares them with fixed angles: these are hardly wrong over one frame, so here it takes
-//! frames so far apart that strokes turn by several degrees between them.
+//! with random angles. It also compares our angles with fixed angles. Fixed angles are hardly wrong over one frame, so
+//! this comparison takes frames so far apart that strokes turn by several degrees between them.
 
 use impasto_gl_render::MotionPixels;
 use impasto_painting::Rotation;

@@ -27,7 +27,7 @@ const BLUR_PX: f64 = 1.0;
 /// How many of the worst coats (M15) or bodies (M16) are named.
 const NAMED: usize = 3;
 
-/// A frame as M17 looks at it.
+/// A frame with what M17 needs of it.
 struct Looked {
     drawn: Rc<DrawnFrame>,
     /// Luma of the picture and of a plain render of it, blurred.
@@ -36,7 +36,7 @@ struct Looked {
     covered: Plane,
 }
 
-/// Draws a frame on a board, and plainly.
+/// Draws a frame twice: with strokes on a board, and as a plain render without strokes.
 fn looked_at(context: &mut MeasureContext<'_>, frame: f64) -> Result<Looked, MeasureError> {
     let drawn = context.drawn_once(SceneVersion::Board, frame, Rotation::On)?;
     let plain = context.plain_luma(&drawn.frame)?;
@@ -47,8 +47,8 @@ fn looked_at(context: &mut MeasureContext<'_>, frame: f64) -> Result<Looked, Mea
     Ok(Looked { drawn, lumas, covered })
 }
 
-/// For each pixel of a frame, where its surface point is in another one; `None` where it is hidden, or may be covered, in
-/// one of the two.
+/// For each pixel of a frame, where its surface point is in another frame. `None` where the point is hidden, or may be
+/// covered, in one of the two frames.
 fn followed(
     context: &mut MeasureContext<'_>,
     now: &Looked,
@@ -114,7 +114,7 @@ fn shown(drawn: &DrawnFrame) -> Shown<'_> {
     }
 }
 
-/// Where the worst was found, in words.
+/// Says in words where the worst value was found.
 fn place_words(context: &MeasureContext<'_>, place: Place) -> String {
     let [x, y] = place.at_px;
     let stroke = place.stroke.map_or_else(String::new, |key| {
@@ -213,7 +213,7 @@ pub(super) fn steps(context: &mut MeasureContext<'_>, series: &mut Vec<Series>) 
     }
     row.notes
         .extend(found.worst.map(|place| format!("{}: by {:.2}", place_words(context, place), place.amount)));
-    // Few lives are no evidence.
+    // The median of fewer than 20 lives says too little to be judged.
     let live_long = lives.count < 20 || lives.median >= 12.0;
     let holds = share <= 1e-4 && lights.share() <= 0.01 && live_long;
     row.verdict = Verdict::of(holds, row.counts);

@@ -137,7 +137,7 @@ impl FieldInputs {
         }
         let Some(last) = last else { return tangent };
         let found = symmetry.decode(z, views.axes);
-        // A line has two ends: the stroke points to the one that the direction of the last guide points to.
+        // A line has two opposite directions. The stroke takes the one nearer to the last guide's direction.
         if found.dot(last) < 0.0 && symmetry == Symmetry::Lines { -found } else { found }
     }
 

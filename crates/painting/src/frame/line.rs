@@ -40,7 +40,7 @@ pub struct LineVertex {
     pub lean_px: f32,
     /// How far the surface may leave that plane before paint ends, pixels of depth.
     pub leave_px: f32,
-    /// The brush runs dry: how much more paint a texel of the mark must have to show here than at the line's beginning, as
-    /// a share of full paint.
+    /// How far the brush has run dry: how much more paint a texel of the mark must have to show here than at the line's
+    /// beginning, as a share of full paint.
     pub run_dry: f32,
 }

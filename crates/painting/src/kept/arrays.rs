@@ -24,7 +24,7 @@ use super::{FORMAT, KeptBytes, KeptKey};
 const MAGIC: [u8; 16] = *b"impasto prepared";
 const ORDER: u32 = 0x0403_0201;
 
-/// How many bytes are read at once: few enough to be in the processor's cache still when their checksum is taken.
+/// How many bytes are read at once: few enough to still be in the processor's cache when their checksum is taken.
 const CHUNK: usize = 1 << 18;
 
 #[repr(C)]
@@ -194,7 +194,7 @@ impl<T: Pod> Array<'_, T> {
         self.row.bytes as usize / size_of::<T>()
     }
 
-    /// Reads it, and checks its checksum. [`Arrays::open`] has checked that there are so many bytes.
+    /// Reads it, and checks its checksum. [`Arrays::open`] has checked that this many bytes are there.
     pub(super) fn read(self) -> Result<Vec<T>, Unfit> {
         let mut numbers = vec![T::zeroed(); self.len()];
         let (mut hasher, mut at) = (crc32fast::Hasher::new(), self.at);

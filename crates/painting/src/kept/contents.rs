@@ -41,7 +41,7 @@ pub(super) struct CoatNumbers {
     pub(super) state: [u64; 2],
     /// The bits of the area, which is a float.
     pub(super) area: u64,
-    /// 0 or 1, as is the next.
+    /// 0 or 1, as is `has_neighbours`.
     pub(super) has_polygons: u64,
     pub(super) has_neighbours: u64,
     /// How many neighbours a list has room for.
@@ -112,7 +112,7 @@ impl KeptPainting {
         }
         let [order, firsts] = [arrays.next::<u32>()?, arrays.next::<u32>()?];
         arrays.end()?;
-        // Only from here on is memory taken: no more than there are bytes.
+        // Memory is allocated only from here on, and no more of it than there are bytes.
         let mark = |texels: Array<'_, [u8; 3]>| Ok(Mark { texels: texels.of_len(TEXELS)? });
         let read_marks = || marks.into_par_iter().map(mark).collect::<Result<Vec<Mark>, Unfit>>();
         let read_objects = || {

@@ -1,5 +1,5 @@
-//! Makes a key: a cryptographic hash of numbers and words, each with its length, so that no two lists run into each
-//! other.
+//! Makes a key: a cryptographic hash of lists of numbers and of words. The length of each list is hashed too, so that
+//! the hash changes when numbers move from one list to the next.
 
 use std::fmt::{Debug, Write as _};
 
@@ -34,7 +34,7 @@ impl KeyHasher {
     }
 
     /// Feeds a value as its derived `Debug` writes it: every field by name, every float so that it is read back to the
-    /// bit. For settings; never for long arrays, nor for types whose `Debug` is written by hand.
+    /// bit. Use it for settings, never for long arrays or for types whose `Debug` is written by hand.
     pub(crate) fn value(&mut self, value: &impl Debug) {
         let mut text = std::mem::take(&mut self.text);
         text.clear();

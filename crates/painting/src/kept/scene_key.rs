@@ -1,5 +1,5 @@
-//! The key of a scene: a hash of all that the heavy steps of preparing it are given, as it is in memory. So it does not matter where
-//! files lie, nor whether one changes after it was read.
+//! The key of a scene: a hash of all inputs of the heavy steps of preparing the scene. The inputs are hashed as they
+//! are in memory, so it does not matter where files lie, or whether a file changes after it was read.
 //!
 //! What goes in is destructured field by field, without `..`: when a field is added, this file does not compile until
 //! it says whether the field counts.
@@ -127,7 +127,7 @@ fn of_surface(surface: &BodySurface, textures: &Digests, key: &mut KeyHasher) {
         of_bend(bend, key);
     }
     if let Some(BodyCache { cache: _, points, model_from_file }) = cache {
-        // Where the cache has the points is hashed in `of_shape`, at the frames that count.
+        // The positions of the cache's points are hashed in `of_shape`, at the frames that matter.
         let Points { count, of_vertex } = &**points;
         key.numbers(&[*count as u64]);
         key.numbers(of_vertex);

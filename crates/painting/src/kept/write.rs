@@ -1,4 +1,4 @@
-//! Hands out what is to be kept of a painting.
+//! Collects what is to be kept of a painting, and writes it.
 
 use std::io::{self, Write};
 
@@ -31,7 +31,7 @@ impl ToKeep<'_> {
 
 impl Painting {
     /// What is to be kept for another process that prepares the same scene. `None` if there was a fault (a point cache
-    /// that could not be read any more), because its results would be kept too.
+    /// that could not be read any more), because the wrong results would be kept too.
     pub fn to_keep(&self) -> Option<ToKeep<'_>> {
         if !self.faults().is_empty() {
             return None;

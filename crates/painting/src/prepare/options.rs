@@ -81,7 +81,7 @@ pub struct Step {
     pub peak_bytes: Option<u64>,
 }
 
-/// Checks that the particles of all objects fit into memory. `counts` has the number of each object.
+/// Checks that the particles of all objects fit into memory. `counts` has the number of particles of each object.
 pub(super) fn fits(
     memory_bytes: Option<u64>,
     scene: &Scene,

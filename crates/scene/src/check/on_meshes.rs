@@ -14,7 +14,7 @@ use crate::morph;
 use crate::point_cache::PointCache;
 
 /// Work limit of one check: each point of a guide and each dab counts once for every triangle of its mesh. Guides and
-/// dabs after that are not checked.
+/// dabs beyond the limit are not checked.
 const MOST_DISTANCES: usize = 200_000_000;
 
 pub(super) fn check(
@@ -84,7 +84,7 @@ pub(super) fn check(
     }
 }
 
-/// Checks that each point cache moves as many points as its mesh has and, only then, that its places are valid.
+/// Checks that each point cache moves as many points as its mesh has. If so, also checks that its positions are valid.
 pub(super) fn check_caches(
     scene: &Scene,
     meshes: &BTreeMap<String, Arc<MeshFile>>,
@@ -169,8 +169,8 @@ impl<'a> Covered<'a> {
     }
 }
 
-/// Searches the triangles that an object shows, in the object's own space. Quick if places asked one after the other
-/// lie close together.
+/// Searches the triangles that an object shows, in the object's own space. Quick if successive queries lie close
+/// together.
 struct Reached<'a> {
     file: &'a MeshFile,
     model_from_file: DMat3,

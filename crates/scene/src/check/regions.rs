@@ -45,7 +45,7 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
     check_counts(scene, findings);
 }
 
-/// The names of all objects, to look many names up.
+/// The names of all objects, as a set for many lookups.
 pub(super) fn names_of_objects(scene: &Scene) -> HashSet<&str> {
     scene.objects.iter().map(|object| object.name.as_str()).collect()
 }

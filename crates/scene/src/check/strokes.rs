@@ -96,7 +96,7 @@ fn check_flatness(strokes_path: &str, scene: &Scene, region: Option<usize>, find
     findings.error(format!("{strokes_path}.flatness"), message, "use the solver Tangent, or a flatness of 1");
 }
 
-/// What in the scene allows no flatness below 1, in words: the preset or the solver. `None` if any flatness is allowed.
+/// Says what in the scene forbids a flatness below 1: the preset or the solver. `None` if any flatness is allowed.
 pub(super) fn needs_flat_strokes(scene: &Scene) -> Option<String> {
     match scene.style.settings().preparation().solver {
         _ if presets::is_paper(scene) => Some(format!("the preset \"{PAPER_PRESET}\"")),

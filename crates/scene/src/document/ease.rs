@@ -18,9 +18,9 @@ pub enum Ease {
     Out,
     /// Falls to the next key and bounces back from it three times, ever lower, as a ball.
     Bounce,
-    /// A cubic Bézier curve from (0, 0) to (1, 1) through these two handles, as `cubic-bezier` of CSS: `x` is time, from 0 to 1,
-    /// and `y` how far the value has come, from -2 to 3. Where `y` leaves 0 to 1, places and turns overshoot; sizes, colours and
-    /// strengths stop at their limits.
+    /// A cubic Bézier curve from (0, 0) to (1, 1) with these two handles, as `cubic-bezier` in CSS: `x` is the time,
+    /// from 0 to 1, and `y` is how far the value has come, from -2 to 3. Where the curve goes below 0 or above 1,
+    /// places and turns overshoot, while sizes, colours and strengths stop at their limits.
     Curve([f64; 2], [f64; 2]),
 }
 
@@ -51,7 +51,7 @@ impl Ease {
         }
     }
 
-    /// The least and the greatest share that it passes.
+    /// The least and the greatest value that [`Ease::share`] takes.
     pub fn reach(self) -> [f64; 2] {
         let Self::Curve([_, first], [_, second]) = self else { return [0.0, 1.0] };
         // A third of the derivative of `bezier` by its parameter s: a·s² + b·s + c.

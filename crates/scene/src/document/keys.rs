@@ -90,7 +90,7 @@ pub struct StrokesKey {
     /// Multiplies the coverage, from 0 to 4.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub coverage: f64,
-    /// Dries the brushes, from 0, as each layer states, to 1, quite dry.
+    /// How far the brushes are dried, from 0, as dry as each layer states, to 1, quite dry.
     #[serde(default, skip_serializing_if = "is_default")]
     pub dryness: f64,
     /// How far colours keep to the palette, from 0, not at all, to 1, wholly.

@@ -18,7 +18,8 @@ pub struct Light {
     /// `Point`, `Spot`: where it stands, world space.
     #[serde(default, skip_serializing_if = "is_default")]
     pub position: Option<[f64; 3]>,
-    /// `Spot`: from its axis to where the light begins to fade, and to where it ends, degrees from 0 to 90; left out, (0, 45).
+    /// `Spot`: two angles from the cone's axis, degrees from 0 to 90. At the first the light begins to fade, at the
+    /// second it ends. Left out, (0, 45).
     #[serde(default, skip_serializing_if = "is_default")]
     pub cone_deg: Option<[f64; 2]>,
     /// Colour; for `Ambient` the colour from above.
@@ -27,8 +28,8 @@ pub struct Light {
     /// `Ambient`: the colour from below; left out, `color`, dimmer and warmer.
     #[serde(default, skip_serializing_if = "is_default")]
     pub ground: Option<Color>,
-    /// Multiplies the colour, from 0 to 1000000. A point light of intensity 1 lights a facing surface at distance 1 as
-    /// a sun of 1.
+    /// Multiplies the colour, from 0 to 1000000. At a distance of 1, a point light of intensity 1 lights a surface that
+    /// faces it as brightly as a sun of intensity 1.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub intensity: f64,
     /// Its values over time, frames strictly increasing.
@@ -40,8 +41,8 @@ impl Light {
     /// The `cone_deg` of a `Spot` that states none, degrees.
     pub const USUAL_CONE_DEG: [f64; 2] = [0.0, 45.0];
 
-    /// How much of the light from above comes from below where an `Ambient` light states no `ground`, by linear channel:
-    /// as if bounced off a warm floor.
+    /// The light from below as a share of the light from above, for an `Ambient` light that states no `ground`: as if
+    /// bounced off a warm floor. One share for each linear channel.
     pub const OFF_THE_FLOOR: [f32; 3] = [0.5, 0.42, 0.34];
 
     /// A white light of intensity 1 without keys, from nowhere yet: suns need a direction, point lights a position.

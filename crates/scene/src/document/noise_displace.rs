@@ -14,7 +14,7 @@ usual_fields! {
         pub vertex: Option<VertexNoise> = Some(VertexNoise::default()),
         /// What colours the surface; `None` leaves it as the object's own material says.
         pub surface: Option<SurfaceNoise> = Some(SurfaceNoise::default()),
-        /// Seconds after which everything is as it was, from 0.01 to 1000000; left out, the noise travels on.
+        /// Seconds after which the noise repeats, from 0.01 to 1000000; left out, the noise travels on.
         pub period_secs: Option<f64> = None,
     }
 }
@@ -30,7 +30,7 @@ usual_fields! {
         pub value: [f64; 2] = [0.1; 2],
         /// How far the vertices move, from the least noise to the greatest, units of the object's own space.
         pub scale: f64 = 0.1; within NOISE_RATE,
-        /// What they are moved along.
+        /// What the vertices are moved along.
         pub along: NoiseAlong = NoiseAlong::Channels,
         /// Which normals light falls on.
         pub normals: NoiseNormals = NoiseNormals::Kept,
@@ -50,10 +50,10 @@ pub enum NoiseSpace {
 /// What vertices are moved along.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 pub enum NoiseAlong {
-    /// Each axis by a channel of the noise, as the source has it.
+    /// The three axes, each by one channel of the noise, as in the source.
     #[default]
     Channels,
-    /// Their normals, by the first channel.
+    /// Their normals, by the first channel of the noise.
     Normal,
 }
 

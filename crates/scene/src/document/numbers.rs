@@ -1,5 +1,5 @@
-//! The tables of the scene file's numbers: name, range and effect, stated once, where the number is declared. Reading,
-//! checking, saving, the editor's inspector and `docs/scene_file.md` all take them from here.
+//! How the scene file's numbers are declared, in tables: each has its name, range and effect stated once. Reading,
+//! checking, saving, the editor's inspector and `docs/scene_file.md` all follow from the tables.
 
 use std::ops::RangeInclusive;
 

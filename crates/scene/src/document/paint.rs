@@ -12,7 +12,7 @@ use crate::limits::{MAX_COVERAGE, MAX_STROKE_PX, MAX_THICKNESS};
 pub struct LayerNumber {
     /// Its name, its range in a scene file, what it does, and how to get and set it.
     pub number: Number<LayerSettings, Option<f64>>,
-    /// The same number of a resolved layer, to be set through this reference.
+    /// A reference to the same number of a resolved layer, through which it is set.
     pub resolved: fn(&mut ResolvedLayer) -> &mut f32,
 }
 
@@ -29,8 +29,8 @@ macro_rules! layer_numbers {
             /// Brush, or a mix of brushes.
             #[serde(default, skip_serializing_if = "is_default")]
             pub brush: Option<BrushMix>,
-            /// Leaves the layer out of the picture, and keeps its numbers; of `ground` only the tone, as the wash of
-            /// the body's colour stays. In a region, `false` shows a layer that the scene hides.
+            /// Leaves the layer out of the picture, and keeps its numbers. A hidden `ground` loses only its tone: the
+            /// wash of the body's colour stays. In a region, `false` shows a layer that the scene hides.
             #[serde(default, skip_serializing_if = "is_default")]
             pub hidden: Option<bool>,
             $($(#[doc = $effect])+ #[serde(default, skip_serializing_if = "is_default")] pub $field: Option<f64>,)+
@@ -76,7 +76,8 @@ layer_numbers! {
     thickness: 0.0..=MAX_THICKNESS,
     /// How much of its mark the brush leaves out.
     dryness: 0.0..=1.0,
-    /// How wet the paint is: how much a stroke takes up from below, and how far it runs together with paint of its colour.
+    /// How wet the paint is: how much paint a stroke takes up from below, and how far it runs together with paint of
+    /// the same colour.
     pickup: 0.0..=1.0,
 }
 

@@ -23,7 +23,7 @@ pub struct Region {
     /// whole region. A later one overrules an earlier one.
     #[serde(default, skip_serializing_if = "is_default")]
     pub guides: Vec<Guide>,
-    /// What was painted onto its strokes: where they are wider, longer, denser or flatter than the rest of it.
+    /// Where a brush has made the region's strokes wider, longer, denser or flatter than in the rest of the region.
     #[serde(default, skip_serializing_if = "is_default")]
     pub amounts: Vec<PaintedAmount>,
     /// How its directions meet those of the regions that it lies on.
@@ -60,7 +60,8 @@ pub enum Selector {
     Everything,
     /// A whole object, by name.
     Object(String),
-    /// A collection of the shot: all objects that the program which wrote it had in a collection of this name.
+    /// All objects of a collection of the shot. The collection has the name that it had in the program that wrote the
+    /// shot.
     Collection(String),
     /// A material of this name, on every object that has it.
     EachMaterial(String),
@@ -70,8 +71,8 @@ pub enum Selector {
     Material(String, String),
     /// What dabs of a brush have touched: object, dabs, in the order of painting.
     Dabs(String, Vec<Dab>),
-    /// What is reached from a face without crossing a sharp edge: object, where it begins, and the angle between two
-    /// faces from which their edge counts as sharp, degrees, from 0 to 180.
+    /// What is reached from a face without crossing a sharp edge: the object, where the flood begins, and an angle,
+    /// degrees, from 0 to 180. An edge is sharp if its two faces are turned from each other by this angle or more.
     Flood(String, Seed, f64),
     /// Patches of one object, in order: each adds to those before it, and dabs with `take_away` cut them.
     Several(String, Vec<Patch>),
@@ -98,7 +99,7 @@ pub enum Patch {
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Seed {
-    /// Where.
+    /// The place, in the object's own space.
     pub at: [f64; 3],
     /// Normal of the surface there.
     pub normal: [f64; 3],
@@ -108,7 +109,7 @@ pub struct Seed {
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Dab {
-    /// Where.
+    /// The place, in the object's own space.
     pub at: [f64; 3],
     /// Normal of the surface there; only what faces the same way is touched.
     pub normal: [f64; 3],
@@ -156,10 +157,11 @@ pub enum Bend {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Seam {
-    /// They change from one stroke to the next.
+    /// Directions change from one stroke to the next.
     #[default]
     Hard,
-    /// They turn into each other over this distance on either side, units of the object's own space.
+    /// Directions turn into each other over this distance on either side of the border, units of the object's own
+    /// space.
     Soft(f64),
 }
 
@@ -187,7 +189,8 @@ pub struct Guide {
     /// The object, where the region covers more than one.
     #[serde(default, skip_serializing_if = "is_default")]
     pub object: Option<String>,
-    /// The view that it was drawn in: seen from there, strokes show as drawn. Left out, the reference.
+    /// The view in which the guide was drawn: seen from there, strokes look as they were drawn. Left out, the
+    /// reference.
     #[serde(default, skip_serializing_if = "is_default")]
     pub view: Option<GuideView>,
     /// At least two points of the surface, in the order of the gesture.
@@ -208,8 +211,8 @@ pub enum GuideMode {
     /// Strokes lie along it.
     #[default]
     Comb,
-    /// It states no direction: it loosens stated directions and those combed by earlier guides, so that strokes blend
-    /// with what lies around. A guide that combs later overrules it.
+    /// The guide states no direction. It loosens stated directions and those combed by earlier guides, so that strokes
+    /// blend with their surroundings. Later guides that comb overrule this one.
     Smooth,
 }
 
@@ -221,7 +224,7 @@ pub struct GuideView {
     pub eye: [f64; 3],
     /// What it looked at.
     pub target: [f64; 3],
-    /// The frame whose shape the body had then; left out, its rest.
+    /// The frame whose shape the body had when the guide was drawn; left out, the body's rest.
     #[serde(default, skip_serializing_if = "is_default")]
     pub frame: Option<f64>,
 }
@@ -230,7 +233,7 @@ pub struct GuideView {
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct GuidePoint {
-    /// Where.
+    /// The place, in the object's own space.
     pub at: [f64; 3],
     /// Normal of the surface there.
     pub normal: [f64; 3],

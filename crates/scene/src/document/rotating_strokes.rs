@@ -21,8 +21,8 @@ usual_fields! {
         pub weave: f64 = 1.0; within 0.0..=MAX_STRENGTH,
         /// What the canvas moves with.
         pub canvas_follows: CanvasFollows = CanvasFollows::Picture,
-        /// Samples a side in each pixel of a picture, 1, 2 or 4: paint ends between pixels, and thin things are steady.
-        /// Drafts have 1.
+        /// Samples along each side of a pixel of the picture: 1, 2 or 4. With more than 1, paint can end within a
+        /// pixel, and thin things are steady. Drafts have 1.
         pub samples: u32 = 2,
         /// How much the paint stands up: 0 flat, 1 oil paint.
         pub relief: f64 = 1.0; within 0.0..=MAX_STRENGTH,

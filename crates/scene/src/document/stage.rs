@@ -47,7 +47,7 @@ pub struct Seen {
     pub world_from_view: DMat4,
     /// The lens.
     pub lens: Lens,
-    /// Shift of the lens: added to where things show, in half heights of the picture, Y up.
+    /// Shift of the lens: added to positions in the picture, in half heights of the picture, Y up.
     pub shift: DVec2,
 }
 
@@ -81,8 +81,8 @@ pub trait Brought: Debug + Send + Sync {
     /// Whether an object shows. Objects that the shot does not bring always do.
     fn is_visible(&self, posed: &Posed, name: &str) -> bool;
 
-    /// The camera at a time in seconds, for a picture of this size in pixels; `None` if the shot has no camera. All
-    /// that the camera's own picture shows is inside: a picture of another aspect shows more at two sides.
+    /// The camera at a time in seconds, for a picture of this size in pixels; `None` if the shot has no camera. It
+    /// shows all that the camera's own picture shows. If the aspects differ, it shows more at two sides.
     fn camera(&self, time_s: f64, size: (u32, u32)) -> Option<Seen>;
 
     /// Whether a collection holds an object; `None` where the shot knows no such collection.
@@ -96,8 +96,9 @@ pub trait Brought: Debug + Send + Sync {
     fn light(&self, light: &Light, posed: &Posed) -> Light;
 
     /// Puts the shot on the scene's stage. Adds its objects and lights, except those whose names the document states
-    /// itself: such an object without a mesh gets the shot's. Takes the shot's frames and sky where the document states
-    /// none. Returns the objects that the document states and the shot no longer has.
+    /// itself. If the document states such an object without a mesh, the object gets the shot's mesh. Takes the shot's
+    /// frames and sky where the document states none. Returns the objects that the document states and the shot no
+    /// longer has.
     fn enter(self: Arc<Self>, scene: &mut Scene) -> Vec<Lost>;
 
     /// The document as it is saved: without what comes from the shot alone. An object of the shot that was deleted is

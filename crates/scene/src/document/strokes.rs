@@ -30,7 +30,7 @@ pub struct Shown {
     pub unit: &'static str,
     /// The value shown, times this, is the value of the file.
     pub file_per_shown: f64,
-    /// The range of a drag, as shown; typing reaches the limits of a scene file.
+    /// The range of a drag, as shown. Typed values may go as far as the limits of a scene file.
     pub drag: RangeInclusive<f64>,
     /// One step of the wheel or of an arrow key, as shown.
     pub step: f64,
@@ -76,7 +76,8 @@ const FACTOR: Shown = Shown { unit: "×", drag: 0.0..=8.0, step: 0.1, decimals: 
 // surface; `color` its colour. `CONTRIBUTING.md` says what else a new row needs.
 stroke_numbers! {
     body {
-        /// How long strokes are in the picture, pixels at the scene's size; other layers keep their proportion.
+        /// How long strokes of the body layer are in the picture, pixels at the scene's size; strokes of other layers
+        /// keep their proportion to these.
         length_px {
             limits: 0.001..=MAX_STROKE_PX,
             resolved: |strokes| f64::from(strokes.body().length_px),
@@ -155,7 +156,8 @@ stroke_numbers! {
             limits: 0.0..=180.0,
             shown: Shown { label: "Swing", place: Advanced(2), ..DEGREES },
         }
-        /// How far strokes near the limb lie along it; this part follows the view.
+        /// How far strokes near the limb, the visible edge of a body, lie along it. This part of their direction
+        /// follows the view.
         contour => contour as plain {
             usual: 0.0,
             limits: 0.0..=1.0,

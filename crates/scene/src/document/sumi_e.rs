@@ -25,9 +25,11 @@ usual_fields! {
         pub density: f64 = 1.0; within 0.0..=2.0,
         /// How dark the silhouette is.
         pub silhouette: f64 = 0.7; within 0.0..=1.0,
-        /// Cosine to the eye below which the silhouette is black.
+        /// The silhouette is black where the cosine between the surface's normal and the direction to the eye is below
+        /// this number.
         pub silhouette_from: f64 = 0.3; within 0.0..=1.0,
-        /// Cosine to the eye above which there is no silhouette.
+        /// There is no silhouette where the cosine between the surface's normal and the direction to the eye is above
+        /// this number.
         pub silhouette_to: f64 = 0.7; within 0.0..=1.0,
         /// How softly one tone goes over into the next.
         pub softness: f64 = 0.08; within 0.0..=0.5,

@@ -12,8 +12,8 @@ pub struct Touch {
     pub name: String,
     /// The object that it lies on.
     pub on: String,
-    /// Where it goes, in the object's own space: it runs smoothly through two or more places; at a single one it lies along the
-    /// strokes round it.
+    /// The places of the touch, in the object's own space. A touch with two or more places runs smoothly through them;
+    /// a touch at a single place lies along the strokes around it.
     pub points: Vec<TouchPoint>,
     /// How wide it is, pixels at the scene's size, from 1 to 400, however near the camera is.
     #[serde(default = "usual_width_px")]

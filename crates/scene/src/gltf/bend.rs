@@ -80,7 +80,8 @@ pub(super) fn of(
         let placed = if is_skinned { DAffine3::IDENTITY } else { origin.copy };
         let position = wide(origin.primitive.positions[origin.vertex]);
         let turn = cofactors(placed.matrix3);
-        // Without a normal in the file, the one made for the mesh at rest is taken back to the unbent mesh.
+        // If the file has no normal, the one that was made for the mesh at rest serves. In a skinned mesh, the joints'
+        // rest pose has turned it: that turn is undone.
         let normal = match &origin.primitive.normals {
             Some(normals) => turn * wide(normals[origin.vertex]),
             None => unmoved(origin, &rest, is_skinned).transpose() * mesh_at_rest.normals[vertex].as_dvec3(),
@@ -101,8 +102,8 @@ pub(super) fn of(
     bend
 }
 
-/// The point, in the sense of a point cache, at which each vertex of a node's mesh lies. `None` if the file does not
-/// state all of them.
+/// For each vertex of a node's mesh, the index of its point in a point cache. `None` unless the file states the points
+/// of all vertices.
 pub(super) fn points(file: &GltfFile, node: usize, runs: &[Run], source_of_vertex: &[u32]) -> Option<Points> {
     let mesh = &*file.gltf.meshes[file.gltf.nodes[node].mesh?];
     let all = mesh.primitives.iter().filter_map(|primitive| primitive.points.as_ref());
@@ -126,7 +127,8 @@ fn origin<'a>(mesh: &'a Mesh, runs: &[Run], source: usize) -> Origin<'a> {
     Origin { primitive: &mesh.primitives[run.primitive], vertex, copy: run.copy }
 }
 
-/// The linear part of the transform that took the surroundings of a vertex from the unbent mesh to the rest.
+/// The linear part of the transform that carries a vertex and its surroundings from the unbent mesh to the mesh at
+/// rest.
 fn unmoved(origin: &Origin<'_>, rest: &BendPose, is_skinned: bool) -> DMat3 {
     match origin.primitive.influences.as_ref().filter(|_| is_skinned) {
         Some(influences) => blended(&rest.joints, influences, origin.vertex).matrix3,
@@ -134,7 +136,7 @@ fn unmoved(origin: &Origin<'_>, rest: &BendPose, is_skinned: bool) -> DMat3 {
     }
 }
 
-/// The joints and weights of all vertices. A vertex of a primitive without joints hangs on the first joint.
+/// The joints and weights of all vertices. A vertex of a primitive without joints moves with the first joint.
 fn skin_weights(origins: &[Origin<'_>]) -> SkinWeights {
     let of = |origin: &Origin<'_>| origin.primitive.influences.as_ref().map_or(1, |all| all.per_vertex);
     let per_vertex = origins.iter().map(of).max().unwrap_or(1);

@@ -13,10 +13,10 @@ use crate::texture;
 /// The colour (sRGB) of whatever has no material, as in OBJ files.
 const GREY: [f32; 3] = [0.8; 3];
 
-/// How much darker fully smooth metal is drawn than its colour, as a share of the colour.
+/// By what share of its colour fully smooth metal is drawn darker.
 const METAL_DARK: f32 = 0.2;
 
-/// A surface glows, and is drawn by its emission alone, if that is brighter than its colour times this.
+/// A surface glows if its emission is brighter than its colour times this. It is then drawn by its emission alone.
 const GLOWS: f32 = 1.0;
 
 /// The file's materials, and last the one for primitives that name none. Pictures that cannot be used are left out with
@@ -32,8 +32,8 @@ pub(super) fn of(path: &Path, gltf: &Gltf, warnings: &mut Vec<Problem>) -> Vec<M
         let used = shown_picture(stated).map(|used| &gltf.textures[used.texture]);
         let texture = used.and_then(|used| used.image).and_then(|image| picture(image, warnings));
         let sampler = used.map_or(Sampler::default(), |used| used.sampler);
-        // Alpha is in the base colour's picture, which a glowing surface does not show. Only a cutoff that hides all
-        // still counts.
+        // Alpha is in the base colour's picture, which a glowing surface does not show. Only a cutoff that hides
+        // everything still counts.
         let cutoff = cutoff(stated).filter(|cutoff| !glows || *cutoff > 1.0);
         if stated.alpha == AlphaMode::Blend && cutoff.is_some_and(|cutoff| cutoff > 1.0) {
             warnings.push(unseen(path, materials.len(), &stated.name));
@@ -44,8 +44,8 @@ pub(super) fn of(path: &Path, gltf: &Gltf, warnings: &mut Vec<Problem>) -> Vec<M
     materials
 }
 
-/// The alpha of the picture below which there is no surface; `None` for an opaque material. Strokes are there or not,
-/// so a blended material is cut where it is half clear.
+/// The alpha of the picture below which there is no surface; `None` for an opaque material. A stroke cannot be half
+/// there, so a blended material is cut off where it is half transparent.
 fn cutoff(stated: &Stated) -> Option<f32> {
     const HALF: f32 = 0.5;
     let of_all = match stated.alpha {

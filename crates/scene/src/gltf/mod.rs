@@ -49,8 +49,8 @@ pub(crate) struct GltfFile {
 /// Reads a glTF file with the files that it names. These must lie in `root`, the scene's folder, or in `folders`.
 ///
 /// # Errors
-/// All errors, each with its JSON pointer, as [`impasto_gltf::read`] finds them; or that the file or its sidecar cannot
-/// be read.
+/// All errors that [`impasto_gltf::read`] finds, each with its JSON pointer; or an error that the file or its sidecar
+/// cannot be read.
 pub(crate) fn open(
     path: &Path,
     root: &Path,
@@ -156,8 +156,8 @@ impl GltfFile {
         self.gltf.nodes.iter().position(|node| node.name == name)
     }
 
-    /// A key that is equal for nodes with equal meshes. `None` if there is no such mesh, or if it depends on more than
-    /// the file's mesh and its stretch.
+    /// A key that is equal for nodes with equal meshes. `None` if there is no such node, if the node has no mesh, or if
+    /// its mesh depends on more than the file's mesh and the stretch.
     pub fn instance_key(&self, name: &str) -> Option<InstanceKey> {
         let index = self.node(name)?;
         let node = &self.gltf.nodes[index];

@@ -37,7 +37,7 @@ pub(crate) struct Sidecar {
     /// Which camera is looked through, and from which frame on.
     #[serde(default)]
     pub cuts: Vec<Cut>,
-    /// The shift of the lens of a camera, by the name of its node.
+    /// The lens shifts of each camera, by the name of its node.
     #[serde(default)]
     shifts: BTreeMap<String, Shift>,
     /// Point caches by the name of a node; paths are relative to the glTF file.
@@ -54,7 +54,7 @@ pub(crate) struct Sidecar {
     pub exposure_stops: f32,
 }
 
-/// From a frame on, a camera is looked through.
+/// A cut: from this frame on, the picture is seen through this camera.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub(crate) struct Cut {
     pub frame: f64,
@@ -62,7 +62,8 @@ pub(crate) struct Cut {
     pub camera: String,
 }
 
-/// Shifts frame by frame: added to where things show, in half widths and half heights of the camera's own picture.
+/// Lens shifts, one for each frame. They are added to positions in the picture, in half widths and half heights of the
+/// camera's own picture.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 struct Shift {
     /// The frame of the first shift.
@@ -79,7 +80,7 @@ pub(crate) fn path_beside(path: &Path) -> PathBuf {
 /// Reads the sidecar of a glTF file. A file without one gets a sidecar that states nothing.
 ///
 /// # Errors
-/// It cannot be read, or says what makes no sense.
+/// It cannot be read, or something that it states makes no sense.
 pub(super) fn read(path: &Path, root: &Path, folders: &AssetFolders) -> Result<Sidecar, Report> {
     let beside = path_beside(path);
     if !beside.exists() {

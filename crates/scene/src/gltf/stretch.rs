@@ -6,7 +6,7 @@ use glam::DMat3;
 /// A stretch counts as an even scale if it differs from an even scale by at most this share.
 const EVEN: f64 = 1e-5;
 
-/// The most steps of the iteration; each doubles the digits that are right.
+/// The most steps of the iteration; each doubles the number of correct digits.
 const STEPS: usize = 60;
 
 /// The symmetric stretch S of `matrix` = Q S with a turn Q (polar decomposition, Higham 1986). For a mirroring matrix

@@ -190,7 +190,7 @@ fn uvs_of(file: &GltfFile, primitive: &Primitive) -> Option<Vec<Vec2>> {
 #[derive(Default)]
 struct Joined {
     geometry: Geometry,
-    /// Where the geometry's vertices come from; empty unless it keeps vertices apart.
+    /// Where the geometry's vertices come from; empty unless its `keeps_vertices` is set.
     runs: Vec<Run>,
     groups: Vec<String>,
     group_of_face: Vec<u32>,
@@ -253,8 +253,8 @@ impl Joined {
         self.material_of_face.extend(std::iter::repeat_n(material, faces));
     }
 
-    /// The mesh and, if vertices are kept apart, the joined vertex from which each of its vertices comes. `None`
-    /// without triangles.
+    /// The mesh, and for each of its vertices the index of the joined vertex from which it comes (empty unless
+    /// `keeps_vertices` is set). `None` without triangles.
     fn finish(self, file: &GltfFile) -> Option<(MeshFile, Vec<u32>)> {
         let Built { mut mesh, face_of_triangle: faces, source_of_vertex } =
             Builder::new(&self.geometry).finish();

@@ -148,7 +148,8 @@ impl LoadedScene {
         known
     }
 
-    /// The old warnings about files that are still in use: these are not read again, so the warnings would be lost.
+    /// The old warnings about files that are still in use. Those files are not read again, so their warnings would be
+    /// lost.
     fn warnings_of_files<T>(&self, still_named: &BTreeMap<String, T>) -> Vec<Problem> {
         let is_dropped = |problem: &Problem| {
             let mut dropped = self.meshes.keys().filter(|name| !still_named.contains_key(*name));

@@ -31,7 +31,7 @@ impl Applied {
     }
 }
 
-/// The document with all values put in, in the order of the command line.
+/// Puts all values into the document, in the order of the command line.
 pub(super) fn apply(
     mut parsed: Parsed,
     overrides: &[(String, String)],

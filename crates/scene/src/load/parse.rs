@@ -66,7 +66,7 @@ pub(super) fn parse_with<T>(
     Err(Report(problems))
 }
 
-/// Whether a field is missing only because it was mistyped, which is one fault and is reported already.
+/// Whether a field is missing only because its name was mistyped. The mistyped name is reported already.
 fn is_mistyped(error: &SpannedError, problems: &[Problem]) -> bool {
     let ron::Error::MissingStructField { field, .. } = &error.code else { return false };
     let suggestion = did_you_mean(field);
@@ -133,8 +133,8 @@ pub(super) fn options() -> ron::Options {
         .with_recursion_limit(2 * limits::MAX_NESTING)
 }
 
-/// The first field that `text` leaves out although only a scene with a shot may leave it out: its name, and the offset
-/// at which it could be added.
+/// The first missing field that only a scene with a shot may leave out: its name, and the offset at which it could be
+/// added. Whether the scene has a shot is not checked here. A field that was blanked out counts as missing.
 fn left_to_shot(located: &Located, text: &str) -> Option<(&'static str, usize)> {
     fn field<'a>(located: &'a Located, text: &str, node: &'a Node, name: &str) -> Option<&'a Node> {
         let Inside::Fields(fields) = &node.inside else { return None };

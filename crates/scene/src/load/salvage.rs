@@ -64,7 +64,8 @@ pub struct Loss {
 /// Reads as much of a scene file as can be read. Of `options`, only the folders are used.
 ///
 /// # Errors
-/// Where there is nothing to open: no file, no text, a newer version, more than this build allows.
+/// There is nothing to open: the file is missing or is not text, its version is newer, or it exceeds a limit of this
+/// build.
 pub fn salvage(path: &Path, options: &LoadOptions) -> Result<Salvaged, Report> {
     let alone = |problem| Report(vec![problem]);
     let bytes = source::read(path).map_err(alone)?;
@@ -347,8 +348,8 @@ impl Reading<'_> {
         true
     }
 
-    /// Overwrites the [`removable_range`] of a field or item with spaces; if that is overwritten already, the one of
-    /// the value around it instead.
+    /// Overwrites the [`removable_range`] of a field or item with spaces. If that range is overwritten already,
+    /// overwrites the range of the value around it.
     fn blank_for(&mut self, located: &Located, field_path: &str, loss: Listed) -> Result<(), Report> {
         let mut path = field_path.to_owned();
         loop {
@@ -390,8 +391,8 @@ impl Reading<'_> {
     }
 }
 
-/// The range of text to overwrite for a field, with its comma: that of the innermost field or list item on its path
-/// that the text states. `None` if only spaces are left of it.
+/// The range of text to overwrite in order to remove a field. It covers the innermost field or list item on the field's
+/// path that the text states, with the comma behind it. `None` if only spaces are left there.
 fn removable_range(located: &Located, field_path: &str, left: &str) -> Option<std::ops::Range<usize>> {
     let mut node = located.root();
     let mut range = None;

@@ -1,4 +1,4 @@
-//! Reads the file of a preset of the user's own: stroke settings for other scenes.
+//! Reads a preset file that a user has made: stroke settings for other scenes.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use crate::new_scene;
 use crate::problem::{Problem, Report};
 use crate::strokes_file::StrokesFile;
 
-/// The end of the name of such a file.
+/// The end of a preset file's name.
 pub const ENDING: &str = ".strokes.ron";
 
 /// Whether a file is a preset, by its name.
@@ -83,12 +83,12 @@ pub fn load(path: &Path) -> Result<StrokesFile, Report> {
     if problems.is_empty() { Ok(preset) } else { Err(Report(problems)) }
 }
 
-/// A scene with the preset's settings, to be checked as those of a scene are.
+/// A scene with the preset's settings, so that they can be checked like those of a scene.
 fn in_scene(preset: &StrokesFile) -> Scene {
     Scene { strokes: preset.strokes.clone(), ..new_scene::empty() }
 }
 
-/// A problem of the parser in the words for a preset.
+/// Rewords a problem of the parser, which speaks of a scene, for a preset.
 fn of_preset(problem: Problem) -> Problem {
     let message = problem
         .message

@@ -123,8 +123,8 @@ impl<'a> Scanner<'a> {
                 items.push(key);
             }
         }
-        // One pair of brackets with both fields and values without names is not valid RON, which the parser reports.
-        // Here only the fields are kept.
+        // Brackets that hold both fields and unnamed values are not valid RON; the parser reports them. Only the fields
+        // are kept here.
         Ok(if fields.is_empty() { Inside::Items(items) } else { Inside::Fields(fields) })
     }
 

@@ -1,4 +1,4 @@
-//! Tests of what a shot moves, with a shot whose values tell the time for which it was asked.
+//! Tests of what a shot moves. They use a shot whose values are the time at which it is evaluated.
 
 use std::sync::Arc;
 
@@ -80,7 +80,8 @@ fn time_of(posed: &Posed) -> f64 {
     posed.world_from_node[0].translation.x
 }
 
-/// Ten frames a second; `thing` of the shot twice, the second held for three frames, and another object.
+/// A scene with ten frames a second and three objects: the shot's `thing` twice, the second one held for three frames,
+/// and an object that is not the shot's.
 fn scene() -> Scene {
     let mut scene = crate::new_scene::empty();
     scene.timeline.fps = 10.0;

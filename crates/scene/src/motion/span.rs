@@ -33,7 +33,7 @@ impl Span {
         left + (right - left) * self.share
     }
 
-    /// As [`Span::mix`], for a value that no overshoot may take out of these limits.
+    /// As [`Span::mix`], but where the ease overshoots, the value is clamped to these limits.
     pub(crate) fn mix_within(&self, left: f64, right: f64, limits: RangeInclusive<f64>) -> f64 {
         let mixed = self.mix(left, right);
         if self.overshoots() { mixed.clamp(*limits.start(), *limits.end()) } else { mixed }

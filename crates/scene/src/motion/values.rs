@@ -26,8 +26,8 @@ pub fn lights_at(scene: &Scene, frame: f64) -> Vec<Light> {
     scene.lights.iter().map(at_frame).collect()
 }
 
-/// A light of a scene at a frame: the light with its values at that moment and without keys. A light of the shot that
-/// has no keys in the scene is as the shot has it then.
+/// A light of a scene at a frame: the light with its values at that moment and without keys. A light that comes from
+/// the shot and has no keys in the scene takes its values from the shot.
 pub fn light_at(scene: &Scene, light: &Light, frame: f64) -> Light {
     match scene.stage.shot.as_ref().filter(|_| light.keys.is_empty()) {
         Some(shot) => shot.light(light, &shot.at(frame / scene.timeline.fps)),
@@ -58,7 +58,7 @@ fn keyed(light: &Light, frame: f64) -> Light {
     }
 }
 
-/// What keys do to strokes at a frame, as a key at that frame.
+/// Interpolates keys of strokes at a frame. The result is a key at that frame.
 pub fn stroke_key_at(keys: &[StrokesKey], frame: f64) -> StrokesKey {
     let Some(span) = Span::at(keys, frame) else { return StrokesKey::at(frame) };
     let (left, right) = (&keys[span.left], &keys[span.right]);
@@ -92,8 +92,8 @@ impl ResolvedStrokes {
         Cow::Owned(strokes)
     }
 
-    /// Frames that show how the strokes change: each key, and three frames between each two keys, or more where the ease may
-    /// overshoot. Frame 0 alone without keys.
+    /// Frames that show how the strokes change: each key, and three frames between two keys, or more where the ease may
+    /// overshoot. Without keys, frame 0 alone.
     pub fn moments(&self) -> Vec<f64> {
         let Some(last) = self.keys.last() else { return vec![0.0] };
         let between = self.keys.windows(2).flat_map(|pair| {
@@ -113,14 +113,14 @@ struct Stated<'a> {
 }
 
 impl Stated<'_> {
-    /// A value at this moment; `own` is that of the light itself, which holds until a key states one.
+    /// A value at this moment. `own` is the light's own value, which holds until a key states one.
     fn mixed<T: Copy>(&self, own: T, of: fn(&LightKey) -> Option<T>, mix: impl Fn(T, T) -> T) -> T {
         let at = |index: usize| self.keys[..=index].iter().rev().find_map(of).unwrap_or(own);
         mix(at(self.span.left), at(self.span.right))
     }
 
-    /// As [`Stated::mixed`], for a value that the light itself may leave out: then the first one that a key states
-    /// holds from the start.
+    /// As [`Stated::mixed`], for a value that the light itself may leave out. If it does, the first value that a key
+    /// states holds from the start.
     fn mixed_if_any<T: Copy>(
         &self,
         own: Option<T>,
@@ -215,7 +215,8 @@ mod tests {
         let dry = strokes.at(10.0).body().dryness;
         assert!((dry - (0.5 + 0.5 * before.body().dryness)).abs() < 1e-6, "{dry}");
         assert_eq!(strokes.moments(), [0.0, 2.5, 5.0, 7.5, 10.0]);
-        // Halfway, an ease that overshoots asks for more strokes than either key: the moments meet that peak.
+        // An ease that overshoots asks for more strokes between the keys than at either of them. The moments come near
+        // that peak.
         scene.strokes.keys[0].ease = Ease::Curve([0.1, 3.0], [0.4, 3.0]);
         let swung = presets::resolve(&scene, None);
         let coverage_at = |frame: f64| swung.at(frame).body().coverage;

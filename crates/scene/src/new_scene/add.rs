@@ -13,8 +13,8 @@ use crate::limits;
 use crate::mesh_file::MeshFile;
 use crate::motion;
 
-/// Colours of regions in overlays, distinguishable with colour blindness too (Krzywinski's twelve); those that
-/// follow each other here differ most.
+/// Colours of regions in overlays, distinguishable with colour blindness too (Krzywinski's twelve); neighbours in this
+/// list differ most.
 pub const REGION_COLORS: [Color; 12] = [
     rgb(0x00, 0x8d, 0xf9),
     rgb(0xff, 0xc3, 0x3b),
@@ -34,7 +34,8 @@ const fn rgb(red: u8, green: u8, blue: u8) -> Color {
     Color([red as f32 / 255.0, green as f32 / 255.0, blue as f32 / 255.0])
 }
 
-/// A mesh with more groups (or materials) than this gets no regions from them: they hardly stand for things to paint.
+/// A mesh with more groups (or materials) than this gets no regions from them: so many are hardly separate things to
+/// paint.
 const MOST_REGIONS: usize = 64;
 
 /// Gap between a new object and the others, as a share of its width or depth, whichever is larger.

@@ -136,7 +136,7 @@ impl Footing {
     }
 }
 
-/// The diagonal of a box; 1 for a mesh that is one point, which gets a camera and a ground all the same.
+/// The diagonal of a box; 1 for a mesh that is a single point, so that it still gets a camera and a ground.
 fn diagonal(low: DVec3, high: DVec3) -> f64 {
     let size = (high - low).length();
     if size > 0.0 && size.is_finite() { size } else { 1.0 }

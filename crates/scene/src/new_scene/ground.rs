@@ -84,7 +84,7 @@ impl Ground {
         if self == Self::Backdrop { scheme.background() } else { scheme.plain_ground() }
     }
 
-    /// The ground that an object is; `None` for any other object.
+    /// The kind of ground that an object is; `None` if the object is no ground.
     pub fn of_object(object: &Object) -> Option<Self> {
         match object.mesh.as_str() {
             built_in_mesh::BACKDROP => Some(Self::Backdrop),
@@ -98,9 +98,9 @@ impl Ground {
         scene.objects.iter().find_map(Self::of_object).unwrap_or(Self::Plain)
     }
 
-    /// Lays this ground under the objects of a scene, as [`for_mesh`](super::for_mesh) lays it under a new model: turned
-    /// to the camera, under the objects' rest shapes as they stand at the reference frame. `color` is that of the
-    /// ground; `None` chooses one. A background that no ground has given to the scene stays.
+    /// Lays this ground under the objects of a scene, as [`for_mesh`](super::for_mesh) lays it under a new model:
+    /// turned to the camera, under the objects' rest shapes as they stand at the reference frame. `color` is that of
+    /// the ground; `None` chooses one. The scene's background changes only if it is the default or comes from a ground.
     ///
     /// # Errors
     /// Why there can be no floor; nothing is laid then.
@@ -127,12 +127,12 @@ impl Ground {
         let mut colored = chosen.clone();
         colored.ground = color.unwrap_or(chosen.ground);
         let keeps_background = is_of_no_ground(scene.background, [&chosen, &colored]);
-        // The colour of a plain ground is chosen, so that it is known again as one that nobody set.
+        // A plain ground always gets the chosen colour. So it is recognized later as a colour that nobody set.
         let scheme = if self == Self::Plain { chosen } else { colored };
         let taken: Vec<&str> = scene.objects.iter().map(|object| object.name.as_str()).collect();
         let laid = self.lay(&footing, &scheme, &taken, name_hash);
         scene.objects.extend(laid.object);
-        // First, so that the regions that a person has made win.
+        // Inserted first, because later regions win: those that a person has made take precedence.
         let taken: HashSet<&str> = scene.regions.iter().map(|region| region.name.as_str()).collect();
         let named = |region: Region| Region { name: add::unique(&region.name, &taken), ..region };
         let regions: Vec<Region> = laid.regions.into_iter().map(named).collect();
@@ -144,7 +144,7 @@ impl Ground {
     }
 }
 
-/// Whether a background is neither the usual one nor one that a ground has with one of these schemes: somebody chose it.
+/// Whether somebody chose this background: it is not the default, and no ground sets it with one of these schemes.
 fn is_of_no_ground(background: Color, schemes: [&Scheme; 2]) -> bool {
     let given =
         schemes.into_iter().flat_map(|scheme| Ground::ALL.map(|(_, ground)| ground.background(scheme)));

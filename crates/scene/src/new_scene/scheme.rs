@@ -13,7 +13,8 @@ use glam::DVec3;
 /// The grey of faces without a material; exporters write it too where nobody has chosen a colour.
 const NO_COLOR: [f32; 3] = [0.8; 3];
 
-/// The light that a well lit middle tone should reflect, before the soft shoulder, and the most for lighter ones.
+/// The light that a well lit middle tone should reflect, before the soft shoulder, and the most that lighter tones
+/// should.
 const BODY_LIGHT: f64 = 0.52;
 const MOST_BODY_LIGHT: f64 = 0.66;
 /// The light that the floor should reflect, and the floor under a dark model.
@@ -86,7 +87,7 @@ impl Scheme {
         let [_, a, b] = oklab_from_linear(mean);
         let chroma = a.hypot(b);
         let hue = if chroma > 0.012 { b.atan2(a).to_degrees() + 180.0 } else { ground[2] };
-        // `high`: all but the lightest twentieth of the surface is darker than this luminance, which must not burn out.
+        // `high` is a luminance that must not burn out: only the lightest twentieth of the surface is lighter.
         let mut values: Vec<(f64, f64)> =
             colors.iter().map(|&(color, area)| (luminance(color), area)).collect();
         values.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -100,7 +101,7 @@ impl Scheme {
     }
 
     /// The scheme for a body and a ground (lightness, chroma and hue), and for the mean and a high albedo of the model.
-    /// The light decides the ground's lightness; the one in `ground` is not used.
+    /// The ground's lightness follows from the light; the lightness in `ground` is not used.
     fn lit(body: Option<[f32; 3]>, ground: [f32; 3], [mean, high]: [f64; 2]) -> Self {
         let high = high.max(1e-3);
         // A dark model stays darker than a light one, but by less than its albedo says.
@@ -184,7 +185,7 @@ fn used(mesh: &MeshFile) -> impl Iterator<Item = (&Material, f64)> {
     mesh.materials.iter().zip(areas).filter(|(_, area)| *area > 0.0)
 }
 
-/// Linear colours of the surface, each with the area that has it; a picture counts as its pixels.
+/// Linear colours of the surface, each with the area that it covers. A texture gives the colours of its pixels.
 fn colors_of(mesh: &MeshFile) -> Vec<([f32; 3], f64)> {
     let mut colors = Vec::new();
     for (material, area) in used(mesh) {

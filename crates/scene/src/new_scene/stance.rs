@@ -1,4 +1,4 @@
-//! How a model of unknown make stands: which of its axes points up, and from which side it is best seen.
+//! How an unknown model stands: which of its axes points up, and from which side it is best seen.
 
 mod upright;
 
@@ -23,16 +23,16 @@ const MIRRORED: f64 = 0.8;
 /// Three quarters from the front, slightly from above.
 const USUAL_VIEW: DVec3 = DVec3::new(0.5, 0.27, 0.9);
 
-/// How far the eye of the best view is above the model's middle, over its level distance. The first is for models at
-/// most 0.6 times as high as wide, the second from 1.6 times on: a low thing is seen from above, a tall one from the
-/// front.
+/// How high above the model's middle the eye of the best view is, divided by its horizontal distance. The first value
+/// is for models at most 0.6 times as high as wide, the second for models at least 1.6 times as high as wide. A low
+/// thing is seen from above, a tall one from the front.
 const RISES: [f64; 2] = [0.38, 0.18];
 
-/// Light comes from the left, unless it lights less than this share of what faces the eye, and light from the right
-/// lights more.
+/// Light comes from the left, unless it would light less than this share of the surface that faces the eye, and light
+/// from the right would light more.
 const LEAST_LIT: f64 = 0.36;
 
-/// What the back of a triangle counts in a view, where its front counts 1.
+/// Weight of a triangle's back in a view; its front has weight 1.
 const BACK: f64 = 0.25;
 
 /// How a model stands.
@@ -51,7 +51,7 @@ pub(super) struct Stance {
 /// From which side a model is seen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ViewFrom {
-    /// Three quarters from the front, which is the side with the most form.
+    /// Three quarters from the front. The side that shows the most small form is taken as the front.
     #[default]
     Auto,
     /// From +Z of the upright model.
@@ -72,7 +72,7 @@ pub enum ViewFrom {
 pub(super) struct Samples {
     points: Vec<DVec3>,
     normals: Vec<DVec3>,
-    /// Of the triangles that the samples lie on: a box with smooth normals has flat sides all the same.
+    /// Normals of the triangles that the samples lie on. Even a box with smooth normals has flat sides.
     face_normals: Vec<DVec3>,
     /// Whether each lies on the back of a sheet. A closed shell that is inside out has no backs.
     flipped: Vec<bool>,
@@ -107,7 +107,7 @@ impl Samples {
         }
     }
 
-    /// The stance: `up` and `view` as the user states them, and what is left open as the samples suggest.
+    /// The stance. `up` and `view` are as the user states them; the samples decide what the user leaves open.
     pub fn stance(&self, up: Option<Up>, view: ViewFrom) -> Stance {
         let (found, up_is_unsure) = match up {
             Some(up) => (up, false),
@@ -143,7 +143,7 @@ impl Samples {
         if seen > 0.0 { lit / seen } else { 1.0 }
     }
 
-    /// Whether it has hardly any extent along one of its axes.
+    /// Whether the model has hardly any extent along one of its axes.
     fn is_flat(&self) -> bool {
         let [low, high] = self.bounds();
         let size = high - low;
@@ -194,11 +194,11 @@ impl Samples {
                 [1.0, -1.0].map(|side| forward * yaw.cos() + right * (side * yaw.sin()) + DVec3::Y * rise);
             let mut seen = views.map(|view| self.form_seen(view.normalize(), &bent));
             if along_z || along_x {
-                // Both sides show the same: what differs is by chance of the samples.
+                // Both sides look the same: a difference is only noise of the samples.
                 seen = [(seen[0] + seen[1]) / 2.0; 2];
             }
-            // Heads are carried high and forward, but of flat things the tail is high. Of equal views the usual one:
-            // +Z is the front of most files.
+            // A head is high and at the front. A flat thing, such as an aircraft, has a high tail instead, so there the
+            // lean does not count. +Z is favoured, because it is the front in most files.
             let ahead = 1.0 + head * lean.dot(forward).clamp(-1.0, 1.0);
             let usual = ahead * if forward == DVec3::Z { front } else { 1.0 };
             for (view, worth) in views.into_iter().zip([seen[0] * usual * 1.03, seen[1] * usual]) {
@@ -216,7 +216,7 @@ impl Samples {
         [low, self.points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max)]
     }
 
-    /// How far the upper third lies to the side of the model's middle, in halves of the model's level extent.
+    /// Horizontal offset of the model's upper third from its middle, in halves of the larger horizontal extent.
     fn lean(&self) -> DVec3 {
         let [low, high] = self.bounds();
         let middle = (low + high) / 2.0;
@@ -254,9 +254,8 @@ impl Samples {
         self.points.iter().zip(&self.normals).map(of).collect()
     }
 
-    /// How much bent surface an eye in this direction sees; backs of triangles, as of a room seen from outside, count
-    /// little. In each cell of the picture, samples behind the foremost
-    /// are hidden.
+    /// How much bent surface an eye in this direction sees. Backs of triangles count little, for example those of a
+    /// room seen from outside. In each cell of the picture, samples behind the foremost are hidden.
     fn form_seen(&self, towards_eye: DVec3, bent: &[f64]) -> f64 {
         let right = DVec3::Y.cross(towards_eye).normalize_or(DVec3::X);
         let up = towards_eye.cross(right);
@@ -309,7 +308,7 @@ impl ViewFrom {
     }
 }
 
-/// The normal of the triangle that a sample lies on, on the side of the sample's own.
+/// The normal of the triangle that a sample lies on, turned to the same side as the sample's own normal.
 fn face_normal(mesh: &MeshFile, sample: &Particle) -> DVec3 {
     let own = sample.normal.as_dvec3();
     let [a, b, c] = mesh.mesh.corners(sample.triangle as usize).map(|corner| corner.as_dvec3());

@@ -44,7 +44,7 @@ fn material(color: [f32; 3]) -> crate::mesh_file::Material {
     crate::mesh_file::Material::plain(String::new(), color)
 }
 
-/// Boxes as one mesh, in one group each.
+/// Boxes as one mesh. Each box is a group of its own.
 fn boxes(corners: &[[[f32; 3]; 2]]) -> MeshFile {
     let mut all = box_between(Vec3::ZERO, Vec3::ONE, false);
     all.mesh = TriangleMesh::default();
@@ -305,7 +305,7 @@ fn a_ground_that_is_chosen_later_is_the_one_of_a_new_scene() {
         let wanted = on(ground);
         let mut scene = on(Ground::Plain);
         assert_eq!(ground.lay_under(&mut scene, &meshes, None), Ok(()));
-        // The camera is stated in rounded numbers, so the ground may differ by as much.
+        // The camera is stated in rounded numbers, so the ground may be off by that rounding.
         for (object, other) in scene.objects.iter_mut().zip(&wanted.objects) {
             for (key, other) in object.keys.iter_mut().zip(&other.keys) {
                 let apart = DVec3::from(key.translation).distance(DVec3::from(other.translation));
@@ -326,7 +326,7 @@ fn a_ground_that_is_chosen_later_is_the_one_of_a_new_scene() {
     let material = scene.objects[1].material.as_ref().unwrap();
     assert_eq!(material.color, Some(Color([0.1, 0.7, 0.2])));
 
-    // A background that a coloured ground gave goes with it.
+    // A background that came from a coloured ground is replaced with the ground.
     let mut scene = on(Ground::Plain);
     let usual = scene.background;
     assert_eq!(Ground::Vignette.lay_under(&mut scene, &meshes, green), Ok(()));
@@ -343,7 +343,7 @@ fn a_ground_that_is_chosen_later_is_the_one_of_a_new_scene() {
     let mut hidden = on(Ground::Plain);
     hidden.objects[0].hidden = true;
     assert_eq!(laid(&mut hidden), Err(NoGround::NothingStands));
-    // Names that are taken get a number, and the background of a plain ground is known as such.
+    // A name that is taken gets a number. The background of a plain ground is recognized, and replaced.
     let mut crowded = on(Ground::Plain);
     for name in ["backdrop", "wall", "the backdrop"] {
         crowded.objects.push(Object { hidden: true, ..Object::new(name, "x.obj") });
@@ -460,7 +460,7 @@ fn a_model_without_colours_gets_one_by_its_name_and_its_groups_neighbouring_ones
         assert!((0.01..0.45).contains(&apart), "{own:?} beside {first:?}");
         assert_eq!(object.parent.as_deref(), Some("box 0"));
     }
-    // Colours that are there stay.
+    // A model's own colours stay.
     let mut red = plain.clone();
     red.materials = vec![material([0.9, 0.1, 0.1])];
     assert_eq!(placed(Path::new("x.obj"), &red).objects[0].material, None);

@@ -15,7 +15,7 @@ use crate::texture;
 /// How many different names of MTL files are looked for.
 const MAX_LIBRARIES: usize = 256;
 
-/// The most pixels that the pictures of one model keep together: 512 MiB, eight pictures of 4096 x 4096.
+/// The most pixels that the pictures of one model may have together: 512 MiB, eight pictures of 4096 x 4096.
 const MAX_KEPT_PIXELS: usize = 1 << 27;
 
 /// How many warnings about files that were not found are reported one by one.

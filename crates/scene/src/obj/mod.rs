@@ -79,8 +79,8 @@ pub(crate) fn read_for(
     Ok((MeshFile { mesh, groups: checked.groups.list, materials, bend: None, points }, warnings))
 }
 
-/// The files that must be copied with an OBJ file in `root` to another folder: the MTL files and pictures that it names
-/// and that are found in `root`. Pictures are not opened.
+/// The files that must come along when an OBJ file in `root` is copied to another folder: the MTL files and pictures
+/// that the OBJ file names and that are found in `root`. Pictures are not opened.
 ///
 /// # Errors
 /// A [`Report`] where the file can not be read or has errors.

@@ -1,4 +1,4 @@
-//! The points of an OBJ file, its `v` lines: which of them each corner names.
+//! The points of an OBJ file (its `v` lines), and the point that each corner of a face names.
 
 use std::io::BufRead as _;
 

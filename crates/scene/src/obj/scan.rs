@@ -56,7 +56,7 @@ pub(super) struct Piece {
     pub faces: Vec<u32>,
     /// Which indices each corner of the plain faces has, see [`gives`].
     pub corners: Vec<u8>,
-    /// At least the highest indices of the plain faces; a face that proves not plain at its end can raise them further.
+    /// The highest indices of the plain faces.
     pub highest: Indices,
     pub rest: Vec<Rest>,
 }

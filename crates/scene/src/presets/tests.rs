@@ -166,7 +166,7 @@ fn the_order_of_layers_is_the_scenes_or_the_usual_one() {
     kinds.reverse();
     kinds.swap(0, 3);
     assert_eq!(order(names(kinds)), kinds);
-    // What `check` refuses counts as none.
+    // An order that `check` refuses counts as no order.
     assert_eq!(order(names(kinds)[1..].to_vec()), LayerKind::ALL);
     assert_eq!(order(vec!["body".to_owned(); 7]), LayerKind::ALL);
 }

@@ -10,7 +10,7 @@ use crate::gltf::GltfFile;
 /// The far depth of a camera that states none, over its near depth.
 const FARTHEST: f64 = 1e5;
 
-/// The lens for a picture of this size in pixels: all that the camera's own picture shows is inside.
+/// The lens for a picture of this size in pixels. The picture shows at least all that the camera's own picture shows.
 pub(super) fn lens_in(lens: ShotLens, (width, height): (u32, u32)) -> Lens {
     let aspect = f64::from(width.max(1)) / f64::from(height.max(1));
     match lens {
@@ -113,8 +113,8 @@ impl Shot {
         let node_data = &self.file.gltf.nodes[node];
         let own = posed.lenses[node_data.camera?];
         let lens = lens_in(own, size);
-        // The sidecar's shift is in half widths and half heights of the camera's own picture. The scene's is in half
-        // heights of this picture, which shows more if its aspect is another.
+        // The sidecar's shift is in half widths and half heights of the camera's own picture. The scene's shift is in
+        // half heights of the picture that is painted, which shows more if its aspect differs.
         let own_half = half_size(own);
         let half_height = match lens {
             Lens::Perspective { fov_y_deg, .. } => (0.5 * fov_y_deg.to_radians()).tan(),

@@ -7,8 +7,9 @@ use impasto_gltf::{LightKind as ShotKind, LightProperty, LightValues, Posed, Tar
 use super::Shot;
 use crate::document::{Color, Light, LightKind};
 
-/// The intensity, in a scene, of a sun of one watt per square metre. A white surface is then as bright as in the
-/// program that made the shot: 1/π, divided by the factor (about 0.7) by which the soft shoulder darkens middle values.
+/// The intensity that a sun of one watt per square metre gets in a scene. It makes a white surface as bright as in the
+/// program that made the shot. That brightness is 1/π; the soft shoulder darkens middle values to about 0.7 of theirs,
+/// so the intensity is 1/π divided by 0.7.
 const OF_WATT: f64 = 0.455;
 
 /// Lux per watt per square metre, as exporters convert.
@@ -22,14 +23,14 @@ const MOST: f64 = 1.7;
 /// `MOST`.
 const NO_LUX: f64 = 0.01;
 
-/// Light below `LEAST`, as a share of it, is raised to this power, which lifts it: a night stays dark, and its strokes
-/// can be seen.
+/// Light below `LEAST` is lifted: its share of `LEAST` is raised to this power. A night stays dark, but its strokes can
+/// be seen.
 const DARKNESS: f64 = 0.6;
 
-/// The soft light all around, which no exporter writes: as a share of the suns' light, and of the lamps' light.
+/// The ambient light, which no exporter writes: as a share of the suns' light, and of the lamps' light.
 const AROUND: [f64; 2] = [0.11, 0.25];
 
-/// The tint of the soft light all around, like that of a sky, sRGB.
+/// The tint of the ambient light, like that of a sky, sRGB.
 const OF_SKY: [u8; 3] = [0xcf, 0xdc, 0xf2];
 
 /// A lamp counts as at least this far from an object, as a share of the size of the scene.
@@ -41,12 +42,12 @@ fn luma(color: [f64; 3]) -> f64 {
 }
 
 impl Shot {
-    /// A light's intensity in the scene over that in the file, and the intensity of the soft light all around. A shot
-    /// is as bright as in the program that made it, within limits: it is dimmed where whites would burn out, and lifted
-    /// where it is dark.
+    /// A light's intensity in the scene over that in the file, and the intensity of the ambient light. A shot is as
+    /// bright as in the program that made it, within limits: it is dimmed where whites would burn out, and lifted where
+    /// it is dark.
     pub(super) fn found_exposure(&self) -> (f64, f64) {
         let [suns, lamps] = self.light_at_middle().map(|lux| lux / LUX_PER_WATT * OF_WATT);
-        // Light from all around shines on a surface from half of the sphere, which makes π times the radiance.
+        // Ambient light reaches a surface from half of the sphere, which makes π times the radiance.
         let world = self.file.sidecar.world.unwrap_or_default();
         let found = suns + lamps + luma(world) * std::f64::consts::PI * OF_WATT;
         if !(suns + lamps > 0.0 && found.is_finite()) {
@@ -121,7 +122,7 @@ impl Shot {
         self.has_lights().then(|| Color::from_hex(&Color(sky).to_hex()).unwrap_or_default())
     }
 
-    /// The lights as they are at rest and, if there are any, a soft light all around.
+    /// The lights as they are at rest and, if there are any, an ambient light.
     pub(super) fn lights_at_rest(&self) -> Vec<(Light, Option<usize>)> {
         let mut lights: Vec<(Light, Option<usize>)> = self
             .light_nodes()
@@ -141,7 +142,7 @@ impl Shot {
         lights
     }
 
-    /// The light all around: what surfaces give each other, and what the world brings.
+    /// The ambient light: what surfaces reflect onto each other, and what comes from the world.
     fn light_around(&self) -> Light {
         let tint = Color::from_bytes(OF_SKY);
         let (color, intensity) = match self.file.sidecar.world {

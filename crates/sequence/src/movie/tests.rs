@@ -54,7 +54,7 @@ fn encoding(path: &Path, transparent: bool) -> &'static Encoding {
 /// A picture of patches: a column for each colour, a row for each alpha.
 struct Patches {
     alphas: &'static [u8],
-    /// The last patches are wider and higher by so much, so that the sides can be odd.
+    /// The last patches are this much wider and higher, so that the sides can be odd.
     extra_px: usize,
 }
 

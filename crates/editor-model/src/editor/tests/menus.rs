@@ -20,7 +20,7 @@ fn a_right_click_selects_what_is_there_and_asks_for_its_menu() {
     let apple = Item::Object("apple".to_owned());
     assert_eq!(right_click(&mut editor, at), [Request::Menu(Some(apple.clone()))]);
     assert_eq!(editor.document().selection(), &Selection::only(apple.clone()));
-    // What is selected already stays so: the menu is for all of it.
+    // A click on a selected thing leaves the selection as it is: the menu is for everything that is selected.
     let both: Selection = [apple.clone(), Item::Object("wall".to_owned())].into_iter().collect();
     editor.select(both.clone());
     assert_eq!(right_click(&mut editor, at), [Request::Menu(Some(apple))]);
@@ -51,7 +51,7 @@ fn a_right_press_that_cancels_or_drags_asks_for_no_menu() {
     assert!(!editor.is_moving());
     drag(&mut editor, Button::Right, [at, at + DVec2::new(60.0, 0.0)], HERE);
     assert_eq!(editor.take_requests(), []);
-    // A comb under way is dropped, and its release paints nothing.
+    // A right press drops the combing under way. The release of the left button then paints nothing.
     act(&mut editor, Action::Paint);
     event(&mut editor, PointerKind::Press(Button::Left), at, HERE);
     event(&mut editor, PointerKind::Move, at + DVec2::new(60.0, 0.0), HERE);
@@ -99,7 +99,8 @@ fn delete_takes_the_point_under_the_pointer_and_elsewhere_the_whole_guide() {
     event(&mut editor, PointerKind::Move, middle + DVec2::new(60.0, 0.0), HERE);
     act(&mut editor, Action::Delete);
     assert_eq!(guides(&editor)[index].points.len(), points - 1);
-    // From a menu, the pointer is elsewhere: what is selected goes, though a point was under the pointer last.
+    // When Delete comes from a menu, the pointer has left the viewport. It deletes the selection, though the pointer
+    // was last over a point.
     event(&mut editor, PointerKind::Move, middle, HERE);
     event(&mut editor, PointerKind::Leave, middle, HERE);
     act(&mut editor, Action::Delete);

@@ -70,7 +70,7 @@ fn keys_that_a_drag_would_replace_are_known_before_and_escape_leaves_no_trace() 
     hand.take(KeysEvent::Cancel, &lanes);
     assert_eq!((hand.dragged(), hand.selected()), (None, &[apple(60.0)][..]));
     assert_eq!(hand.take(KeysEvent::Release, &lanes), None);
-    // A dragged key does not replace another that is dragged too; copies do, since the keys themselves stay.
+    // A dragged key does not replace another dragged key. A copy does, because the keys themselves stay.
     hand.take(KeysEvent::Press { at: at(96.0, 1), key: Some(apple(96.0)), adds: true }, &lanes);
     hand.take(KeysEvent::Move(at(132.0, 1)), &lanes);
     assert_eq!(hand.dragged().map(|dragged| dragged.by), Some(36.0));
@@ -166,7 +166,7 @@ fn lights_background_and_strokes_have_lanes_once_they_have_keys() {
     }
     let lanes_now = lanes(&document);
     assert_eq!(lanes_now[before..].iter().map(|lane| lane.of.clone()).collect::<Vec<_>>(), owners);
-    // A value is put at a frame, and the rest of the light stays as it was there.
+    // Puts one value at a frame. The light's other values at that frame do not change.
     let intensity = document.lights[0].intensity;
     let stated = LightKey { intensity: Some(9.0), ..LightKey::at(20.0) };
     run(Time::PutValue(KeyedValue::Light(light, stated), 20.0), &mut document);

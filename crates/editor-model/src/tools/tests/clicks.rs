@@ -125,8 +125,8 @@ fn a_click_makes_regions_of_floods_groups_and_materials() {
 #[test]
 fn a_click_that_takes_from_a_region_of_parts_is_asked_about_first() {
     let mut world = World::new();
-    // Taking from the lid is asked about, because somebody chose it, as a group. Taking from the skin is not: it is
-    // the whole ball, which is there to be divided.
+    // The user is asked before the lid loses triangles, because somebody chose this group. The skin is the whole ball,
+    // which is there to be divided, so it may lose triangles without a question.
     world.options.region_does = RegionDoes::New;
     let on_lid = [320.0, 80.0];
     for by in [RegionBy::Flood, RegionBy::Group, RegionBy::Material] {
@@ -144,7 +144,7 @@ fn a_click_that_takes_from_a_region_of_parts_is_asked_about_first() {
     let [made, _] = world.click(Tool::Region, HERE, NONE);
     assert!(made.commit.is_some() && made.ask.is_none(), "taking from the skin is not asked about");
     world.document.undo();
-    // What the region has already is not taken from anybody.
+    // Triangles that the region already has are taken from no other region, so there is no question.
     world.options.region_does = RegionDoes::Add;
     world.select(Item::Region("lid".to_owned()));
     assert!(world.click(Tool::Region, on_lid, NONE)[0].commit.is_some());
@@ -170,7 +170,7 @@ fn f_sizes_the_brush_until_a_press() {
         (world.options.radius_px, sized.status.as_str()),
         (55.0, "Radius 55 px   [Click] keep  [Esc] back")
     );
-    // The ring stays where F was pressed, and shows the radius that it would have.
+    // The ring stays where F was pressed, and shows the new radius.
     let [ring] = &sized.rings[..] else { panic!("{} rings", sized.rings.len()) };
     assert!(ring.at_px.distance(DVec2::from(HERE)) < 1.0, "{}", ring.at_px);
     let reach_px = ring.points_px.iter().map(|at| at.distance(ring.at_px)).fold(0.0, f64::max);

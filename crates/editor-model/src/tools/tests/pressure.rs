@@ -156,8 +156,8 @@ fn the_ring_shows_what_is_painted() {
 
 #[test]
 fn a_press_under_the_string_is_as_hard_as_the_pen_got() {
-    // The hand only trembles, so the string (24 pixels long) is not pulled. A pressure that rose without a movement is
-    // reported by the release.
+    // The pointer trembles by less than the length of the string that steadies strokes (24 pixels), so it does not pull
+    // the string. The release reports the greatest pressure, even if the pressure rose without a movement.
     let width = touched_width(0.2, &[(320.0, 0.02), (322.0, 0.4), (319.0, 0.3), (323.0, 0.1)], 0.6);
     assert!((width - 0.6).abs() < 0.02, "{width}");
 }

@@ -93,7 +93,7 @@ fn lens(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
         _ => {}
     }
     let [near_now, far_now] = depths(&camera.lens);
-    // Without the field of view that a key states here.
+    // The lens as the scene stores it, without the field of view that a key may state at this frame.
     let base = asker.stored().camera.lens.clone();
     let number = Number {
         range: 0.01..=10.0,

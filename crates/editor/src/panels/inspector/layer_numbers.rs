@@ -61,8 +61,8 @@ impl EditedLayer {
         }
     }
 
-    /// The command that shows the layer if it is hidden, else hides it. If the wanted state would hold without being
-    /// stated here, nothing is stated.
+    /// The command that shows the layer if it is hidden, else hides it. It states nothing here if the layer would have
+    /// the wanted state anyway.
     pub(super) fn toggle(self, asker: &Asker<'_, '_>, place: &EditedStrokes<'_>) -> Command {
         let wanted = !self.is_hidden(&place.resolved[1], place.own[1]);
         let unstated = self.without(place.own[1], |layer| layer.hidden = None);
@@ -109,7 +109,7 @@ impl EditedLayer {
 }
 
 impl EditedStrokes<'_> {
-    /// The command that makes `layer` what is stated for the layer of that name.
+    /// The command that replaces what is stated for the layer of this name by `layer`.
     pub(super) fn set_layer(&self, layer: LayerSettings) -> Command {
         self.set(StrokeChange::PaintLayer(Box::new(layer)))
     }

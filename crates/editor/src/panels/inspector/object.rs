@@ -162,7 +162,7 @@ fn material(ui: &mut Ui, asker: &mut Asker<'_, '_>, of_object: [&Object; 2]) {
     };
     let file = asker.shown.document.shown().meshes.get(&object.mesh);
     row(ui, "Colour", |ui| {
-        // With several materials, or a picture, there is no one colour to show: it is white.
+        // With several materials, or a picture, there is no single colour to show, so white is shown.
         let of_mesh = match file.map(|file| &file.materials[..]) {
             Some([only]) if only.texture.is_none() && shown.texture.is_none() => Color(only.color),
             _ => Color::white(),

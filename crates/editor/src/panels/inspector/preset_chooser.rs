@@ -67,7 +67,7 @@ fn list(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, chose
     let shown = asker.shown;
     let picture =
         |key: &str| shown.preset_pictures.get(key).map(|picture| (picture.id(), picture.size_vec2()));
-    // The rule of the published paper holds only for a whole scene.
+    // The preset that follows the published paper works only for a whole scene.
     let built_in = presets::names().filter(|name| !is_region || *name != presets::PAPER_PRESET);
     cards(ui, built_in, |ui, name| {
         if widgets::preset_card(ui, name, picture(name), chosen == name).clicked() && chosen != name {

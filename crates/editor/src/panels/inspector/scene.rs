@@ -1,5 +1,5 @@
-//! The inspector's page for the scene as a whole: size, ground and background of the picture, time, style, strokes of all
-//! regions, reference.
+//! The inspector's page for the scene as a whole: size, ground and background of the picture, time, style, strokes of
+//! all regions, reference.
 
 use egui::Ui;
 use impasto_editor_model::command::{Command, KeyedValue, SceneEdit, StrokesOf, Time};

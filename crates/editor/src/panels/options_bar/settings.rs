@@ -123,7 +123,8 @@ fn steady() -> Setting {
     at(BarPlace::Wide, "Steady", Control::Number(number))
 }
 
-/// What a pen's pressure changes: on the bar once there is a pen, before that in the menu, where it says why it is off.
+/// What a pen's pressure changes. The setting is on the bar once a pen was seen. Before that, it is in the menu, where
+/// it says why it is off.
 fn pressure(has_pen: bool) -> Setting {
     let control = choice!(pressure: [
         Pressure::Off => "Off", "Pressure off";
@@ -192,7 +193,7 @@ fn angle(name: &'static str, get: fn(&mut ToolOptions) -> &mut f64, most: f64) -
     at(BarPlace::Always, "Angle", Control::Number(number))
 }
 
-/// The settings of a tool, in the order of the bar. `has_pen`: a pen that tells its pressure was seen.
+/// The settings of a tool, in the order of the bar. `has_pen`: whether a pen that reports its pressure was seen.
 pub(super) fn of(tool: Tool, options: &ToolOptions, has_pen: bool) -> Vec<Setting> {
     let mut settings = Vec::new();
     match tool {

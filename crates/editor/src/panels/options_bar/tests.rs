@@ -44,7 +44,7 @@ fn german(words: &'static str) -> &'static str {
     }
 }
 
-/// The boxes of all named controls and labels of a bar `wide` points across, in a window `window` points across.
+/// Returns the box of each named control and label. The bar is `wide` points across, the window `window` points.
 fn boxes(session: &Session, (wide, window): (f32, f32), say: Translate) -> Vec<(String, Rect)> {
     let ctx = egui::Context::default();
     ctx.enable_accesskit();
@@ -104,7 +104,8 @@ fn sessions() -> Vec<Session> {
 
 #[test]
 fn long_words_are_never_cut_and_never_overlap() {
-    // The widths of bar and window: beside the right column in the design's two window sizes, and alone in a small one.
+    // Pairs of widths, of the bar and of the window. In the design's two window sizes, the bar is beside the right
+    // column. In the small window it is alone.
     for (wide, window) in [(1000.0, 1280.0), (1584.0, 1920.0), (960.0, 960.0)] {
         for session in sessions() {
             for say in [german as Translate, |words| words] {

@@ -16,7 +16,7 @@ use crate::theme::Theme;
 pub(super) struct Entry {
     /// What it is called.
     pub(super) words: String,
-    /// Its keys; for a preference or a control of the inspector, where it is.
+    /// Its keys. For a preference or a control of the inspector, the place where it is found.
     pub(super) keys: String,
     /// Whether it is on.
     pub(super) on: bool,

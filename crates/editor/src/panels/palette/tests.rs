@@ -47,7 +47,7 @@ fn the_most_likely_command_comes_first() {
 
 #[test]
 fn every_command_that_is_declared_is_found_by_its_name() {
-    // A test in `menus` checks that these are all actions but a few, such as those of a running gesture.
+    // A test in `menus` checks that only a few actions are missing from this list, such as those of a running gesture.
     for action in menus::actions().into_iter().filter(|action| *action != Action::Palette) {
         let is_found = with_entries(object(), |_, entries| {
             let mut found = found(action.name(), entries).into_iter();

@@ -245,7 +245,7 @@ fn with_code(words: &str, font: FontId, colour: Color32) -> LayoutJob {
     job
 }
 
-/// The words with single spaces between them: a piece of the file that is quoted brings its line breaks along.
+/// Joins the words with single spaces. A message may quote a piece of the file together with its line breaks.
 fn in_one_line(words: &str) -> String {
     words.split_whitespace().collect::<Vec<_>>().join(" ")
 }

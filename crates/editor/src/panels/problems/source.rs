@@ -20,7 +20,7 @@ const MAX_EDITED_BYTES: usize = 256 << 10;
 /// Lines that are shown of a longer text.
 const LINES_AROUND: usize = 40;
 
-/// The text that is edited, from one pass to the next.
+/// Keeps the edited text from one pass to the next.
 #[derive(Clone, Default)]
 pub(super) struct Memory {
     /// The text being edited.
@@ -69,7 +69,8 @@ pub fn unread_text(ctx: &Context, document: &Document) -> Option<String> {
     (memory.is_edited() && memory.typed != source.text).then_some(memory.typed)
 }
 
-/// Notes that this text was read into the scene, so that it is no edit any more, whatever is taken back later.
+/// Notes that this text was read into the scene. From then on it does not count as an edit, even if the user undoes the
+/// reading.
 pub fn note_read(ctx: &Context, text: &str) {
     if Memory::load(ctx).typed == text {
         forget_text(ctx);
@@ -177,7 +178,8 @@ fn coloured(text: &str, marked: Option<TextPosition>, tokens: &Tokens) -> Layout
     job
 }
 
-/// Splits a line into what comes before, in and after the word or quoted text that begins at `column`, from 1.
+/// Splits a line into three parts: before, in and after the word or quoted text that begins at `column`. Columns count
+/// from 1.
 fn word_at(line: &str, column: usize) -> [&str; 3] {
     let start = line.char_indices().nth(column.saturating_sub(1)).map_or(line.len(), |(at, _)| at);
     let (before, rest) = line.split_at(start);

@@ -1,4 +1,4 @@
-//! The row of the render sheet for the format: which files, and what EXR files hold beside the colour.
+//! The format row of the render sheet. The user chooses the kind of files, and what EXR files hold beside the colour.
 
 use egui::{Align2, Layout, Rect, Sense, Ui, pos2, vec2};
 use impasto_editor_model::render_settings::{AovChoice, AovGroup, FileKind, RenderSettings};

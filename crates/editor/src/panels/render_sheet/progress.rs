@@ -13,8 +13,8 @@ const PICTURE: egui::Vec2 = egui::Vec2::new(240.0, 135.0);
 const BAR: f32 = 8.0;
 const LINE: f32 = 20.0;
 
-/// Shows the progress as a card under the settings. Returns whether the frames are to be viewed; the button for that is
-/// there if they are `viewable`.
+/// Shows the progress as a card under the settings. Returns whether the user clicked *View frames*. This button is
+/// there if the frames are `viewable`.
 pub(super) fn card(
     ui: &mut Ui,
     progress: &RenderProgress,

@@ -1,5 +1,5 @@
-//! What the timeline's two rulers, of the strip and of the lanes, have in common: the scale from frames to points, the
-//! scrubbing and the drawing.
+//! What the timeline's two rulers share: the scale from frames to points, the scrubbing and the drawing. One ruler
+//! belongs to the strip, the other to the lanes.
 
 use egui::{Align2, Pos2, Rect, Response, Role, Shape, Ui, WidgetInfo, accesskit, pos2, vec2};
 use impasto_editor_model::timeline::TimelineEvent;
@@ -46,7 +46,8 @@ impl FrameScale {
         steps.into_iter().find(|step| *step >= least).unwrap_or(steps[3])
     }
 
-    /// The whole frames at multiples of half a step, each with whether it is a multiple of the whole step.
+    /// The whole frames at multiples of half a step. The flag of each tells whether the frame is a multiple of the
+    /// whole step.
     pub(in crate::panels) fn ticks(self, step: f64) -> impl Iterator<Item = (f64, bool)> {
         let half = step / 2.0;
         let begin = (self.first / half).ceil();

@@ -54,19 +54,19 @@ impl Plot {
         pos2(self.across.x(from + (to - from) * time), self.y(share))
     }
 
-    /// The handle that is here, within what a curve may have.
+    /// The handle whose place in the window is `at`, brought within its limits.
     fn handle(self, [from, to]: [f64; 2], at: Pos2) -> [f64; 2] {
         kept([(self.across.place(at.x) - from) / (to - from), self.share(at.y)])
     }
 }
 
-/// A handle brought within its limits and to thousandths, so that files stay short.
+/// Brings a handle within its limits, and rounds it to thousandths, so that files stay short.
 fn kept([time, share]: [f64; 2]) -> [f64; 2] {
     let rounded = |value: f64| (value * 1000.0).round() / 1000.0;
     [rounded(time.clamp(0.0, 1.0)), rounded(share.clamp(*limits::EASE_Y.start(), *limits::EASE_Y.end()))]
 }
 
-/// The curve of an ease with one handle put elsewhere. Two straight handles are no curve.
+/// The ease with one handle put elsewhere. If this makes both handles straight, the ease is linear and not a curve.
 fn with_handle(ease: Ease, index: usize, handle: [f64; 2]) -> Ease {
     let mut handles = match ease {
         Ease::Curve(first, second) => [first, second],
@@ -125,8 +125,9 @@ fn menu_id(curves: Id) -> Id {
     curves.with("menu")
 }
 
-/// The lane whose curves show: the one whose name was clicked last, if its owner is selected or there is no selection;
-/// else that of the active item, else the first of a selected item, else the first with two keys, else the first.
+/// The lane whose curves show. This is the lane whose name was clicked last, if its owner is selected or nothing is
+/// selected. Otherwise it is the lane of the active item, else the first lane of a selected item, else the first lane
+/// with two keys, else the first lane.
 fn shown_lane<'a>(ui: &Ui, lanes: &'a [Lane], shown: &PanelInput<'_>) -> Option<&'a Lane> {
     let clicked = clicked_lane::last(ui);
     let selection = shown.document.selection();
@@ -177,7 +178,8 @@ pub(super) fn curves(ui: &mut Ui, layout: &LaneLayout<'_>, shown: &PanelInput<'_
         }
     }
     if memory.drag.is_some() && !ui.input(|input| input.pointer.any_down()) {
-        // The handle did not end its drag itself: it no longer shows, as when its key was deleted.
+        // The handle could not end its drag itself, because it no longer shows. Its key may have been deleted, for
+        // example.
         memory.drag = None;
         asks.push(Ask::EndPreview);
     }
@@ -187,7 +189,8 @@ pub(super) fn curves(ui: &mut Ui, layout: &LaneLayout<'_>, shown: &PanelInput<'_
     ui.data_mut(|data| data.insert_temp(id, memory));
 }
 
-/// Called while keys show instead of curves: takes back the drag of a handle during which a shortcut hid the curves.
+/// Called while keys show instead of curves. If a shortcut hid the curves during the drag of a handle, takes that drag
+/// back.
 pub(super) fn leave(ui: &Ui, asks: &mut Vec<Ask>) {
     let id = memory_id();
     let memory = ui.data(|data| data.get_temp::<Memory>(id)).filter(|memory| memory.drag.is_some());
@@ -274,7 +277,7 @@ fn draw(ui: &Ui, plot: Plot, lane: &Lane, chosen: Option<Segment>) {
     }
 }
 
-/// Draws the keys: each at the begin of its curve and at the end of the one before.
+/// Draws each key at the beginning of its own curve and at the end of the curve before.
 fn draw_keys(
     ui: &mut Ui,
     plot: Plot,
@@ -388,7 +391,7 @@ impl Handle<'_> {
         Some(response)
     }
 
-    /// A drag is shown at once, and is one entry of the history when the handle is let go.
+    /// Handles a drag, and previews it at once. The drag becomes one entry of the history when the handle is let go.
     fn drag(&self, ui: &Ui, response: &Response, memory: &mut Memory, asks: &mut Vec<Ask>) {
         if response.drag_started_by(PointerButton::Primary) {
             // With the focus, the handle gets Esc before the window does.
@@ -414,7 +417,7 @@ impl Handle<'_> {
         }
         let to = response.interact_pointer_pos().map(|at| {
             let handle = self.plot.handle(self.segment.frames(), at + drag.off);
-            // A press without a move leaves the ease what it is.
+            // A press without a move does not change the ease.
             let is_moved = handle != kept(drag.before.handles()[self.index]);
             if is_moved { with_handle(drag.before, self.index, handle) } else { drag.before }
         });
@@ -428,8 +431,8 @@ impl Handle<'_> {
     }
 }
 
-/// Where the arrows take a handle that has the focus. While it is dragged, Esc does not take the focus away, so that the
-/// handle gets it and not the window.
+/// Where the arrow keys move a handle that has the focus. During a drag, Esc does not end the focus, so that the handle
+/// gets Esc and the window does not.
 fn stepped(ui: &Ui, response: &Response, [time, share]: [f64; 2], is_dragged: bool) -> Option<[f64; 2]> {
     if !response.has_focus() {
         return None;

@@ -108,7 +108,7 @@ pub(super) fn hand(ui: &mut Ui, layout: &LaneLayout<'_>, shown: &PanelInput<'_>,
     ui.data_mut(|data| data.insert_temp(id, memory));
 }
 
-/// The left one of the two keys that a place lies between.
+/// Of the two keys on either side of a place, the left one.
 fn between(layout: &LaneLayout<'_>, at: Pos2) -> Option<KeyAt> {
     let place = layout.place(at);
     let lane = layout.lanes.get(place.lane)?;

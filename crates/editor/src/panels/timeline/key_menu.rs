@@ -98,7 +98,7 @@ impl KeyMenu {
         }
         let first = copied.iter().map(|(_, frame)| *frame).min_by(f64::total_cmp);
         if let Some(first) = first.filter(|first| *first != frame) {
-            // Keys are pasted into the lane that they were copied from, which may be another one than this.
+            // Keys are pasted into the lane that they were copied from, which may not be the lane of this menu.
             let of = &copied[0].0;
             let is_alone = copied.iter().all(|(other, _)| other == of);
             let of = if is_alone && self.lane.as_ref() != Some(of) {

@@ -201,7 +201,7 @@ pub(in crate::panels) fn looped(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut 
     }
 }
 
-/// The toggle for painting the film's frames exactly while the window rests.
+/// The toggle for painting the film's frames exactly while the user pauses.
 pub(in crate::panels) fn finishes(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let mut on = shown.session.finishes;
     let response = widgets::icon_toggle(ui, icons::FINISH, "Finish frames", &mut on);

@@ -26,8 +26,11 @@ pub fn motion_path(sheet: &Sheet<'_>, path: &MotionPath) {
     let points: Vec<Option<Pos2>> = path.places.iter().map(|&place| sheet.project(place)).collect();
     for run in points.split(Option::is_none).filter(|run| run.len() > 1) {
         let run: Vec<Pos2> = run.iter().flatten().copied().collect();
-        sheet.painter.extend(Shape::dotted_line(&run, ink::black(0.6), 6.0, 1.9));
-        sheet.painter.extend(Shape::dotted_line(&run, OVER_PAINT.key, 6.0, 1.3));
+        // Where the path passes the eye, its points are so far away that dots all the way there would hold up the window.
+        for run in ink::runs_in_sight(sheet.painter, &run) {
+            sheet.painter.extend(Shape::dotted_line(&run, ink::black(0.6), 6.0, 1.9));
+            sheet.painter.extend(Shape::dotted_line(&run, OVER_PAINT.key, 6.0, 1.3));
+        }
     }
     let keys: Vec<(f64, Pos2)> =
         path.keys.iter().filter_map(|&(frame, place)| Some((frame, sheet.project(place)?))).collect();

@@ -1,5 +1,7 @@
 //! Draws regions tinted in their colours, with their names.
 
+use std::collections::HashMap;
+
 use egui::{Color32, Mesh, Rect, Shape, Vec2, vec2};
 use glam::DVec2;
 
@@ -38,9 +40,12 @@ impl RegionTint {
         let [columns, rows] = map.size();
         let mut cells: Vec<Option<usize>> = Vec::with_capacity(columns * rows);
         let mut runs: Vec<Vec<[usize; 3]>> = vec![Vec::new(); names.len()];
+        // Most faces lie in several cells.
+        let mut known: HashMap<Face, Option<usize>> = HashMap::new();
+        let mut region = |face: Face| *known.entry(face).or_insert_with(|| region_of(face));
         for row in 0..rows {
             let from = cells.len();
-            cells.extend((0..columns).map(|column| map.face(column, row).and_then(&region_of)));
+            cells.extend((0..columns).map(|column| map.face(column, row).and_then(&mut region)));
             let mut first = 0;
             for run in cells[from..].chunk_by(|one, next| one == next) {
                 if let Some(of) = run[0].and_then(|region| runs.get_mut(region)) {
@@ -114,8 +119,9 @@ fn words_size(sheet: &Sheet<'_>, name: &str) -> Vec2 {
     sheet.painter.layout_no_wrap(name.to_owned(), type_face::head(), Color32::WHITE).size()
 }
 
-/// Places for names that do not cover each other, for each where it is wanted and how many cells its region has. That of
-/// the largest region stays; others move up or down by up to three lines, and where no place is free, a name is left out.
+/// Finds places for names so that they do not cover each other. `wanted` is where each name should be, `cells` how many
+/// cells its region has. The name of the largest region stays where it is wanted. Others move up or down by up to three
+/// lines. A name without a free place is left out.
 fn apart(wanted: &[Rect], cells: &[usize]) -> Vec<Option<Rect>> {
     let mut order: Vec<usize> = (0..wanted.len()).collect();
     order.sort_by_key(|&index| std::cmp::Reverse(cells[index]));

@@ -31,7 +31,8 @@ impl NumberField<'_> {
         let is_text = |event: &egui::Event| matches!(event, egui::Event::Text(_));
         let at_once = fresh && ui.input(|input| input.events.iter().any(is_text));
         if at_once {
-            // What is typed in this same pass replaces the number, as later, when all of it is selected.
+            // Text typed in this same pass replaces the number. In later passes it does so because the whole number is
+            // selected.
             ui.memory_mut(|memory| memory.request_focus(edit_id));
             typed.clear();
         }
@@ -49,7 +50,7 @@ impl NumberField<'_> {
             .widget_info(|| WidgetInfo { label: Some(name.to_owned()), ..WidgetInfo::new(Role::TextInput) });
         // Without a default to bring back, a double click selects the whole number and not just a part of it.
         if at_once {
-            // For the field, the click that showed it was one elsewhere.
+            // To the text field, the click that opened it counts as a click elsewhere, which would end its focus.
             response.request_focus();
             keep_focus(ui.ctx(), edit_id);
         } else if fresh || self.default.is_none() && is_double_click_in(ui, frame) {

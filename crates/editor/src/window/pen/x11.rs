@@ -1,5 +1,6 @@
 //! Asks an X server which axis of the pointer's device is pressure (XInput2). winit reports the axes of each movement,
-//! but neither their names nor their ranges. A connection of its own asks for these; it selects no events.
+//! but neither their names nor their ranges. So this module asks for them, on its own connection, which selects no
+//! events.
 
 use x11rb::connection::RequestConnection as _;
 use x11rb::protocol::xinput::{self, ConnectionExt as _, Device, DeviceClassData, DeviceType, Fp3232};
@@ -27,8 +28,8 @@ impl Server {
         Some(Self { connection, pressure })
     }
 
-    /// The pressure axis of the device that moves the pointer now. While a device does so, the X server gives the
-    /// pointer the axes of that device.
+    /// The pressure axis of the device that moves the pointer now. While a device moves the pointer, the X server gives
+    /// the pointer the axes of that device.
     pub(super) fn pressure_axis(&self) -> Option<PressureAxis> {
         let asked = self.connection.xinput_xi_query_device(u16::from(bool::from(Device::ALL_MASTER)));
         let pointers = asked.ok()?.reply().ok()?.infos.into_iter();

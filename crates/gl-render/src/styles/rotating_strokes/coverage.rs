@@ -1,4 +1,4 @@
-//! Finds for each pixel how much of it its body covers.
+//! Finds how much of each pixel its body covers.
 
 use std::rc::Rc;
 
@@ -44,7 +44,7 @@ impl Covered {
         bound.texture("fine", &self.fine).set("samples", self.samples as i32)
     }
 
-    /// Lets the samples go: from now on pixels stand for them.
+    /// Frees the samples. From now on, each pixel counts as one sample.
     pub(super) fn let_samples_go(&mut self) {
         self.fine = Rc::clone(&self.surface);
         self.samples = 1;
@@ -71,7 +71,7 @@ impl Coverage {
         self.surface = None;
     }
 
-    /// Finds the shares from the samples. Without samples, pixels stand for them.
+    /// Finds the covered shares from the samples. Without samples, each pixel counts as one sample.
     pub(super) fn draw(&mut self, input: &StyleInput<'_>, watch: &mut Watch<'_>) -> Result<Covered, Halt> {
         let coarse = &input.reference.depth_and_id;
         let Some(Samples { depth_and_id: fine, per_side: samples, .. }) = input.samples.take() else {

@@ -1,4 +1,4 @@
-//! What is known of the paint beside its colour: which strokes show where, each layer alone, and the paint's surface.
+//! Data of the paint besides its colour: which strokes show where, each layer alone, and the paint's surface.
 
 use std::rc::Rc;
 
@@ -24,7 +24,7 @@ pub(super) struct PaintData {
 impl PaintData {
     /// Fails where the driver cannot note fragments.
     pub(super) fn new(gpu: &Gpu) -> Result<Self, GlError> {
-        // First, because its error tells in plain words what the driver lacks.
+        // Created first, because its error says in plain words what the driver lacks.
         let gatherer = FragmentGatherer::new(gpu)?;
         Ok(Self { gpu: gpu.clone(), programs: DataPrograms::new(gpu)?, gatherer, target: None })
     }
@@ -41,8 +41,8 @@ impl PaintData {
     }
 
     /// A layer is painted in pieces: this is the most pixels that the strokes of a piece may cover, so that all their
-    /// fragments can be noted. A stroke's quad has more fragments than the stroke covers; if the stroke
-    /// is narrow, many more.
+    /// fragments can be noted. A stroke's quad has more fragments than the stroke covers pixels; if the stroke is
+    /// narrow, many more.
     pub(super) fn piece_px(&self) -> f32 {
         const MOST_TIMES: f32 = 4.0;
         self.gatherer.capacity() as f32 / MOST_TIMES

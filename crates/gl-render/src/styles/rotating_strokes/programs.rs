@@ -10,9 +10,9 @@ use crate::shader_files::{REFERENCE, ROTATING_STROKES, SHARED};
 
 /// The programs that differ between exact pictures and drafts.
 pub(super) struct StrokePrograms {
-    /// Finds colour, presence and place of the strokes of a layer: for each layer, in the order of their numbers, without
-    /// palettes and with them. Created when they are first needed. What a layer does not need is left out of its program,
-    /// since software drivers do the work of all branches.
+    /// These programs find colour, presence and place of a layer's strokes. For each layer, in the order of their
+    /// numbers, there is one program without palettes and one with them. A program is created when it is first needed.
+    /// It leaves out what its layer does not need, since software drivers do the work of all branches.
     resolve: [[Option<Program>; 2]; LAYERS.len()],
     pub(super) paint: Program,
     /// For tapered and bent strokes; created when the first of them is painted.
@@ -140,7 +140,7 @@ pub(super) const DETAIL: ProgramSource<'static> = ProgramSource::screen(
 pub(super) const SPREAD: ProgramSource<'static> =
     ProgramSource::screen("rotating_strokes/spread.frag", &[&["detail", "axis"]]);
 
-/// The layers in the order of their numbers, and what is `#define`d for the program that resolves the strokes of one.
+/// The layers in the order of their numbers, each with what is `#define`d for the program that resolves its strokes.
 pub(super) const LAYERS: [(LayerKind, &str); 8] = [
     (LayerKind::Underpainting, "LAYER 0"),
     (LayerKind::Body, "LAYER 1"),

@@ -7,7 +7,7 @@ use crate::gl::{Filter, Format, Framebuffer, GlError, Gpu, Texture};
 /// Pixels of the picture per texel of the wide blur, along each side.
 pub(super) const WIDE: u32 = 4;
 
-/// The targets of `InkRule::Source`, which does as the RenderMonkey effect "Sumi-e Drawing" does.
+/// The targets of `InkRule::Source`, which follows the RenderMonkey effect "Sumi-e Drawing".
 pub(super) struct SourceTargets {
     pub(super) silhouette: Rc<Texture>,
     pub(super) blurred_silhouette: Rc<Texture>,

@@ -95,7 +95,7 @@ fn a_curve_is_solved_for_its_time() {
 fn a_curve_that_rises_never_falls() {
     for ends in 0..=20_u32 {
         let [first, second] = [f64::from(ends % 5) / 4.0, f64::from(ends / 5) / 4.0];
-        // y rises along the curve, so a share that falls means that the part found for a later time is an earlier one.
+        // y rises along the curve. So if the share falls, an earlier part of the curve was found for a later time.
         let curve = Ease::Curve([first, 0.4], [second, 0.6]);
         let shares: Vec<f64> = times().map(|time| curve.share(time)).collect();
         assert!(shares.is_sorted(), "{curve:?}");

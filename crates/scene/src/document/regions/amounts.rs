@@ -15,20 +15,21 @@ pub struct PaintedAmount {
     /// The object, where the region covers more than one.
     #[serde(default, skip_serializing_if = "is_default")]
     pub object: Option<String>,
-    /// The dabs. Where several reach, their factors are multiplied; the product is held to the range of one.
+    /// The dabs. Where several dabs overlap, their factors are multiplied, and the product is held to the range of a
+    /// single factor.
     pub dabs: Vec<AmountDab>,
 }
 
 /// What a painted amount multiplies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
 pub enum Amount {
-    /// How wide strokes are; by 0.25 to 4. As many as keep the coverage.
+    /// How wide strokes are: a factor from 0.25 to 4. The number of strokes changes so that the coverage stays.
     Width,
-    /// How long strokes are; by 0.25 to 4. As many as keep the coverage.
+    /// How long strokes are: a factor from 0.25 to 4. The number of strokes changes so that the coverage stays.
     Length,
-    /// How many strokes lie over each other; by 0, which leaves the underpainting alone, to 4.
+    /// How many strokes lie over each other: a factor from 0, which leaves only the underpainting, to 4.
     Density,
-    /// How flat strokes lie on the picture; by 0 to 4, and never more than quite flat.
+    /// How flat strokes lie on the picture: a factor from 0 to 4. The result is never more than quite flat.
     Flatness,
 }
 
@@ -36,11 +37,13 @@ pub enum Amount {
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct AmountDab {
-    /// Where.
+    /// The place, in the object's own space.
     pub at: [f64; 3],
-    /// Normal of the surface there; what is turned from it by 60° or more takes less, from 90° on nothing.
+    /// Normal of the surface there. A surface turned away from this normal by up to 60° takes the full factor; beyond
+    /// 60° the effect fades, and from 90° on there is none.
     pub normal: [f64; 3],
-    /// How far it reaches, more than 0: its factor falls off to 1 there as (1 − (r/R)²)².
+    /// How far the dab reaches (R), more than 0. At a distance r from its middle, the factor has (1 − (r/R)²)² of its
+    /// effect, so at R the factor is 1.
     pub radius: f64,
     /// The factor in its middle.
     pub by: f64,

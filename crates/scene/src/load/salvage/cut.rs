@@ -22,8 +22,9 @@ struct Open {
     has_colon: bool,
 }
 
-/// Ends a text before the offset `fault`, or earlier where a bracket must have been forgotten; at its own end if the
-/// bracket at `fault` is never closed. `None` if no bracket opens before that, or if nothing would be cut or closed.
+/// Ends a text before the offset `fault`, or earlier where a closing bracket must have been forgotten. If the bracket
+/// at `fault` is never closed, the text may go on to its own end. `None` if no bracket opens before the cut, or if
+/// nothing would be cut or closed.
 pub(super) fn before(text: &str, fault: usize) -> Option<Cut> {
     let bytes = text.as_bytes();
     // A bracket that is never closed is reported at its opening; the text behind it may be good to the end.
@@ -124,8 +125,8 @@ fn closing_of(opening: u8) -> u8 {
     }
 }
 
-/// The offset behind the closing quote of the text, perhaps a raw one, that opens at `quote`. `None` if nothing closes
-/// it.
+/// The offset behind the closing quote of the string (perhaps a raw string) that opens at `quote`. `None` if nothing
+/// closes it.
 fn behind_text(bytes: &[u8], quote: usize) -> Option<usize> {
     let hashes = bytes[..quote].iter().rev().take_while(|&&byte| byte == b'#').count();
     let is_raw = bytes[..quote - hashes].last() == Some(&b'r');

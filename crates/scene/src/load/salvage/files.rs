@@ -164,8 +164,8 @@ impl<'a> FileCache<'a> {
         as_scene_problem(problem, self.path, place)
     }
 
-    /// A fix for a file that was not found, if exactly one file in the scene's folder or below has its name, or, where
-    /// none has, exactly one has nearly its name.
+    /// A fix for a file that was not found: it names the only file in the scene's folder or below that has the same
+    /// name. If no file has that name, the fix names the only file with nearly that name.
     fn nearby_fix(&mut self, name: &str, fields: &[String], located: &Located) -> Option<Fix> {
         let plain = name.trim().replace('\\', "/");
         let wanted = Path::new(&plain).file_name()?.to_str()?.to_lowercase();
@@ -225,7 +225,7 @@ fn files_below(root: &Path) -> Vec<PathBuf> {
         for entry in entries.filter_map(Result::ok) {
             seen += 1;
             if seen > MOST_ENTRIES {
-                // With an incomplete list one cannot tell whether a name is the only one.
+                // With an incomplete list, one cannot tell whether a name occurs only once.
                 return Vec::new();
             }
             let Ok(kind) = entry.file_type() else { continue };

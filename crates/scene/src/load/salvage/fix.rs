@@ -13,7 +13,7 @@ const NEAR: usize = 2;
 pub struct Fix {
     /// The verb: *Rename*, *Use leaf.obj*.
     pub verb: String,
-    /// Whether the fix must be what was meant.
+    /// Whether the fix is certainly what was meant, and not a guess.
     pub is_certain: bool,
     /// The ranges to replace, with the new text.
     pub(super) edits: Vec<(Range<usize>, String)>,

@@ -11,17 +11,18 @@ const FOOT: f64 = 0.025;
 /// A model would topple if the area that it stands on is less than the square of this share of its height.
 const LEAST_SUPPORT: f64 = 0.06;
 
-/// A model stands, though less and less well, while its middle is no further outside of what it stands on than this, in
-/// sides of its shadow.
+/// How far a model's middle may lie outside the area that the model stands on, in square roots of the area of its
+/// shadow. Up to this distance, the model stands less and less well.
 const LEAN: f64 = 0.15;
 
 /// An axis is surely up when its score is this much above the next best.
 const SURE: f64 = 0.25;
 
-/// A body is turned on a lathe if between these shares of its samples have normals through one axis.
+/// How much a body counts as turned on a lathe: from not at all to fully, as the share of its samples whose normals
+/// pass through one axis rises from the first value to the second.
 const TURNED: [f64; 2] = [0.5, 0.75];
 
-/// How near to the axis such a normal passes, in diagonals of the model.
+/// A normal passes through the axis if it comes this near to it, in diagonals of the model.
 const THROUGH_AXIS: f64 = 0.03;
 
 impl Samples {
@@ -54,9 +55,9 @@ impl Samples {
         (scores[0].0, scores[0].1 - scores[1].1 < SURE)
     }
 
-    /// From 0 to 1, how much the body is turned on a lathe about a line along this axis: of how many samples the normals
-    /// pass through one line, on all sides of it. The line is found by least squares, whose weights fall with the
-    /// distance from it.
+    /// From 0 to 1, how much the body looks turned on a lathe about a line along this axis. It depends on how many
+    /// samples have normals that pass through the line; they must lie on all sides of it. The line is found by least
+    /// squares, where a normal has less weight the farther it passes from the line.
     fn turned_on_a_lathe(&self, axis: usize) -> f64 {
         let flat = |vector: &DVec3| DVec2::new(vector[(axis + 1) % 3], vector[(axis + 2) % 3]);
         let [low, high] = self.bounds();
@@ -102,8 +103,8 @@ impl Samples {
         if is_round { ramp(count / self.points.len() as f64, TURNED) } else { 0.0 }
     }
 
-    /// How well the model stands on its lowest part, as a score from −0.4 to 1.3. Flat feet, a flat bottom, a wide support and a
-    /// middle above that support raise the score, standing on a point lowers it.
+    /// How well the model stands on its lowest part, as a score from −0.4 to 1.3. Flat feet, a flat bottom, a wide
+    /// support and a middle above that support raise the score; standing on a point lowers it.
     fn stands(&self) -> f64 {
         let low = self.points.iter().map(|point| point.y).fold(f64::INFINITY, f64::min);
         let high = self.points.iter().map(|point| point.y).fold(f64::NEG_INFINITY, f64::max);
@@ -111,14 +112,14 @@ impl Samples {
         let on_floor = |point: &DVec3| [point.x, point.z];
         let standing = self.points.iter().zip(&self.normals).filter(|(point, _)| point.y <= foot);
         let flat = standing.clone().filter(|(_, normal)| normal.y < -0.9).count() as f64;
-        // A back that someone could lie on is rounded; what was made to stand is cut off.
+        // A back that a figure could lie on is rounded; the underside of a thing that was made to stand is flat.
         let bottom = low + 0.01 * (high - low);
         let cut = self.points.iter().zip(&self.face_normals);
         let cut = cut.filter(|(point, normal)| point.y <= bottom && normal.y < -0.985).count() as f64;
         let support = hull(standing.map(|(point, _)| on_floor(point)).collect());
         let shadow = hull(self.points.iter().map(on_floor).collect());
         let middle = self.points.iter().sum::<DVec3>() / self.points.len().max(1) as f64;
-        // Samples do not tell exactly where a foot ends.
+        // Samples do not tell exactly where a foot ends, so the score falls gradually.
         let past = outside(&support, on_floor(&middle)) / area(&shadow).sqrt().max(f64::MIN_POSITIVE);
         let stable = 0.3 - 0.3 * ramp(past, [0.0, LEAN]);
         let share = area(&support) / area(&shadow).max(f64::MIN_POSITIVE);

@@ -435,7 +435,7 @@ fn any_touch() -> impl Strategy<Value = Touch> {
 }
 
 pub(super) fn any_scene() -> impl Strategy<Value = Scene> {
-    // The large parts are boxed: all by value, they would fill the stack of a test's thread.
+    // The large parts are boxed: held by value, they would overflow the stack of a test's thread.
     let style = any_style().boxed();
     let background_key =
         (number(), any_color(), ease()).prop_map(|(frame, color, ease)| BackgroundKey { frame, color, ease });
