@@ -64,7 +64,7 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
         PixelLens::Perspective { focal_px: 1000.0 },
     );
     let input = format!("{PARTICLES} particles, {name}");
-    let sorted = SortedParticles::new(&places, &baked, |_| 0.0);
+    let sorted = SortedParticles::new(&places, &baked.placed, |_| 0.0);
     let view = ParticleView::new(&map);
     // As many particles are present as in a picture that is full of strokes.
     let bounds =
@@ -80,7 +80,7 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
                 while bits != 0 {
                     let index = word * 64 + bits.trailing_zeros() as usize;
                     bits &= bits - 1;
-                    let vectors = carrier.particle(&mesh, places[index], (&baked, index), 0.0);
+                    let vectors = carrier.particle(&mesh, places[index], at_rest(&baked, index), 0.0);
                     sum += view.solved_at(vectors.map(|vector| vector.to_array()), None).angle_rad;
                     showing += 1;
                 }
@@ -212,6 +212,12 @@ fn rolled_up() -> BendPose {
         world
     });
     BendPose { weights: Vec::new(), joints: joints.collect() }
+}
+
+/// A particle's normal and the columns of its lift, at rest.
+fn at_rest(baked: &BakedParticles, index: usize) -> [Vec3; 3] {
+    let Lift { along, across } = baked.lift_of(index);
+    [baked.placed.normal_of(index), along, across].map(|vector| vector.as_vec3())
 }
 
 fn particles(mesh: &TriangleMesh) -> (Vec<PackedParticle>, BakedParticles) {

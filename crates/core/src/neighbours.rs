@@ -92,45 +92,64 @@ impl Neighbours {
     /// inclusive) whose normals lie in the same half space (n·n' > 0). The lists are exact, and the same on every
     /// machine.
     pub fn find(positions: &[Vec3], normals: &[Vec3], radius: f32) -> Self {
-        Self::found(Points { positions, normals }, None, radius, MAX_NEIGHBOURS, wide::run)
+        Self::found_among_themselves(Points { positions, normals }, radius, wide::run)
     }
 
-    /// Finds, for each of `queries`, the `most` (at most [`MAX_NEIGHBOURS`]) nearest of `points` within `radius` on the
-    /// same side of the surface.
-    pub fn find_among(queries: Points<'_>, points: Points<'_>, radius: f32, most: usize) -> Self {
-        Self::found(queries, Some(points), radius, most.min(MAX_NEIGHBOURS), wide::run)
-    }
-
-    /// Finds lists with `run`, one of the builds of the search (portable or vector code). Where `points` is `None`, the
-    /// neighbours are searched among the queries themselves.
-    fn found(
-        queries: Points<'_>,
-        points: Option<Points<'_>>,
+    /// As [`Neighbours::find`], with one of the builds of the search (portable or vector code).
+    fn found_among_themselves(
+        points: Points<'_>,
         radius: f32,
-        most: usize,
         run: impl Fn(&Search<'_>, Part<'_>) + Sync,
     ) -> Self {
-        // With a radius of NaN no distance passes.
-        let radius = if radius >= 0.0 { radius } else { f32::NAN };
-        let space =
-            CellSpace::new([queries.positions, points.map_or(&[], |points| points.positions)], radius);
-        let others = points.map(|points| SortedPoints::new(points, &space));
-        let queries = SortedPoints::new(queries, &space);
+        let PointIndex { space, points, radius } = PointIndex::new(points, radius);
+        let search = Search { queries: &points, others: None, space: &space, radius, most: MAX_NEIGHBOURS };
+        Self::found(&search, run)
+    }
+
+    fn found(search: &Search<'_>, run: impl Fn(&Search<'_>, Part<'_>) + Sync) -> Self {
+        let Search { queries, most, .. } = *search;
         let count = queries.numbers.len();
         let mut lengths = vec![0; count];
         // Zeroed pages that no list fills are never touched, so they take no memory.
         let mut indices = vec![0; count * most];
-        let search = Search { queries: &queries, others: others.as_ref(), space: &space, radius, most };
         let parts =
             lengths.par_chunks_mut(CHUNK).zip(indices.par_chunks_mut((CHUNK * most).max(1))).enumerate();
         parts.for_each(|(chunk, (lengths, indices))| {
-            run(&search, Part { first: chunk * CHUNK, lengths, indices })
+            run(search, Part { first: chunk * CHUNK, lengths, indices })
         });
         let mut slots = vec![0; count];
         for (&number, slot) in queries.numbers.iter().zip(0..) {
             slots[number as usize] = slot;
         }
         Self { slots, lengths, most, indices }
+    }
+}
+
+/// Points of a surface, ready for searches among them.
+#[derive(Clone, Debug)]
+pub struct PointIndex {
+    points: SortedPoints,
+    space: CellSpace,
+    radius: f32,
+}
+
+impl PointIndex {
+    /// Sorts the points for searches within `radius`, model units.
+    pub fn new(points: Points<'_>, radius: f32) -> Self {
+        // With a radius of NaN no distance passes.
+        let radius = if radius >= 0.0 { radius } else { f32::NAN };
+        let space = CellSpace::new(points.positions, radius);
+        Self { points: SortedPoints::new(points, &space), space, radius }
+    }
+
+    /// Finds, for each of `queries`, the `most` (at most [`MAX_NEIGHBOURS`]) nearest of the points within the radius on
+    /// the same side of the surface.
+    pub fn nearest(&self, queries: Points<'_>, most: usize) -> Neighbours {
+        let Self { points, space, radius } = self;
+        let queries = SortedPoints::new(queries, space);
+        let most = most.min(MAX_NEIGHBOURS);
+        let search = Search { queries: &queries, others: Some(points), space, radius: *radius, most };
+        Neighbours::found(&search, wide::run)
     }
 }
 

@@ -11,19 +11,26 @@ use crate::lift::Lift;
 use crate::wide::{Wide, widest};
 
 pub(crate) use cull::WORD;
-pub use cull::{Bounds, ParticleView, SolvedParticle};
+pub use cull::{Bounds, ParticleView, SeenParticle, SolvedParticle};
 
 /// How many particles one task handles.
 const CHUNK: usize = 8192;
 
-/// What is baked per particle, one array per component.
+/// Where particles are, one array per component.
 #[derive(Clone, Debug, Default)]
-pub struct BakedParticles {
+pub struct PlacedParticles {
     /// Position in model space: x, y, z.
     pub position: [Vec<f32>; 3],
     /// Unit normal in model space: x, y, z. For particles that a bent surface has carried, it is not unit: its length
     /// is the area of the surface now over its area at rest.
     pub normal: [Vec<f32>; 3],
+}
+
+/// What is baked per particle, one array per component.
+#[derive(Clone, Debug, Default)]
+pub struct BakedParticles {
+    /// Where they are.
+    pub placed: PlacedParticles,
     /// First column of N': x, y, z.
     pub along: [Vec<f32>; 3],
     /// Second column of N': x, y, z.
@@ -34,32 +41,46 @@ pub struct BakedParticles {
 }
 
 /// A run of consecutive particles to be written, one array per component.
-#[derive(Debug, Default)]
-pub struct BakedChunk<'a> {
-    /// Position, normal, and both columns of N', by component.
-    arrays: [&'a mut [f32]; 12],
+#[derive(Debug)]
+pub struct ParticleChunk<'a, const ARRAYS: usize> {
+    arrays: [&'a mut [f32]; ARRAYS],
 }
 
-impl BakedChunk<'_> {
-    /// Sets a particle of the chunk: position and unit normal in model space, and its lift.
-    #[inline]
-    pub fn set(&mut self, index: usize, position: DVec3, normal: DVec3, lift: Lift) {
-        let Lift { along, across } = lift;
-        let numbers = [
-            [position.x, position.y, position.z, normal.x, normal.y, normal.z],
-            [along.x, along.y, along.z, across.x, across.y, across.z],
-        ];
-        for (array, number) in self.arrays.iter_mut().zip(numbers.as_flattened()) {
-            array[index] = *number as f32;
+impl<'a, const ARRAYS: usize> ParticleChunk<'a, ARRAYS> {
+    /// Cuts arrays of equal lengths into chunks of `size` particles.
+    fn cut(arrays: [&'a mut [f32]; ARRAYS], size: usize) -> Vec<Self> {
+        let count = arrays.first().map_or(0, |array| array.len());
+        let empty = |_| Self { arrays: std::array::from_fn(|_| Default::default()) };
+        let mut chunks: Vec<Self> = (0..count).step_by(size).map(empty).collect();
+        for (component, array) in arrays.into_iter().enumerate() {
+            for (chunk, slice) in chunks.iter_mut().zip(array.chunks_mut(size)) {
+                chunk.arrays[component] = slice;
+            }
         }
+        chunks
     }
 
-    /// Sets a particle of the chunk: position, normal, and both columns of its lift.
     #[inline(always)]
-    pub(crate) fn set_f32(&mut self, index: usize, vectors: [Vec3; 4]) {
-        for (array, number) in self.arrays.iter_mut().zip(vectors.map(|v| v.to_array()).as_flattened()) {
+    fn set_all(&mut self, index: usize, numbers: &[f32]) {
+        for (array, number) in self.arrays.iter_mut().zip(numbers) {
             array[index] = *number;
         }
+    }
+}
+
+impl ParticleChunk<'_, 6> {
+    /// Sets a particle of the chunk: position and unit normal in model space.
+    #[inline]
+    pub fn set(&mut self, index: usize, position: DVec3, normal: DVec3) {
+        self.set_all(index, [position, normal].map(|vector| vector.as_vec3().to_array()).as_flattened());
+    }
+}
+
+impl ParticleChunk<'_, 12> {
+    /// Sets a particle of the chunk: position, normal, and both columns of its lift.
+    #[inline(always)]
+    pub(crate) fn set(&mut self, index: usize, vectors: [Vec3; 4]) {
+        self.set_all(index, vectors.map(|vector| vector.to_array()).as_flattened());
     }
 }
 
@@ -78,52 +99,20 @@ pub struct SolvedParticles {
     pub area_px: Vec<f32>,
 }
 
-impl BakedParticles {
-    /// Appends one particle.
-    pub fn push(&mut self, position: DVec3, normal: DVec3, lift: Lift) {
-        for (arrays, value) in [
-            (&mut self.position, position),
-            (&mut self.normal, normal),
-            (&mut self.along, lift.along),
-            (&mut self.across, lift.across),
-        ] {
-            for (array, number) in arrays.iter_mut().zip(value.to_array()) {
-                array.push(number as f32);
-            }
-        }
-    }
-
-    /// Makes room for exactly `count` particles: those beyond are cut off, new ones are zero. Flatness is cleared.
+impl PlacedParticles {
+    /// Makes room for exactly `count` particles: those beyond are cut off, new ones are zero.
     pub fn resize(&mut self, count: usize) {
-        self.flatness.clear();
-        for array in self.vectors_mut().into_iter().flatten() {
-            if array.is_empty() {
-                // The system gives zeroed memory without writing to it, so the threads that fill it touch its pages first, side by
-                // side. `resize` would write all the zeros here.
-                *array = vec![0.0; count];
-            } else {
-                array.truncate(count);
-                array.reserve_exact(count - array.len());
-                array.resize(count, 0.0);
-            }
-        }
+        self.arrays_mut().into_iter().for_each(|array| resize(array, count));
     }
 
     /// The particles from `first` on in chunks of `size`, to be written one by one.
-    pub fn chunks_mut(&mut self, first: usize, size: usize) -> Vec<BakedChunk<'_>> {
-        let count = self.len();
-        let mut chunks: Vec<BakedChunk<'_>> =
-            (first..count).step_by(size).map(|_| BakedChunk::default()).collect();
-        for (component, array) in self.vectors_mut().into_iter().flatten().enumerate() {
-            for (chunk, slice) in chunks.iter_mut().zip(array[first..].chunks_mut(size)) {
-                chunk.arrays[component] = slice;
-            }
-        }
-        chunks
+    pub fn chunks_mut(&mut self, first: usize, size: usize) -> Vec<ParticleChunk<'_, 6>> {
+        ParticleChunk::cut(self.arrays_mut().map(|array| &mut array[first..]), size)
     }
 
-    fn vectors_mut(&mut self) -> [&mut [Vec<f32>; 3]; 4] {
-        [&mut self.position, &mut self.normal, &mut self.along, &mut self.across]
+    fn arrays_mut(&mut self) -> [&mut Vec<f32>; 6] {
+        let ([x, y, z], [nx, ny, nz]) = (&mut self.position, &mut self.normal);
+        [x, y, z, nx, ny, nz]
     }
 
     /// How many particles.
@@ -138,7 +127,7 @@ impl BakedParticles {
 
     /// Memory held, in bytes.
     pub fn bytes(&self) -> usize {
-        (12 * self.len() + self.flatness.len()) * size_of::<f32>()
+        6 * self.len() * size_of::<f32>()
     }
 
     /// A particle's position in model space.
@@ -147,10 +136,59 @@ impl BakedParticles {
         vector(&self.position, particle)
     }
 
-    /// A particle's normal in model space. For its length, see [`BakedParticles::normal`].
+    /// A particle's normal in model space. For its length, see [`PlacedParticles::normal`].
     #[inline]
     pub fn normal_of(&self, particle: usize) -> DVec3 {
         vector(&self.normal, particle)
+    }
+
+    /// A particle's position and normal, as they are stored.
+    #[inline]
+    pub fn vectors_of(&self, particle: usize) -> [[f32; 3]; 2] {
+        [&self.position, &self.normal].map(|arrays| components(arrays, particle))
+    }
+}
+
+impl BakedParticles {
+    /// Appends one particle.
+    pub fn push(&mut self, position: DVec3, normal: DVec3, lift: Lift) {
+        for (arrays, value) in [
+            (&mut self.placed.position, position),
+            (&mut self.placed.normal, normal),
+            (&mut self.along, lift.along),
+            (&mut self.across, lift.across),
+        ] {
+            for (array, number) in arrays.iter_mut().zip(value.to_array()) {
+                array.push(number as f32);
+            }
+        }
+    }
+
+    /// Makes room for exactly `count` particles: those beyond are cut off, new ones are zero. Flatness is cleared.
+    pub fn resize(&mut self, count: usize) {
+        self.flatness.clear();
+        self.arrays_mut().into_iter().for_each(|array| resize(array, count));
+    }
+
+    /// The particles in chunks of `size`, to be written one by one.
+    pub(crate) fn chunks_mut(&mut self, size: usize) -> Vec<ParticleChunk<'_, 12>> {
+        ParticleChunk::cut(self.arrays_mut().map(|array| &mut array[..]), size)
+    }
+
+    fn arrays_mut(&mut self) -> [&mut Vec<f32>; 12] {
+        let [x, y, z, nx, ny, nz] = self.placed.arrays_mut();
+        let ([ax, ay, az], [bx, by, bz]) = (&mut self.along, &mut self.across);
+        [x, y, z, nx, ny, nz, ax, ay, az, bx, by, bz]
+    }
+
+    /// How many particles.
+    pub fn len(&self) -> usize {
+        self.placed.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.placed.is_empty()
     }
 
     /// A particle's lift N'.
@@ -160,8 +198,27 @@ impl BakedParticles {
     }
 }
 
+/// Makes an array exactly so long; new numbers are zero.
+fn resize(array: &mut Vec<f32>, count: usize) {
+    if array.is_empty() {
+        // The system gives zeroed memory without writing to it, so the threads that fill it touch its pages first, side
+        // by side. `resize` would write all the zeros here.
+        *array = vec![0.0; count];
+    } else {
+        array.truncate(count);
+        array.reserve_exact(count - array.len());
+        array.resize(count, 0.0);
+    }
+}
+
+#[inline]
+fn components(arrays: &[Vec<f32>; 3], particle: usize) -> [f32; 3] {
+    [0, 1, 2].map(|axis| arrays[axis][particle])
+}
+
+#[inline]
 fn vector(arrays: &[Vec<f32>; 3], particle: usize) -> DVec3 {
-    DVec3::from_array([0, 1, 2].map(|axis| f64::from(arrays[axis][particle])))
+    DVec3::from_array(components(arrays, particle).map(f64::from))
 }
 
 /// Projects every particle and finds its stroke's angle. With flatness 1 that is φ, the angle of the rotation nearest to
@@ -240,8 +297,8 @@ fn solve_chunk<const WRAPPED: bool>(chunk: Chunk<'_, WRAPPED>) {
     let Chunk { particles, first, rows, output } = chunk;
     let count = output.x_px.len();
     // Slices of one known length, so that the compiler drops the bounds checks and vectorises.
-    let [px, py, pz] = slices(&particles.position, first, count);
-    let [nx, ny, nz] = slices(&particles.normal, first, count);
+    let [px, py, pz] = slices(&particles.placed.position, first, count);
+    let [nx, ny, nz] = slices(&particles.placed.normal, first, count);
     let [ax, ay, az] = slices(&particles.along, first, count);
     let [bx, by, bz] = slices(&particles.across, first, count);
     // Where flatness is not read, any slice of this length will do.

@@ -1,22 +1,22 @@
-//! Baking: the lift of every particle, from its references, its base direction and its jitter.
+//! Baking: where every particle is, and the lift of those that are seen, from references, base direction and jitter.
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3};
-use impasto_core::direction::carry::Stencils;
+use glam::{DVec2, DVec3, Vec3};
 use impasto_core::lift::Lift;
-use impasto_core::neighbours::Neighbours;
-use impasto_core::solve::BakedParticles;
+use impasto_core::neighbours::{Neighbours, Points};
+use impasto_core::solve::PlacedParticles;
 use impasto_scene::document::Solver;
 use rayon::prelude::*;
 
 use crate::amounts::painted_flatness;
 use crate::coat_amounts::CoatAmounts;
-use crate::field::{BodyField, FieldInputs};
+use crate::field::{BodyField, FieldInputs, Near};
+use crate::looks::{FindLooks, Look, Looks};
 use crate::references::{BodyReference, BodyReferences, RaisedPlace, SurfacePoint, Views};
 use crate::regions::RegionRule;
 use crate::stated::DirectionRules;
-use crate::traits::{TraitInputs, Traits};
+use crate::traits::{self, TraitInputs, Traits};
 
 /// Those inputs of the lifts that are still needed after baking, when pictures are made.
 #[derive(Clone)]
@@ -34,8 +34,6 @@ pub(crate) struct BakeInputs {
     pub(crate) sources: LiftSources,
     /// What the traits are made from.
     pub(crate) trait_inputs: Arc<TraitInputs>,
-    /// What chance and slow noise add to the base angle of each particle, radians.
-    pub(crate) stray_rad: Arc<Vec<f64>>,
     /// What is painted onto the particles; only flatness matters here.
     pub(crate) amounts: Arc<CoatAmounts>,
     pub(crate) solver: Solver,
@@ -45,13 +43,12 @@ pub(crate) struct BakeInputs {
     pub(crate) combed: Option<Combed>,
 }
 
-/// What combs the directions of a coat.
+/// What combs the directions of a body.
+#[derive(Clone)]
 pub(crate) struct Combed {
     pub(crate) inputs: Arc<FieldInputs>,
     /// `None` where no field was needed; then only guides comb, if any.
     pub(crate) field: Option<Arc<BodyField>>,
-    /// Which samples of the field each particle uses.
-    pub(crate) stencils: Arc<Stencils>,
 }
 
 /// Equal where the same lifts would be baked. The number of particles matters only where flatness is painted: its
@@ -88,23 +85,26 @@ impl PartialEq for BakeInputs {
 }
 
 /// Baked particles, in progressive order.
-#[derive(Clone, Debug, Default)]
+#[derive(Default)]
 pub(crate) struct BakedBody {
-    pub(crate) baked: BakedParticles,
-    /// The base angles with jitter in the reference picture, radians; `horn-exact` adds its turn to them. Empty with
-    /// the solver `Tangent`, where the lift N' alone gives the angle.
-    base_angle_rad: Vec<f32>,
+    pub(crate) placed: PlacedParticles,
+    /// How much a stroke lies flat on the picture ([`impasto_core::solve::BakedParticles::flatness`]); empty when all
+    /// are 1.
+    pub(crate) flatness: Vec<f32>,
+    pub(crate) looks: Looks,
 }
 
 impl BakedBody {
-    /// Puts a body together from what a file kept.
-    pub(crate) fn of_kept(baked: BakedParticles, base_angle_rad: Vec<f32>) -> Self {
-        Self { baked, base_angle_rad }
+    /// Memory held, in bytes.
+    pub(crate) fn bytes(&self) -> usize {
+        self.placed.bytes() + size_of_val(&self.flatness[..]) + self.looks.bytes()
     }
 
-    /// The base angles of all particles; empty with the solver `Tangent`.
-    pub(crate) fn base_angles_rad(&self) -> &[f32] {
-        &self.base_angle_rad
+    /// A particle's lift N'.
+    pub(crate) fn lift(&self, particle: usize) -> Lift {
+        let [along, across] =
+            self.looks.at(particle).lift.map(|column| DVec3::from_array(column.map(f64::from)));
+        Lift { along, across }
     }
 
     /// The angle of a particle's stroke in the reference picture of its rule, radians.
@@ -114,51 +114,50 @@ impl BakedBody {
         raised: RaisedPlace,
         reference: &BodyReference,
     ) -> f64 {
-        match self.base_angle_rad.get(particle) {
-            Some(&angle_rad) => f64::from(angle_rad),
-            // The angle at which N' shows in that picture.
-            None => {
-                let then = reference.then(raised);
-                let jacobian = then.pulled_back(reference.map.jacobian(then.position));
-                self.baked.lift_of(particle).map(jacobian).angle_rad()
-            }
+        if self.looks.has_angles() {
+            return f64::from(self.looks.at(particle).base_angle_rad);
         }
+        // The angle at which N' shows in that picture.
+        let then = reference.then(raised);
+        let jacobian = then.pulled_back(reference.map.jacobian(then.position));
+        self.lift(particle).map(jacobian).angle_rad()
     }
 }
 
-/// How many particles one task bakes.
+/// How many particles one task places.
 const CHUNK: usize = 1024;
 
+/// How many looks are found side by side.
+const BATCH: usize = traits::BATCH;
+
 impl BakeInputs {
-    /// Bakes the lifts of all particles. Shortens or extends `before`, which must come from equal inputs.
-    pub(crate) fn bake(&self, before: Option<Arc<BakedBody>>) -> Arc<BakedBody> {
+    /// Places all particles; their looks are found later. Shortens or extends `before`, which must come from equal
+    /// inputs.
+    pub(crate) fn bake(self: &Arc<Self>, before: Option<Arc<BakedBody>>) -> Arc<BakedBody> {
         let sources = &self.sources;
         let count = sources.traits.particles.len();
         if let Some(before) = &before
-            && before.baked.len() == count
+            && before.placed.len() == count
         {
             return Arc::clone(before);
         }
-        let mut body = before.map_or_else(BakedBody::default, Arc::unwrap_or_clone);
-        let first = body.baked.len().min(count);
-        body.baked.resize(count);
-        body.base_angle_rad.truncate(count);
-        if self.solver != Solver::Tangent {
-            body.base_angle_rad.resize(count, 0.0);
-        }
-        let stated = sources.stated();
-        let mut angles = body.base_angle_rad.get_mut(first..).unwrap_or_default().chunks_mut(CHUNK);
-        let chunks = body.baked.chunks_mut(first, CHUNK).into_iter();
-        let chunks: Vec<_> = chunks.map(|baked| (baked, angles.next().unwrap_or_default())).collect();
-        chunks.into_par_iter().enumerate().for_each(|(number, (mut baked, base_angles_rad))| {
+        let looks = match &before {
+            Some(before) => before.looks.resized(Arc::clone(self) as _, count),
+            None => Looks::unknown(Arc::clone(self) as _, count),
+        };
+        let mut placed = match before.map(Arc::try_unwrap) {
+            Some(Ok(before)) => before.placed,
+            Some(Err(shared)) => shared.placed.clone(),
+            None => PlacedParticles::default(),
+        };
+        let first = placed.len().min(count);
+        placed.resize(count);
+        let chunks = placed.chunks_mut(first, CHUNK);
+        chunks.into_par_iter().enumerate().for_each(|(number, mut placed)| {
             for offset in 0..CHUNK.min(count - first - number * CHUNK) {
                 let index = first + number * CHUNK + offset;
                 let point = sources.point(index, sources.traits.region(index));
-                let (lift, base_rad) = self.lift(index, point, &stated);
-                baked.set(offset, sources.off_surface(point).position, point.normal, lift);
-                if let Some(base_angle_rad) = base_angles_rad.get_mut(offset) {
-                    *base_angle_rad = base_rad as f32;
-                }
+                placed.set(offset, sources.off_surface(point).position, point.normal);
             }
         });
         let of_rule = |rule: u16| sources.rules[usize::from(rule)].strokes.flatness;
@@ -167,29 +166,35 @@ impl BakeInputs {
             let of_rule = of_rule(sources.traits.region(index));
             painted.get(index).map_or(of_rule, |&by| painted_flatness(of_rule, by))
         };
-        body.baked.flatness.clear();
         let may_follow = !painted.is_empty() || self.used.iter().any(|&rule| of_rule(rule) < 1.0);
-        if may_follow && (0..count).any(|index| flatness(index) < 1.0) {
-            body.baked.flatness.extend((0..count).map(flatness));
-        }
-        Arc::new(body)
+        let follows = may_follow && (0..count).any(|index| flatness(index) < 1.0);
+        let flatness = if follows { (0..count).map(flatness).collect() } else { Vec::new() };
+        Arc::new(BakedBody { placed, flatness, looks })
     }
 
     /// N' of a particle and its base angle in the reference picture, radians (0 with the solver `Tangent`, which has no
-    /// use for it).
-    fn lift(&self, index: usize, point: SurfacePoint, stated: &DirectionRules<'_>) -> (Lift, f64) {
+    /// use for it). `stray_rad` is what chance and slow noise add to the base angle.
+    fn lift(
+        &self,
+        index: usize,
+        point: SurfacePoint,
+        stray_rad: f64,
+        stated: &DirectionRules<'_>,
+        near: Option<Near<'_>>,
+    ) -> (Lift, f64) {
         let sources = &self.sources;
         let views = sources.views(index, point, self.solver == Solver::Horn);
         let base = stated.base(point, &views);
         let mut tangent = base.tangent;
         if let Some(combed) = &self.combed {
-            if let Some(field) = &combed.field {
-                tangent = field.direction(&combed.stencils, index, point, &base);
+            let field = combed.field.as_ref().zip(near);
+            if let Some((field, near)) = field {
+                tangent = field.direction(near, point, &base);
             }
-            let relaxed = || combed.field.as_ref()?.relaxed(&combed.stencils, index, point, &base);
+            let relaxed = || field.and_then(|(field, near)| field.relaxed(near, point, &base));
             tangent = combed.inputs.with_guides(point, &views, tangent, relaxed);
         }
-        let stray = self.stray_rad[index] + sources.rules[point.rule].turn_rad;
+        let stray = stray_rad + sources.rules[point.rule].turn_rad;
         let lift = views.lift(tangent).turned(stray);
         if self.solver == Solver::Tangent {
             return (lift, 0.0);
@@ -200,6 +205,35 @@ impl BakeInputs {
             views.angle_in_reference(tangent)
         };
         (lift, if base_rad.is_finite() { base_rad + stray } else { stray })
+    }
+}
+
+impl FindLooks for BakeInputs {
+    fn has_angles(&self) -> bool {
+        self.solver != Solver::Tangent
+    }
+
+    fn find_looks(&self, particles: &[u32], found: &mut dyn FnMut(usize, Look)) {
+        let sources = &self.sources;
+        let stated = sources.stated();
+        let stencils = self.combed.as_ref().filter(|combed| combed.field.is_some()).map(|combed| {
+            let at = |&particle: &u32| sources.traits.particles.at(particle as usize);
+            let (positions, normals): (Vec<Vec3>, Vec<Vec3>) =
+                particles.iter().map(at).map(|particle| (particle.position, particle.normal)).unzip();
+            combed.inputs.samples.stencils(Points { positions: &positions, normals: &normals })
+        });
+        for (number, batch) in particles.chunks(BATCH).enumerate() {
+            let noise = self.trait_inputs.noise(&sources.traits, batch);
+            for (offset, &particle) in batch.iter().enumerate() {
+                let index = particle as usize;
+                let point = sources.point(index, sources.traits.region(index));
+                let near =
+                    stencils.as_ref().map(|stencils| Near { stencils, offset: number * BATCH + offset });
+                let (lift, base_rad) = self.lift(index, point, noise.stray_rad[offset], &stated, near);
+                let lift = [lift.along, lift.across].map(|column| column.as_vec3().to_array());
+                found(index, Look { lift, drift: noise.drift[offset], base_angle_rad: base_rad as f32 });
+            }
+        }
     }
 }
 

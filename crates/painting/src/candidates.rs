@@ -6,6 +6,7 @@ use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
 
 use crate::frame::{LayerRun, Lines, Quality, Stroke, StrokeSource, Strokes};
+use crate::looks::Looks;
 use crate::order::{OrderEntry, PaintingOrder};
 use crate::painting_view::{CoatView, MOST_GROWTH, PaintingView};
 use crate::recall::Recall;
@@ -31,9 +32,6 @@ struct Found {
 
 impl Found {
     fn add(&mut self, view: &PaintingView<'_>, candidate: &Candidate) {
-        if !view.is_in_picture(candidate) {
-            return;
-        }
         let Some((stroke, source)) = view.stroke(candidate) else { return };
         let rule = &view.painting.rules[usize::from(candidate.region)];
         let kind = view.coats[candidate.entry.coat as usize].coat.kind;
@@ -57,8 +55,10 @@ impl PaintingView<'_> {
         let may_show: Vec<Vec<u64>> = self.coats.iter().map(|coat| self.may_show(coat)).collect();
         // The numbers of particles run through all coats; each coat begins with a new word.
         let may_show = may_show.concat();
-        let chunk = |(number, part): (usize, &[u32])| self.found(number * CHUNK, part, &may_show);
-        let found: Vec<Found> = numbers.par_chunks(CHUNK).enumerate().map(chunk).collect();
+        let chunk = |(number, part): (usize, &[u32])| self.candidates(number * CHUNK, part, &may_show);
+        let candidates: Vec<Vec<Candidate>> = numbers.par_chunks(CHUNK).enumerate().map(chunk).collect();
+        self.find_looks(&candidates);
+        let found: Vec<Found> = candidates.par_iter().map(|candidates| self.found(candidates)).collect();
         let count = found.iter().map(|found| found.strokes.len()).sum();
         let (mut strokes, mut sources) = (Vec::with_capacity(count), Vec::with_capacity(count));
         let mut layers: Vec<(LayerKey, LayerRun)> = Vec::new();
@@ -101,9 +101,8 @@ impl PaintingView<'_> {
         coat.within(&bounds)
     }
 
-    /// The strokes of those particles among `numbers` that may show; `first` is the place of `numbers[0]` in the
-    /// painting order.
-    fn found(&self, first: usize, numbers: &[u32], may_show: &[u64]) -> Found {
+    /// Those particles among `numbers` whose strokes may show; `first` is the place of `numbers[0]` in the painting order.
+    fn candidates(&self, first: usize, numbers: &[u32], may_show: &[u64]) -> Vec<Candidate> {
         let shows = |offset: &usize| {
             let number = numbers[*offset] as usize;
             may_show[number / PaintingOrder::WORD] >> (number % PaintingOrder::WORD) & 1 != 0
@@ -113,18 +112,49 @@ impl PaintingView<'_> {
             Some(recall) => recall.asked(first, numbers.len()).filter(shows).collect(),
             None => (0..numbers.len()).filter(shows).collect(),
         };
-        let mut found = Found::default();
+        let mut found: Vec<Candidate> = Vec::new();
         // Particles lie far apart in memory: reading many of them at once lets the processor fetch them in parallel.
-        let mut candidates: Vec<Candidate> = Vec::with_capacity(BATCH);
+        let mut batch: Vec<Candidate> = Vec::with_capacity(BATCH);
         for offsets in asked.chunks(BATCH) {
-            candidates.clear();
-            candidates.extend(offsets.iter().map(|&offset| {
+            batch.extend(offsets.iter().map(|&offset| {
                 let entry = self.painting.order.entry(numbers[offset]);
                 self.coats[entry.coat as usize].candidate(entry, first + offset)
             }));
-            for candidate in &candidates {
-                found.add(self, candidate);
+            batch.retain(|candidate| self.is_in_picture(candidate));
+            for candidate in &mut batch {
+                candidate.look = self.looks(candidate.entry).known(candidate.entry.particle as usize);
             }
+            // To find a look takes longer than to judge more closely whether it is needed.
+            found.extend(
+                batch
+                    .drain(..)
+                    .filter(|candidate| candidate.look.is_some() || self.may_be_present(candidate)),
+            );
+        }
+        found
+    }
+
+    /// Finds the looks of those particles that have none.
+    fn find_looks(&self, candidates: &[Vec<Candidate>]) {
+        let unknown = candidates.iter().flatten().filter(|candidate| candidate.look.is_none());
+        let mut unknown: Vec<OrderEntry> = unknown.map(|candidate| candidate.entry).collect();
+        unknown.sort_unstable_by_key(|entry| (entry.coat, entry.particle));
+        for of_coat in unknown.chunk_by(|one, next| one.coat == next.coat) {
+            let particles: Vec<u32> = of_coat.iter().map(|entry| entry.particle).collect();
+            let task = particles.len().div_ceil(2 * rayon::current_num_threads()).clamp(BATCH, CHUNK);
+            particles.par_chunks(task).for_each(|particles| self.looks(of_coat[0]).find(particles));
+        }
+    }
+
+    fn looks(&self, entry: OrderEntry) -> &Looks {
+        &self.coats[entry.coat as usize].coat.baked.looks
+    }
+
+    /// The strokes of these particles.
+    fn found(&self, candidates: &[Candidate]) -> Found {
+        let mut found = Found::default();
+        for candidate in candidates {
+            found.add(self, candidate);
         }
         found
     }
@@ -137,16 +167,16 @@ impl PaintingView<'_> {
     }
 
     fn is_in_picture(&self, candidate: &Candidate) -> bool {
-        let &Candidate { entry, ref solved, region, part, .. } = candidate;
+        let &Candidate { entry, ref seen, region, part, .. } = candidate;
         let (coat, index) = (&self.coats[entry.coat as usize], entry.particle as usize);
         let Some(bound) = &coat.presence_bounds[usize::from(region)] else { return false };
         let reach = bound.reach_px * coat.growth(index, self);
         candidate.albedo_srgb8 != HOLE
-            && solved.area_px > 0.0
-            && solved.area_px * bound.most_per_area[part] > index as f32
-            && self.is_between(solved.depth)
-            && solved.x_px.abs() < self.half_px[0] + reach
-            && solved.y_px.abs() < self.half_px[1] + reach
+            && seen.area_px > 0.0
+            && seen.area_px * bound.most_per_area[part] > index as f32
+            && self.is_between(seen.depth)
+            && seen.x_px.abs() < self.half_px[0] + reach
+            && seen.y_px.abs() < self.half_px[1] + reach
     }
 }
 
@@ -156,11 +186,11 @@ impl CoatView<'_> {
         Candidate {
             entry,
             place: place as u32,
-            solved: self.solved(index),
+            seen: self.seen(index),
             region: coat.traits.region(index),
             part: coat.traits.part(index),
             bits: coat.traits.bits(index),
-            drift: coat.traits.drift[index],
+            look: None,
             albedo_srgb8: coat.albedo_srgb8(index),
         }
     }

@@ -7,7 +7,7 @@ use glam::Vec3;
 use impasto_core::bending::SortedParticles;
 
 use impasto_core::sampling::{self, PackedParticle, ProgressiveState, Surface};
-use impasto_core::solve::{BakedParticles, Bounds, ParticleView};
+use impasto_core::solve::{Bounds, ParticleView};
 use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
 
@@ -76,26 +76,20 @@ impl Sampled {
 }
 
 impl Coat {
-    /// The baked particles, carried by a body that is not at rest.
-    pub(crate) fn carried(&self, bent: &Bent) -> BakedParticles {
-        let places = self.sampled.particles.places();
-        bent.carrier().carry(&self.surface.mesh, places, &self.baked.baked, self.heights())
-    }
-
-    /// One particle of [`Self::carried`]: position, normal and the columns of its lift.
-    pub(crate) fn carried_one(&self, bent: &Bent, index: usize) -> [Vec3; 4] {
+    /// A particle carried by a body that is not at rest: its position, normal, and these columns of its lift.
+    pub(crate) fn carried(&self, bent: &Bent, index: usize, lift: [Vec3; 2]) -> [Vec3; 4] {
         let place = self.sampled.particles.places()[index];
-        let baked = (&self.baked.baked, index);
-        bent.carrier().particle(&self.surface.mesh, place, baked, self.heights()(index))
+        let normal = self.baked.placed.normal_of(index).as_vec3();
+        bent.carrier().particle(&self.surface.mesh, place, [normal, lift[0], lift[1]], self.heights()(index))
     }
 
     /// One baked particle at rest.
     pub(crate) fn raised(&self, index: usize) -> RaisedPlace {
-        let baked = &self.baked.baked;
+        let placed = &self.baked.placed;
         RaisedPlace {
             place: self.sampled.particles.places()[index],
-            position: baked.position_of(index),
-            normal: baked.normal_of(index),
+            position: placed.position_of(index),
+            normal: placed.normal_of(index),
             height: f64::from(self.heights()(index)),
         }
     }
@@ -103,7 +97,7 @@ impl Coat {
     /// A bit for each particle, carried by a body that is not at rest: whether it faces the eye within the bounds.
     pub(crate) fn carried_within(&self, bent: &Bent, view: &ParticleView, bounds: &Bounds) -> Vec<u64> {
         let sorted = made_once(&self.sorted, || {
-            SortedParticles::new(self.sampled.particles.places(), &self.baked.baked, self.heights())
+            SortedParticles::new(self.sampled.particles.places(), &self.baked.placed, self.heights())
         });
         bent.carrier().within(&self.surface.mesh, sorted, view, bounds)
     }

@@ -41,6 +41,15 @@ pub(crate) struct BodyField {
     singularities: OnceLock<Vec<Singularity>>,
 }
 
+/// The samples near a particle.
+#[derive(Clone, Copy)]
+pub(crate) struct Near<'a> {
+    /// The samples near several particles.
+    pub(crate) stencils: &'a Stencils,
+    /// Which of them the particle is.
+    pub(crate) offset: usize,
+}
+
 /// The part of a field that does not depend on guides.
 struct UnguidedField {
     points: Vec<SamplePoint>,
@@ -114,19 +123,13 @@ impl BodyField {
 
     /// The direction of a particle: the field's direction mixed with the stated one, `base`. The further the stated
     /// direction holds there, the more it counts.
-    pub(crate) fn direction(
-        &self,
-        stencils: &Stencils,
-        particle: usize,
-        point: SurfacePoint,
-        base: &StatedDirection,
-    ) -> DVec3 {
+    pub(crate) fn direction(&self, near: Near<'_>, point: SurfacePoint, base: &StatedDirection) -> DVec3 {
         if self.anchored && base.exact >= 1.0 {
             return base.tangent;
         }
         let axes = tangent_axes(point.normal);
         let stated = self.symmetry.encode(base.tangent, axes);
-        let Some((found, anchor)) = self.carried(&self.solved, stencils, particle, point, stated) else {
+        let Some((found, anchor)) = self.carried(&self.solved, near, point, stated) else {
             return base.tangent;
         };
         let hold = anchor * base.exact;
@@ -140,14 +143,13 @@ impl BodyField {
     /// The smoothed field's direction at a particle; `None` if no guide smooths, or no sample is near.
     pub(crate) fn relaxed(
         &self,
-        stencils: &Stencils,
-        particle: usize,
+        near: Near<'_>,
         point: SurfacePoint,
         base: &StatedDirection,
     ) -> Option<DVec3> {
         let axes = tangent_axes(point.normal);
         let stated = self.symmetry.encode(base.tangent, axes);
-        let (found, _) = self.carried(self.relaxed.as_ref()?, stencils, particle, point, stated)?;
+        let (found, _) = self.carried(self.relaxed.as_ref()?, near, point, stated)?;
         Some(self.tangent(found, axes, base))
     }
 
@@ -164,8 +166,7 @@ impl BodyField {
     fn carried(
         &self,
         solved: &[DVec2],
-        stencils: &Stencils,
-        particle: usize,
+        near: Near<'_>,
         point: SurfacePoint,
         stated: DVec2,
     ) -> Option<(DVec2, f64)> {
@@ -181,6 +182,6 @@ impl BodyField {
             })
         };
         let position = point.position.as_vec3();
-        stencils.carry(particle, position, point.normal, stated, self.symmetry, sample)
+        near.stencils.carry(near.offset, position, point.normal, stated, self.symmetry, sample)
     }
 }

@@ -30,6 +30,7 @@ mod frame_options;
 mod kept;
 mod late_field;
 mod lights;
+mod looks;
 mod made_once;
 mod noise_displace;
 mod object_cache;

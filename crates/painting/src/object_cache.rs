@@ -3,7 +3,6 @@
 use std::sync::{Arc, OnceLock};
 
 use glam::{DVec3, Vec3};
-use impasto_core::direction::carry::Stencils;
 use impasto_core::neighbours::{Neighbours, full_list_radius};
 use impasto_core::sampling::Surface;
 use impasto_scene::document::Solver;
@@ -28,7 +27,7 @@ use crate::parts::BodyParts;
 use crate::references::Standing;
 use crate::regions::RegionRule;
 use crate::surface::SurfaceInputs;
-use crate::traits::{CoatTraits, TraitInputs, Traits};
+use crate::traits::{TraitInputs, Traits};
 
 const LAYERS: usize = LayerKind::ALL.len();
 
@@ -52,10 +51,9 @@ pub(crate) struct ObjectCache {
 struct CoatCache {
     sampled: Cached<SampleInputs, Arc<Sampled>>,
     neighbours: Cached<Particles, Arc<Neighbours>>,
-    stencils: Cached<StencilInputs, CoatStencils>,
-    traits: Cached<Arc<TraitInputs>, CoatTraits>,
+    traits: Cached<Arc<TraitInputs>, Arc<Traits>>,
     amounts: Cached<AmountInputs, Arc<CoatAmounts>>,
-    baked: Cached<BakeInputs, Arc<BakedBody>>,
+    baked: Cached<Arc<BakeInputs>, Arc<BakedBody>>,
 }
 
 #[derive(Clone)]
@@ -94,26 +92,6 @@ fn distinct(shapes: Vec<BodyShape>) -> Vec<BodyShape> {
         }
     }
     all
-}
-
-/// Particles and the samples of the field round them.
-struct StencilInputs {
-    particles: Particles,
-    samples: Arc<FieldSamples>,
-}
-
-/// Equal for the same order of particles, however many there are.
-impl PartialEq for StencilInputs {
-    fn eq(&self, other: &Self) -> bool {
-        self.particles.same_order(&other.particles) && Arc::ptr_eq(&self.samples, &other.samples)
-    }
-}
-
-/// Which samples of the field each particle uses.
-struct CoatStencils {
-    /// How many particles have a stencil.
-    count: usize,
-    stencils: Arc<Stencils>,
 }
 
 impl ObjectCache {
@@ -245,17 +223,6 @@ impl ObjectCache {
             let before = before.and_then(|(_, field)| field);
             BodyField::solve(inputs, before.as_deref()).map(Arc::new)
         });
-        for coat in &mut self.coats {
-            let inputs =
-                StencilInputs { particles: coat.sampled().particles.clone(), samples: Arc::clone(&samples) };
-            coat.stencils.resize(inputs, |StencilInputs { particles, samples }, before| {
-                // Stencils of more particles of the same order serve as well.
-                before.filter(|before| before.count >= particles.len()).unwrap_or_else(|| CoatStencils {
-                    count: particles.len(),
-                    stencils: Arc::new(samples.stencils(particles)),
-                })
-            });
-        }
     }
 
     fn field_inputs(
@@ -306,17 +273,13 @@ impl ObjectCache {
     ) -> Vec<Arc<Coat>> {
         let surface = self.object_surface().clone();
         let field = self.field.inputs().cloned().zip(self.field.output().cloned());
+        let combed = field.map(|(inputs, field)| Combed { inputs, field });
         let coats = self.coats.par_iter_mut().zip(LayerKind::ALL);
         let coats =
             coats.filter(|(coat, kind)| *kind == LayerKind::Body || !coat.sampled().particles.is_empty());
         coats
             .map(|(coat, kind)| {
-                let combed =
-                    field.as_ref().zip(coat.stencils.output()).map(|((inputs, field), stencils)| Combed {
-                        inputs: Arc::clone(inputs),
-                        field: field.clone(),
-                        stencils: Arc::clone(&stencils.stencils),
-                    });
+                let combed = combed.clone();
                 let given = CoatInputs { context, object, brushes, kind, surface: &surface };
                 Arc::new(coat.bake(&given, combed))
             })
@@ -419,21 +382,20 @@ impl CoatCache {
 
     fn bake(&mut self, given: &CoatInputs<'_>, combed: Option<Combed>) -> Coat {
         let trait_inputs = Arc::new(given.traits(self.sampled().particles.clone()));
-        let CoatTraits { traits, stray_rad } =
-            self.traits.resize(Arc::clone(&trait_inputs), |inputs, before| inputs.traits(before)).clone();
+        let traits = self.traits.resize(Arc::clone(&trait_inputs), |inputs, before| inputs.traits(before));
+        let traits = Arc::clone(traits);
         let amounts =
             Arc::clone(self.amounts.update(given.amounts(&traits), |inputs, _| Arc::new(inputs.find())));
         let lift_sources = given.lift_sources(&traits, self.neighbours.output());
         let inputs = BakeInputs {
             sources: lift_sources.clone(),
             trait_inputs,
-            stray_rad,
             amounts: Arc::clone(&amounts),
             solver: given.context.solver,
             used: Arc::clone(given.object.used),
             combed,
         };
-        let baked = Arc::clone(self.baked.resize(inputs, |inputs, before| inputs.bake(before)));
+        let baked = Arc::clone(self.baked.resize(Arc::new(inputs), |inputs, before| inputs.bake(before)));
         given.coat(self.sampled(), lift_sources, amounts, baked)
     }
 
@@ -444,7 +406,7 @@ impl CoatCache {
         if let Some(lists) = kept.neighbours {
             self.neighbours.update(sampled.particles.clone(), |_, _| Arc::new(lists));
         }
-        let traits = given.traits(sampled.particles.clone()).of_kept(kept.dabbed, kept.drift);
+        let traits = given.traits(sampled.particles.clone()).of_kept(kept.dabbed);
         let traits = Arc::new(traits);
         let amounts = Arc::new(given.amounts(&traits).find());
         let lift_sources = given.lift_sources(&traits, self.neighbours.output());

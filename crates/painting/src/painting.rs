@@ -136,7 +136,7 @@ impl Painting {
 
     /// Memory of all baked particles, in bytes.
     pub fn particle_bytes(&self) -> usize {
-        self.coats.iter().map(|coat| coat.baked.baked.bytes()).sum()
+        self.coats.iter().map(|coat| coat.baked.bytes()).sum()
     }
 
     /// The particles of one object's body layer, in progressive order.

@@ -3,10 +3,10 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use glam::{DAffine3, DMat3, DVec3};
+use glam::{DAffine3, DMat3, DVec3, Vec3};
 use impasto_core::horn_exact::{self, ClipView};
 use impasto_core::lift::Lift;
-use impasto_core::solve::{BakedParticles, Bounds, ParticleView, SolvedParticle, SolvedParticles, solve};
+use impasto_core::solve::{Bounds, ParticleView, PlacedParticles, SeenParticle};
 use impasto_core::{ScreenMap, hash};
 use impasto_scene::document::Solver;
 use impasto_scene::motion::{self, CameraPose};
@@ -17,6 +17,7 @@ use crate::boil::Boil;
 use crate::coat::Coat;
 use crate::frame::Quality;
 use crate::frame_options::{FrameOptions, Rotation, StrokeColors};
+use crate::looks::Look;
 use crate::painting::Painting;
 use crate::presence_bound::PresenceBound;
 use crate::recall::Recall;
@@ -73,6 +74,8 @@ pub(crate) struct PlacedParticle {
     pub(crate) normal: DVec3,
     /// N'.
     pub(crate) lift: Lift,
+    /// Position, normal and the columns of N' in single precision. The normal is as long as its surface has grown.
+    vectors: [[f32; 3]; 4],
 }
 
 /// One body at a frame, shared by its coats.
@@ -173,9 +176,9 @@ impl<'a> PaintingView<'a> {
 
 impl PaintingView<'_> {
     /// The angle of a particle's stroke before it is pulled towards the contour.
-    pub(crate) fn angle_rad(&self, coat: &CoatView<'_>, index: usize, solved: &SolvedParticle) -> f32 {
+    pub(crate) fn angle_rad(&self, coat: &CoatView<'_>, index: usize, placed: &PlacedParticle) -> f32 {
         match self.rotation {
-            Rotation::On | Rotation::Mapped => coat.angle_rad(index, solved),
+            Rotation::On | Rotation::Mapped => coat.angle_rad(index, placed),
             Rotation::Off => coat.base_angle_rad(index) as f32,
             Rotation::Random => {
                 (hash::unit(coat.bits(index, self.frame_bits)) * 2.0 - 1.0) * std::f32::consts::PI
@@ -200,62 +203,73 @@ impl PaintingView<'_> {
 }
 
 impl CoatView<'_> {
-    /// The baked particles at rest.
-    fn baked(&self) -> &BakedParticles {
-        &self.coat.baked.baked
+    /// The particles at rest.
+    fn at_rest_all(&self) -> &PlacedParticles {
+        &self.coat.baked.placed
     }
 
     /// How many particles there are.
     pub(crate) fn len(&self) -> usize {
-        self.baked().len()
+        self.at_rest_all().len()
     }
 
     /// A bit for each particle of the coat: whether it faces the eye within these bounds.
     pub(crate) fn within(&self, bounds: &Bounds) -> Vec<u64> {
         match &self.bent {
             Some(bent) => self.coat.carried_within(bent, &self.particle_view, bounds),
-            None => self.particle_view.within(self.baked(), bounds),
+            None => self.particle_view.within(self.at_rest_all(), bounds),
         }
     }
 
-    /// A particle in this view.
-    pub(crate) fn solved(&self, index: usize) -> SolvedParticle {
+    /// Position and normal of a particle where it is now, and the columns of its lift, carried there.
+    fn vectors(&self, index: usize, lift: [[f32; 3]; 2]) -> [[f32; 3]; 4] {
         match &self.bent {
             Some(bent) => {
-                let vectors = self.coat.carried_one(bent, index).map(|vector| vector.to_array());
-                self.particle_view.solved_at(vectors, self.baked().flatness.get(index).copied())
+                self.coat.carried(bent, index, lift.map(Vec3::from_array)).map(|vector| vector.to_array())
             }
-            None => self.particle_view.solved(self.baked(), index),
+            None => {
+                let [position, normal] = self.at_rest_all().vectors_of(index);
+                [position, normal, lift[0], lift[1]]
+            }
         }
     }
 
-    /// All particles in this view.
-    pub(crate) fn all_solved(&self) -> SolvedParticles {
-        let mut solved = SolvedParticles::default();
-        match &self.bent {
-            Some(bent) => solve(&self.coat.carried(bent), &self.map, &mut solved),
-            None => solve(self.baked(), &self.map, &mut solved),
-        }
-        solved
+    /// Where a particle is in this view. Needs no look.
+    pub(crate) fn seen(&self, index: usize) -> SeenParticle {
+        let [position, normal, ..] = self.vectors(index, [[0.0; 3]; 2]);
+        self.particle_view.seen([position, normal])
+    }
+
+    /// Where a particle is now, and its unit normal, in model space. Needs no look.
+    pub(crate) fn position_and_normal(&self, index: usize) -> [DVec3; 2] {
+        let [position, normal, ..] =
+            self.vectors(index, [[0.0; 3]; 2]).map(|vector| DVec3::from_array(vector.map(f64::from)));
+        [position, self.unit(normal)]
+    }
+
+    /// A carried normal has the length of how much its surface has grown; one at rest is a unit vector.
+    fn unit(&self, normal: DVec3) -> DVec3 {
+        if self.bent.is_some() { normal.normalize_or_zero() } else { normal }
     }
 
     /// A particle where it is now.
-    pub(crate) fn placed(&self, index: usize) -> PlacedParticle {
-        let Some(bent) = &self.bent else {
-            let baked = self.baked();
-            return PlacedParticle {
-                position: baked.position_of(index),
-                normal: baked.normal_of(index),
-                lift: baked.lift_of(index),
-            };
-        };
+    pub(crate) fn placed(&self, index: usize, look: &Look) -> PlacedParticle {
+        let vectors = self.vectors(index, look.lift);
         let [position, normal, along, across] =
-            self.coat.carried_one(bent, index).map(|vector| vector.as_dvec3());
-        PlacedParticle { position, normal: normal.normalize_or_zero(), lift: Lift { along, across } }
+            vectors.map(|vector| DVec3::from_array(vector.map(f64::from)));
+        PlacedParticle { position, normal: self.unit(normal), lift: Lift { along, across }, vectors }
     }
 
-    fn angle_rad(&self, index: usize, solved: &SolvedParticle) -> f32 {
-        let Some((reference, now)) = &self.clip_views else { return solved.angle_rad };
+    /// The look of a particle.
+    pub(crate) fn look(&self, index: usize) -> Look {
+        self.coat.baked.looks.at(index)
+    }
+
+    fn angle_rad(&self, index: usize, placed: &PlacedParticle) -> f32 {
+        let Some((reference, now)) = &self.clip_views else {
+            let flatness = self.coat.baked.flatness.get(index).copied();
+            return self.particle_view.solved_at(placed.vectors, flatness).angle_rad;
+        };
         let particles = &self.coat.sampled.particles;
         let own = self.coat.lift_sources.references.own();
         // Where a particle is, in the reference and now.
@@ -283,7 +297,7 @@ impl CoatView<'_> {
 
     /// Where a particle is at rest, model space.
     pub(crate) fn at_rest(&self, index: usize) -> DVec3 {
-        self.coat.baked.baked.position_of(index)
+        self.at_rest_all().position_of(index)
     }
 
     /// The lift N of the tangent plane, without a stroke's direction, carried to where the surface is now. With the
@@ -302,7 +316,7 @@ impl CoatView<'_> {
     fn stretch(&self, bent: Option<&Arc<Bent>>, index: usize) -> f64 {
         let Some(bent) = bent else { return 1.0 };
         let place = bent.place(self.coat.sampled.particles.places()[index]);
-        place.area_normal(self.baked().normal_of(index)).length().sqrt()
+        place.area_normal(self.at_rest_all().normal_of(index)).length().sqrt()
     }
 
     /// The factor on a stroke's stated size where it follows the size of its surface: m^γ. m is the pixels per unit of
@@ -320,8 +334,8 @@ impl CoatView<'_> {
         let was_at = reference.then(self.coat.raised(index)).position;
         let before = scale(&reference.map, was_at, reference.near)
             * self.stretch(reference.stands.bent.as_ref(), index);
-        let now =
-            scale(&self.map, self.placed(index).position, 1e-9) * self.stretch(self.bent.as_ref(), index);
+        let [position, _] = self.position_and_normal(index);
+        let now = scale(&self.map, position, 1e-9) * self.stretch(self.bent.as_ref(), index);
         let grown = (now / before / f64::from(view.px_scale)).powf(f64::from(follow));
         if grown.is_finite() {
             grown.clamp(1.0 / f64::from(MOST_GROWTH), f64::from(MOST_GROWTH)) as f32

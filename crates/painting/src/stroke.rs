@@ -6,7 +6,7 @@ use impasto_core::angle::wrap_pi;
 use impasto_core::hash;
 use impasto_core::lift::PixelMap2;
 use impasto_core::presence::{self, smoothstep};
-use impasto_core::solve::SolvedParticle;
+use impasto_core::solve::SeenParticle;
 use impasto_scene::document::{Edges, Solver};
 use impasto_scene::presets::{LayerKind, ResolvedLayer, ResolvedStrokes};
 
@@ -14,6 +14,7 @@ use crate::brushes;
 use crate::counts::most_wanted;
 use crate::frame::{Mixing, Paint, Stroke, StrokeSource};
 use crate::frame_options::{Rotation, StrokeColors};
+use crate::looks::Look;
 use crate::order::OrderEntry;
 use crate::painting_view::{CoatView, PaintingView, PlacedParticle};
 use crate::parts::{fit_of, wanted_where_small};
@@ -44,18 +45,34 @@ pub(crate) struct Candidate {
     pub(crate) entry: OrderEntry,
     /// Index in the painting order.
     pub(crate) place: u32,
-    pub(crate) solved: SolvedParticle,
+    pub(crate) seen: SeenParticle,
     pub(crate) region: u16,
     pub(crate) part: usize,
     pub(crate) bits: u32,
-    pub(crate) drift: [f32; 2],
+    /// Its look, if it was known when the candidate was chosen.
+    pub(crate) look: Option<Look>,
     pub(crate) albedo_srgb8: u32,
 }
 
+/// The size of a particle's stroke, and how many strokes are supplied there.
+struct Supplied {
+    /// Length and width, pixels at the scene's own size, before chance changes them.
+    size_px: [f32; 2],
+    /// How boldly the stroke's colours are mixed, 0..=1.
+    boldness: f32,
+    supply_ln: f32,
+}
+
 impl PaintingView<'_> {
-    /// The stroke of a particle; `None` if it cannot show, whatever the resolve shader would find there.
-    pub(crate) fn stroke(&self, candidate: &Candidate) -> Option<(Stroke, StrokeSource)> {
-        let &Candidate { entry, place, ref solved, region, part, bits, drift, .. } = candidate;
+    /// Whether the stroke of a particle may be present, judged without its look.
+    pub(crate) fn may_be_present(&self, candidate: &Candidate) -> bool {
+        // Patches only make scumble rarer.
+        self.supplied(candidate, 1.0).is_some()
+    }
+
+    /// `None` if the stroke is absent wherever its surface faces. `patches` is how much scumble is wanted, 0..=1.
+    fn supplied(&self, candidate: &Candidate, patches: f32) -> Option<Supplied> {
+        let &Candidate { entry, ref seen, region, part, .. } = candidate;
         let (coat_view, index) = (&self.coats[entry.coat as usize], entry.particle as usize);
         let coat = coat_view.coat;
         let strokes = self.strokes_of(region);
@@ -73,20 +90,32 @@ impl PaintingView<'_> {
         let wanted = wanted_where_small(coat.kind, size_px[1] / layer.width_px);
         let painted = coat.amounts.of(index);
         let size_px = [size_px[0] * grown * painted.length, size_px[1] * grown * painted.width];
-        let patches = if coat.kind == LayerKind::Scumble { patch(drift[1]) } else { 1.0 };
         let supply_ln = match (&coat_view.shown, &coat.sampled.polygons) {
             (Some(shown), Some(polygons)) if polygons.is_shown(shown, index) => WHOLE,
             (Some(_), _) => return None,
             _ => {
                 let wanted_per_px =
                     layer.coverage * patches * wanted * painted.density / (size_px[0] * size_px[1]);
-                self.supply_ln(coat_view, index, solved.area_px, wanted_per_px)
+                self.supply_ln(coat_view, index, seen.area_px, wanted_per_px)
             }
         };
-        if supply_ln + most_wanted(coat.kind).ln() - LEAST_COUNTED_FADE.ln() <= presence::ABSENT_LN {
-            return None;
-        }
-        let PlacedParticle { position, normal, lift } = coat_view.placed(index);
+        let most_ln = supply_ln + most_wanted(coat.kind).ln() - LEAST_COUNTED_FADE.ln();
+        (most_ln > presence::ABSENT_LN).then_some(Supplied { size_px, boldness, supply_ln })
+    }
+
+    /// The stroke of a particle; `None` if it cannot show, whatever the resolve shader would find there.
+    pub(crate) fn stroke(&self, candidate: &Candidate) -> Option<(Stroke, StrokeSource)> {
+        let &Candidate { entry, place, ref seen, region, bits, .. } = candidate;
+        let (coat_view, index) = (&self.coats[entry.coat as usize], entry.particle as usize);
+        let coat = coat_view.coat;
+        let strokes = self.strokes_of(region);
+        let layer = strokes.layer_of(coat.kind);
+        let look = candidate.look.unwrap_or_else(|| coat_view.look(index));
+        let drift = look.drift;
+        let patches = if coat.kind == LayerKind::Scumble { patch(drift[1]) } else { 1.0 };
+        let Supplied { size_px, boldness, supply_ln } = self.supplied(candidate, patches)?;
+        let placed = coat_view.placed(index, &look);
+        let &PlacedParticle { position, normal, lift, .. } = &placed;
         let jacobian = coat_view.map.jacobian(position);
         let facing = coat_view.map.facing(jacobian, normal) as f32;
         if facing <= 0.0 {
@@ -104,7 +133,7 @@ impl PaintingView<'_> {
         };
         let map: PixelMap2 = lift.map(jacobian);
         let angle_rad = along_contour(
-            self.angle_rad(coat_view, index, solved),
+            self.angle_rad(coat_view, index, &placed),
             strokes.contour,
             normal,
             &coat_view.map,
@@ -137,14 +166,14 @@ impl PaintingView<'_> {
         let (sin, cos) = if bend_rad == 0.0 { angle_rad.sin_cos() } else { (1.0, 1.0) };
         let most_width_px = width_px * (1.0 + taper.abs());
         let reach = [[cos, sin], [sin, cos]].map(|axis| reach_px(axis, [length_px, most_width_px]));
-        let center_px = [solved.x_px + shift_px[0], solved.y_px + shift_px[1]];
+        let center_px = [seen.x_px + shift_px[0], seen.y_px + shift_px[1]];
         if (0..2).any(|axis| center_px[axis].abs() > self.half_px[axis] + reach[axis]) {
             return None;
         }
         let jitter_share = (strokes.angle_jitter_rad.to_degrees() / USUAL_JITTER_DEG as f32).min(1.0);
         let stroke = Stroke {
             center_px: [0, 1].map(|axis| center_px[axis] + self.half_px[axis]),
-            depth: solved.depth,
+            depth: seen.depth,
             angle_rad,
             length_px,
             width_px,

@@ -1,7 +1,7 @@
 //! The directions of strokes without their paint, for an editor: a few of the body layer, spread over the picture.
 
 use glam::DVec3;
-use impasto_core::solve::SolvedParticles;
+use impasto_core::solve::{Bounds, SeenParticle};
 use impasto_scene::document::Solver;
 use impasto_scene::motion::CameraPose;
 use impasto_scene::presets::LayerKind;
@@ -81,20 +81,16 @@ impl Painting {
         let columns = (width_px / cell_px).ceil().max(1.0) as usize;
         let rows = (height_px / cell_px).ceil().max(1.0) as usize;
         let mut cells: Vec<Option<(&CoatView<'_>, StrokeDirection)>> = vec![None; columns * rows];
+        let bounds = Bounds { half_px: view.half_px, near_far: view.near_far, most_per_area: f32::INFINITY };
         for coat in &view.coats {
-            let solved = coat.all_solved();
-            for index in 0..solved.area_px.len() {
-                let [x, y] = view.position_px(&solved, index);
-                let inside = x >= 0.0 && y >= 0.0 && x < width_px && y < height_px;
-                let faces = solved.area_px[index] > 0.0 && view.is_between(solved.depth[index]);
-                if !(inside && faces) {
-                    continue;
-                }
+            for index in indices(&coat.within(&bounds)) {
+                let seen = coat.seen(index);
+                let [x, y] = view.position_px(&seen);
                 let cell = (x / cell_px) as usize + (y / cell_px) as usize * columns;
-                if cells[cell].is_some_and(|(_, best)| best.rank <= rank(index, &solved)) {
+                if cells[cell].is_some_and(|(_, best)| best.rank <= rank(index, coat)) {
                     continue;
                 }
-                let direction = view.without_angle(coat, &solved, index);
+                let direction = view.without_angle(coat, &seen, index);
                 if direction.facing > 0.0 && accepted(&direction) {
                     cells[cell] = Some((coat, direction));
                 }
@@ -114,12 +110,12 @@ impl Painting {
         for index in 0..coat.len() {
             let distance_sq = coat.at_rest(index).distance_squared(place.position);
             if distance_sq <= least_sq
-                && coat.coat.baked.baked.normal_of(index).dot(place.normal) > LEAST_COSINE
+                && coat.coat.baked.placed.normal_of(index).dot(place.normal) > LEAST_COSINE
             {
                 (nearest, least_sq) = (Some(index), distance_sq);
             }
         }
-        let index = nearest.filter(|&index| view.is_between(coat.solved(index).depth))?;
+        let index = nearest.filter(|&index| view.is_between(coat.seen(index).depth))?;
         Some(view.shown_direction(coat, index))
     }
 
@@ -136,17 +132,16 @@ impl Painting {
     ) -> Vec<StrokeDirection> {
         let view = self.view(camera, frame, options, |coat| place.is_on(coat));
         let Some(coat) = view.coats.first() else { return Vec::new() };
-        let solved = coat.all_solved();
         let is_near = |index: &usize| {
             let distance_sq = coat.at_rest(*index).distance_squared(place.position);
             distance_sq < place.radius * place.radius
-                && coat.coat.baked.baked.normal_of(*index).dot(place.normal) > LEAST_COSINE
-                && solved.area_px[*index] > 0.0
-                && view.is_between(solved.depth[*index])
+                && coat.coat.baked.placed.normal_of(*index).dot(place.normal) > LEAST_COSINE
         };
-        (0..solved.area_px.len())
+        (0..coat.len())
             .filter(is_near)
-            .map(|index| view.without_angle(coat, &solved, index))
+            .map(|index| (index, coat.seen(index)))
+            .filter(|(_, seen)| seen.area_px > 0.0 && view.is_between(seen.depth))
+            .map(|(index, seen)| view.without_angle(coat, &seen, index))
             .filter(|direction| direction.facing > 0.0)
             .take(most)
             .map(|direction| view.with_angle(coat, direction))
@@ -161,30 +156,42 @@ impl SurfacePlace {
     }
 }
 
-/// The rank of a particle. `solved` must hold all particles of its coat.
-fn rank(index: usize, solved: &SolvedParticles) -> f32 {
-    (index as f32 + 0.5) / solved.area_px.len() as f32
+/// The rank of a particle of a coat.
+fn rank(index: usize, coat: &CoatView<'_>) -> f32 {
+    (index as f32 + 0.5) / coat.len() as f32
+}
+
+/// The numbers of the bits that are set, in order; 64 to a word, the first in the lowest bit.
+fn indices(words: &[u64]) -> impl Iterator<Item = usize> + '_ {
+    words.iter().enumerate().flat_map(|(word, &bits)| {
+        let mut left = bits;
+        std::iter::from_fn(move || {
+            let bit = left.trailing_zeros() as usize;
+            left &= left.checked_sub(1)?;
+            Some(word * 64 + bit)
+        })
+    })
 }
 
 impl PaintingView<'_> {
     /// Where a particle is in the picture, pixels from its upper left corner, Y down.
-    fn position_px(&self, solved: &SolvedParticles, index: usize) -> [f32; 2] {
-        [solved.x_px[index] + self.half_px[0], self.half_px[1] - solved.y_px[index]]
+    fn position_px(&self, seen: &SeenParticle) -> [f32; 2] {
+        [seen.x_px + self.half_px[0], self.half_px[1] - seen.y_px]
     }
 
     /// The direction of a particle's stroke, with angle and κ left at 0.
-    fn without_angle(&self, coat: &CoatView<'_>, solved: &SolvedParticles, index: usize) -> StrokeDirection {
-        let PlacedParticle { position, normal, .. } = coat.placed(index);
+    fn without_angle(&self, coat: &CoatView<'_>, seen: &SeenParticle, index: usize) -> StrokeDirection {
+        let [position, normal] = coat.position_and_normal(index);
         let jacobian = coat.map.jacobian(position);
         StrokeDirection {
             object: coat.coat.object,
             region: usize::from(coat.coat.traits.region(index)),
             particle: index,
-            rank: rank(index, solved),
-            position_px: self.position_px(solved, index),
+            rank: rank(index, coat),
+            position_px: self.position_px(seen),
             angle_rad: 0.0,
             kappa: 0.0,
-            depth: solved.depth[index],
+            depth: seen.depth,
             facing: coat.map.facing(jacobian, normal) as f32,
         }
     }
@@ -195,7 +202,8 @@ impl PaintingView<'_> {
     }
 
     fn shown_direction(&self, coat: &CoatView<'_>, index: usize) -> ShownDirection {
-        let PlacedParticle { position, normal, lift } = coat.placed(index);
+        let placed = coat.placed(index, &coat.look(index));
+        let &PlacedParticle { position, normal, lift, .. } = &placed;
         let jacobian = coat.map.jacobian(position);
         let region = coat.coat.traits.region(index);
         let contour = self.strokes_of(region).contour;
@@ -204,7 +212,7 @@ impl PaintingView<'_> {
             Solver::Tangent => lift,
             Solver::Horn | Solver::HornExact => coat.surface_lift(index),
         };
-        let angle_rad = self.angle_rad(coat, index, &coat.solved(index));
+        let angle_rad = self.angle_rad(coat, index, &placed);
         ShownDirection {
             angle_rad: along_contour(angle_rad, contour, normal, &coat.map, facing),
             kappa: lift.map(jacobian).kappa() as f32,

@@ -173,7 +173,8 @@ impl PaintingView<'_> {
         };
         let Some(coat) = self.coats.iter().find(is_body) else { return 0.0 };
         let round = laid.round.iter().map(|&index| index as usize).filter(|&index| index < coat.len());
-        let angles = round.map(|index| f64::from(self.angle_rad(coat, index, &coat.solved(index))));
+        let angles =
+            round.map(|index| f64::from(self.angle_rad(coat, index, &coat.placed(index, &coat.look(index)))));
         let mut nearest = None;
         let mut sum = DVec2::ZERO;
         for angle in angles.filter(|angle| angle.is_finite()) {

@@ -160,10 +160,10 @@ impl TouchInputs<'_> {
     fn round(&self, object: usize, place: &TouchPlace) -> Vec<u32> {
         let is_body = |coat: &&Arc<Coat>| coat.object == object && coat.kind == LayerKind::Body;
         let Some(coat) = self.coats.iter().find(is_body) else { return Vec::new() };
-        let baked = &coat.baked.baked;
-        let mut near: Vec<(f64, u32)> = (0..baked.len())
-            .filter(|&index| baked.normal_of(index).dot(place.normal) > 0.5)
-            .map(|index| (baked.position_of(index).distance_squared(place.position), index as u32))
+        let placed = &coat.baked.placed;
+        let mut near: Vec<(f64, u32)> = (0..placed.len())
+            .filter(|&index| placed.normal_of(index).dot(place.normal) > 0.5)
+            .map(|index| (placed.position_of(index).distance_squared(place.position), index as u32))
             .collect();
         let order = |a: &(f64, u32), b: &(f64, u32)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
         if near.len() > ROUND {

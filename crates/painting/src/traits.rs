@@ -1,4 +1,5 @@
-//! Traits: what is fixed for a particle besides its direction: its region, its random numbers, its slow noise.
+//! Traits: what is fixed for a particle besides its direction: its region, its part, its random numbers; and its slow
+//! noise, for those particles that are asked for.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -45,8 +46,8 @@ const CROSSING_SWING: f64 = 26.0 / 6.0;
 const CROSSING_JITTER: f64 = 13.0 / 7.0;
 const SECOND_FAMILY: f32 = 0.42;
 
-/// How many particles one task computes.
-const CHUNK: usize = 512;
+/// Noise is computed for so many particles side by side.
+pub(crate) const BATCH: usize = 64;
 
 /// All that traits depend on. The number of particles is not compared.
 #[derive(Clone)]
@@ -82,9 +83,6 @@ pub(crate) struct Traits {
     pub(crate) name_hash: u32,
     /// The region of each particle where there are dabs; empty where it follows from the triangles.
     dabbed: Vec<u16>,
-    /// Two slow noises of each particle: one for hue and value, one for how firm edges are and where scumble and
-    /// contours lie.
-    pub(crate) drift: Vec<[f32; 2]>,
     /// The size of the form at each particle; empty where no strokes are fitted to the form.
     form: FormMemo,
 }
@@ -96,7 +94,7 @@ struct FormMemo(Vec<AtomicU32>);
 
 impl FormMemo {
     fn new(count: usize) -> Self {
-        Self((0..count).map(|_| AtomicU32::new(Self::UNKNOWN)).collect())
+        Self(bytemuck::allocation::zeroed_vec(count))
     }
 
     /// No size has these bits.
@@ -123,12 +121,12 @@ impl Clone for FormMemo {
     }
 }
 
-/// All traits of a coat's particles.
-#[derive(Clone)]
-pub(crate) struct CoatTraits {
-    pub(crate) traits: Arc<Traits>,
-    /// What chance and slow noise add to the base angle of each particle, radians. Pictures do not need it.
-    pub(crate) stray_rad: Arc<Vec<f64>>,
+/// The slow noise of up to [`BATCH`] particles.
+pub(crate) struct Noise {
+    /// [`crate::looks::Look::drift`].
+    pub(crate) drift: [[f32; 2]; BATCH],
+    /// What chance and slow noise add to the base angle, radians.
+    pub(crate) stray_rad: [f64; BATCH],
 }
 
 impl Traits {
@@ -226,59 +224,41 @@ impl TraitInputs {
     }
 
     /// The traits, restored from a kept file.
-    pub(crate) fn of_kept(&self, dabbed: Vec<u16>, drift: Vec<[f32; 2]>) -> Traits {
-        Traits { drift, ..self.without_noise(dabbed) }
-    }
-
-    fn without_noise(&self, dabbed: Vec<u16>) -> Traits {
+    pub(crate) fn of_kept(&self, dabbed: Vec<u16>) -> Traits {
         Traits {
             particles: self.particles.clone(),
             regions: Arc::clone(&self.regions),
             parts: Arc::clone(&self.parts),
             name_hash: self.name_hash,
             dabbed,
-            drift: Vec::new(),
             form: FormMemo::new(if self.fits { self.particles.len() } else { 0 }),
         }
     }
 
     /// The traits of all particles. `before` was made from equal inputs: it is shortened or extended.
-    pub(crate) fn traits(&self, before: Option<CoatTraits>) -> CoatTraits {
+    pub(crate) fn traits(&self, before: Option<Arc<Traits>>) -> Arc<Traits> {
         let count = self.particles.len();
-        let (mut dabbed, mut drift, mut stray_rad) = (Vec::new(), Vec::new(), Vec::new());
-        if let Some(before) = before {
-            if before.traits.drift.len() == count {
-                return before;
-            }
-            let traits = Arc::unwrap_or_clone(before.traits);
-            (dabbed, drift) = (traits.dabbed, traits.drift);
-            stray_rad = Arc::unwrap_or_clone(before.stray_rad);
+        if let Some(before) = &before
+            && before.particles.len() == count
+        {
+            return Arc::clone(before);
         }
+        let mut dabbed = before.map_or(Vec::new(), |before| Arc::unwrap_or_clone(before).dabbed);
         dabbed.truncate(count);
-        drift.truncate(count);
-        stray_rad.truncate(count);
-        let from = drift.len();
         if self.regions.has_dabs() {
-            let regions = self.particles.par_range(from..count).map(|particle| self.regions.of(&particle));
-            dabbed.par_extend(regions);
+            let rest = self.particles.par_range(dabbed.len()..count);
+            dabbed.par_extend(rest.map(|particle| self.regions.of(&particle)));
         }
-        drift.resize(count, [0.0; 2]);
-        stray_rad.resize(count, 0.0);
-        let traits = self.without_noise(dabbed);
-        let chunks = drift[from..].par_chunks_mut(CHUNK).zip(stray_rad[from..].par_chunks_mut(CHUNK));
-        chunks.enumerate().for_each(|(chunk, (drift, stray_rad))| {
-            self.fill_noise(&traits, from + chunk * CHUNK, drift, stray_rad);
-        });
-        CoatTraits { traits: Arc::new(Traits { drift, ..traits }), stray_rad: Arc::new(stray_rad) }
+        Arc::new(self.of_kept(dabbed))
     }
 
-    /// Computes the slow noise and the stray angles of the particles from `first` on; `traits` have no noise yet.
-    fn fill_noise(&self, traits: &Traits, first: usize, drift: &mut [[f32; 2]], stray_rad: &mut [f64]) {
-        let count = drift.len();
-        let mut at = [[DVec3::ZERO; CHUNK]; 3];
-        let mut swings = [true; CHUNK];
-        for index in 0..count {
-            let particle = first + index;
+    /// The slow noise and the stray angles of up to [`BATCH`] particles.
+    pub(crate) fn noise(&self, traits: &Traits, particles: &[u32]) -> Noise {
+        let count = particles.len();
+        let mut at = [[DVec3::ZERO; BATCH]; 3];
+        let mut swings = [true; BATCH];
+        for (index, &particle) in particles.iter().enumerate() {
+            let particle = particle as usize;
             let (rule, part) = (self.rules[usize::from(traits.region(particle))], traits.part(particle));
             let position = self.particles.at(particle).position.as_dvec3();
             let scale = self.scales[part];
@@ -288,7 +268,7 @@ impl TraitInputs {
             at[2][index] = position * (scale / self.cycle_px(rule));
             swings[index] = rule.swing_rad > 0.0;
         }
-        let mut noise = [[0.0f32; CHUNK]; 3];
+        let mut noise = [[0.0f32; BATCH]; 3];
         for (which, noise) in noise.iter_mut().enumerate() {
             // All layers and objects share the noise of the swing.
             let seed = if which == 2 { 3 } else { hash::combine(self.name_hash, which as u32 + 1) };
@@ -296,10 +276,12 @@ impl TraitInputs {
                 noise::slow(seed, &at[which][..count], &mut noise[..count]);
             }
         }
-        for index in 0..count {
-            drift[index] = [noise[0][index], noise[1][index]];
-            stray_rad[index] = self.stray_rad(traits, first + index, noise[2][index]);
+        let mut found = Noise { drift: [[0.0; 2]; BATCH], stray_rad: [0.0; BATCH] };
+        for (index, &particle) in particles.iter().enumerate() {
+            found.drift[index] = [noise[0][index], noise[1][index]];
+            found.stray_rad[index] = self.stray_rad(traits, particle as usize, noise[2][index]);
         }
+        found
     }
 
     /// The length of one cycle of the swing, pixels of a picture 720 high.

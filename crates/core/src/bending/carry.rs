@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use crate::TriangleMesh;
 use crate::cofactors::{cofactors, cofactors_f32};
 use crate::sampling::PackedParticle;
-use crate::solve::{BakedParticles, Bounds, ParticleView, WORD};
+use crate::solve::{BakedParticles, Bounds, ParticleView, PlacedParticles, WORD};
 use crate::wide::{Wide, widest};
 
 /// How many particles one task carries.
@@ -50,17 +50,17 @@ impl SortedParticles {
     /// Sorts particles; `height` is how far each is lifted off the surface.
     pub fn new(
         places: &[PackedParticle],
-        baked: &BakedParticles,
+        placed: &PlacedParticles,
         height: impl Fn(usize) -> f32 + Sync,
     ) -> Self {
         let entry = |(index, &place): (usize, &PackedParticle)| SortedParticle {
             place,
             number: index as u32,
-            normal: baked.normal_of(index).as_vec3(),
+            normal: placed.normal_of(index).as_vec3(),
             height: height(index),
         };
         let mut entries: Vec<SortedParticle> =
-            places[..baked.len()].par_iter().enumerate().map(entry).collect();
+            places[..placed.len()].par_iter().enumerate().map(entry).collect();
         entries.par_sort_unstable_by_key(|entry| (entry.place.triangle(), entry.number));
         Self(entries)
     }
@@ -119,16 +119,16 @@ impl Carrier {
     }
 
     /// A particle that was baked at rest, carried to where it is now, as [`Carrier::carry`] does: its position, normal and the columns of
-    /// its lift.
+    /// its lift. `at_rest` are its normal and the columns of its lift at rest.
     pub fn particle(
         &self,
         mesh: &TriangleMesh,
         place: PackedParticle,
-        (baked, index): (&BakedParticles, usize),
+        at_rest: [Vec3; 3],
         height: f32,
     ) -> [Vec3; 4] {
         let corners = mesh.triangles[place.triangle()].map(|vertex| self.record(vertex));
-        moved(baked, index, &blended(&corners, place.weights()), height)
+        moved(at_rest, &blended(&corners, place.weights()), height)
     }
 
     /// Culls particles. Returns one bit for each, in the order of their numbers, set where the particle faces the eye
@@ -159,7 +159,7 @@ impl Carrier {
     ) -> BakedParticles {
         let mut carried = BakedParticles::default();
         carried.resize(baked.len());
-        carried.chunks_mut(0, CHUNK).into_par_iter().enumerate().for_each(|(chunk, mut chunk_out)| {
+        carried.chunks_mut(CHUNK).into_par_iter().enumerate().for_each(|(chunk, mut chunk_out)| {
             let first = chunk * CHUNK;
             let mut corners = [[0u32; 3]; BATCH];
             let mut records = [[[0.0f32; 12]; 3]; BATCH];
@@ -173,8 +173,9 @@ impl Carrier {
                 for (offset, (records, place)) in records.iter().zip(places).enumerate() {
                     let offset = batch * BATCH + offset;
                     let index = first + offset;
-                    let moved = moved(baked, index, &blended(records, place.weights()), height(index));
-                    chunk_out.set_f32(offset, moved);
+                    let at_rest =
+                        [&baked.placed.normal, &baked.along, &baked.across].map(|arrays| of(arrays, index));
+                    chunk_out.set(offset, moved(at_rest, &blended(records, place.weights()), height(index)));
                 }
             }
         });
@@ -189,15 +190,19 @@ fn blended([a, b, c]: &[Record; 3], [u, v, w]: [f32; 3]) -> Record {
     std::array::from_fn(|index| a[index] * u + b[index] * v + c[index] * w)
 }
 
+#[inline(always)]
+fn of(arrays: &[Vec<f32>; 3], index: usize) -> Vec3 {
+    Vec3::new(arrays[0][index], arrays[1][index], arrays[2][index])
+}
+
 /// Position, normal and the columns of the lift of a particle; `record` is the surface's position and F there.
 #[inline(always)]
-fn moved(baked: &BakedParticles, index: usize, record: &Record, height: f32) -> [Vec3; 4] {
+fn moved([normal, along, across]: [Vec3; 3], record: &Record, height: f32) -> [Vec3; 4] {
     let [x, y, z, columns @ ..] = *record;
     let gradient = Mat3::from_cols_array(&columns);
-    let of = |arrays: &[Vec<f32>; 3]| Vec3::new(arrays[0][index], arrays[1][index], arrays[2][index]);
-    let normal = cofactors_f32(gradient) * of(&baked.normal);
+    let normal = cofactors_f32(gradient) * normal;
     let position = lifted(Vec3::new(x, y, z), normal, height);
-    [position, normal, gradient * of(&baked.along), gradient * of(&baked.across)]
+    [position, normal, gradient * along, gradient * across]
 }
 
 /// Culls a run of sorted particles, and sets the bits of those that show.

@@ -104,13 +104,17 @@ fn a_carried_normal_is_as_long_as_the_surface_has_grown() {
     let lift = crate::lift::Lift { along: DVec3::X, across: DVec3::Y };
     baked.push(DVec3::new(0.8, 0.5, 0.0), DVec3::NEG_Z, lift);
     let carried = carrier.carry(&mesh, &[place], &baked, |_| 0.25);
-    assert!(carried.normal_of(0).abs_diff_eq(DVec3::new(0.0, -6.0, 0.0), 1e-5), "{}", carried.normal_of(0));
+    assert!(
+        carried.placed.normal_of(0).abs_diff_eq(DVec3::new(0.0, -6.0, 0.0), 1e-5),
+        "{}",
+        carried.placed.normal_of(0)
+    );
     let lift = carried.lift_of(0);
     assert!(
         lift.along.abs_diff_eq(DVec3::X * 3.0, 1e-5) && lift.across.abs_diff_eq(DVec3::NEG_Z * 2.0, 1e-5)
     );
     let lifted = carrier.place(&mesh, place).position + DVec3::NEG_Y * 0.25;
-    assert!(carried.position_of(0).abs_diff_eq(lifted, 1e-5));
+    assert!(carried.placed.position_of(0).abs_diff_eq(lifted, 1e-5));
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3, Vec3};
 
 use super::{Symmetry, transport_rad};
-use crate::neighbours::{Neighbours, Points};
+use crate::neighbours::{Neighbours, PointIndex, Points};
 
 /// A particle is interpolated from at most this many samples.
 const MAX_SAMPLES: usize = 6;
@@ -13,7 +13,21 @@ const REACH_SPACINGS: f64 = 1.6;
 /// Standard deviation of the Gaussian weight, in spacings.
 const DEVIATION_SPACINGS: f64 = 0.55;
 
-/// For each particle, the samples near it. Depends on positions and normals, not on directions.
+/// The samples of a field, ready to be found from any particle.
+#[derive(Clone, Debug)]
+pub struct SampleIndex {
+    points: PointIndex,
+    spacing: f64,
+}
+
+impl SampleIndex {
+    /// From samples that are about `spacing` apart.
+    pub fn new(samples: Points<'_>, spacing: f64) -> Self {
+        Self { points: PointIndex::new(samples, (REACH_SPACINGS * spacing) as f32), spacing }
+    }
+}
+
+/// For each of some particles, the samples near it. Depends on positions and normals, not on directions.
 #[derive(Clone, Debug)]
 pub struct Stencils {
     lists: Neighbours,
@@ -36,14 +50,13 @@ pub struct SolvedSample {
 }
 
 impl Stencils {
-    /// Finds the samples (about `spacing` apart) near each of `particles`.
-    pub fn new(particles: Points<'_>, samples: Points<'_>, spacing: f64) -> Self {
-        let reach = (REACH_SPACINGS * spacing) as f32;
+    /// Finds the samples near each of `particles`.
+    pub fn new(particles: Points<'_>, samples: &SampleIndex) -> Self {
         // Nearest first, and twice as many as are used, since `carry` skips samples for which `sample` gives `None`.
-        Self { lists: Neighbours::find_among(particles, samples, reach, 2 * MAX_SAMPLES), spacing }
+        Self { lists: samples.points.nearest(particles, 2 * MAX_SAMPLES), spacing: samples.spacing }
     }
 
-    /// The direction and the anchor of a particle, from the samples near it for which `sample` gives something.
+    /// The direction and the anchor of one of the particles, from the samples near it for which `sample` gives something.
     ///
     /// The solve has turned each sample away from its stated direction; the particle's own `stated` direction is turned
     /// by the mean of these turns. Where the turns agree less than the samples' solved directions do, as around a
@@ -103,7 +116,7 @@ mod tests {
         let symmetry = Symmetry::Lines;
         let up = |normal: DVec3| symmetry.encode(towards(DVec3::Y, normal), tangent_axes(normal));
         let points = |positions| Points { positions, normals: positions };
-        let stencils = Stencils::new(points(&particles), points(&samples), spacing);
+        let stencils = Stencils::new(points(&particles), &SampleIndex::new(points(&samples), spacing));
         // Everything turned by 20 degrees from what was stated.
         let turn = symmetry.turn(20f64.to_radians());
         let mut worst = 0.0f64;

@@ -9,7 +9,7 @@ use super::Points;
 
 /// The grid. Cells are at least as wide as the search radius. They are numbered with x fastest, then y, then z. Every
 /// cell that holds a point has neighbours on all sides.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct CellSpace {
     low: [f64; 3],
     cells_per_unit: f64,
@@ -18,11 +18,12 @@ pub(super) struct CellSpace {
 }
 
 impl CellSpace {
-    /// A grid round all finite positions.
-    pub(super) fn new(positions: [&[Vec3]; 2], radius: f32) -> Self {
+    /// A grid round all finite positions. A position outside of it counts as in the nearest cell of its border, so a
+    /// search from there finds the same points.
+    pub(super) fn new(positions: &[Vec3], radius: f32) -> Self {
         let none = (Vec3::splat(f32::MAX), Vec3::splat(f32::MIN));
         let joined = |a: (Vec3, Vec3), b: (Vec3, Vec3)| (a.0.min(b.0), a.1.max(b.1));
-        let finite = positions.into_par_iter().flatten().filter(|position| position.is_finite());
+        let finite = positions.par_iter().filter(|position| position.is_finite());
         let (low, high) = finite.map(|&position| (position, position)).reduce(|| none, joined);
         let extent = (high.as_dvec3() - low.as_dvec3()).max(glam::DVec3::ZERO).to_array();
         // A little wider than needed, because of rounding, and so wide that cell numbers fit into 64 bits.
@@ -58,6 +59,7 @@ impl CellSpace {
 }
 
 /// Points in the order of their cells, one array per component.
+#[derive(Clone, Debug)]
 pub(super) struct SortedPoints {
     cells: Vec<u64>,
     /// Positions, then normals: x, y, z.

@@ -46,7 +46,7 @@ fn check(positions: &[Vec3], normals: &[Vec3], radius: f32) {
     let points = Points { positions, normals };
     let expected = brute_force(points, points, radius, MAX_NEIGHBOURS, false);
     for (build, run) in wide::builds() {
-        let found = Neighbours::found(points, None, radius, MAX_NEIGHBOURS, run);
+        let found = Neighbours::found_among_themselves(points, radius, run);
         assert_eq!(found.len(), positions.len());
         for (particle, expected) in expected.iter().enumerate() {
             assert_eq!(found.of(particle), expected, "{build}: particle {particle}, radius {radius}");
@@ -71,17 +71,18 @@ fn lists_of_others_equal_brute_force() {
     let (around, around_normals) = scattered(900, Vec3::new(3.0, 1.5, 0.2));
     let points = Points { positions: &positions, normals: &normals };
     let queries = Points { positions: &around, normals: &around_normals };
+    let index = PointIndex::new(points, 0.3);
     for most in [0, 1, 12] {
         let expected = brute_force(queries, points, 0.3, most, true);
-        let found = Neighbours::find_among(queries, points, 0.3, most);
+        let found = index.nearest(queries, most);
         assert_eq!(found.len(), 900);
         for (query, expected) in expected.iter().enumerate() {
             assert_eq!(found.of(query), expected, "query {query}");
         }
     }
     let nothing = Points { positions: &[], normals: &[] };
-    assert!(Neighbours::find_among(nothing, points, 1.0, 12).is_empty());
-    assert!(Neighbours::find_among(queries, nothing, 1.0, 12).of(3).is_empty());
+    assert!(index.nearest(nothing, 12).is_empty());
+    assert!(PointIndex::new(nothing, 1.0).nearest(queries, 12).of(3).is_empty());
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{BakedParticles, CHUNK, Rows, project, slices};
+use super::{BakedParticles, CHUNK, PlacedParticles, Rows, components, project, slices};
 use crate::ScreenMap;
 use crate::wide::{Wide, widest};
 
@@ -41,6 +41,19 @@ pub struct SolvedParticle {
     pub area_px: f32,
 }
 
+/// Where one particle is in a view.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SeenParticle {
+    /// Pixels from the picture's centre.
+    pub x_px: f32,
+    /// Pixels from the picture's centre, Y up.
+    pub y_px: f32,
+    /// Along the gaze, world units.
+    pub depth: f32,
+    /// Projected area in px² per unit of surface; positive where it faces the eye.
+    pub area_px: f32,
+}
+
 impl ParticleView {
     /// From a screen map.
     pub fn new(map: &ScreenMap) -> Self {
@@ -50,9 +63,9 @@ impl ParticleView {
     /// Solves one particle, with the same bits as [`super::solve`].
     #[inline]
     pub fn solved(&self, particles: &BakedParticles, particle: usize) -> SolvedParticle {
-        let of = |arrays: &[Vec<f32>; 3]| [0, 1, 2].map(|axis| arrays[axis][particle]);
-        let vectors =
-            [of(&particles.position), of(&particles.normal), of(&particles.along), of(&particles.across)];
+        let [position, normal] = particles.placed.vectors_of(particle);
+        let lift = [&particles.along, &particles.across].map(|arrays| components(arrays, particle));
+        let vectors = [position, normal, lift[0], lift[1]];
         self.solved_at(vectors, particles.flatness.get(particle).copied())
     }
 
@@ -77,6 +90,13 @@ impl ParticleView {
         }
     }
 
+    /// Where a particle with this position and normal is.
+    #[inline]
+    pub fn seen(&self, [position, normal]: [[f32; 3]; 2]) -> SeenParticle {
+        let seen = project(&self.rows, position, normal);
+        SeenParticle { x_px: seen.x_px, y_px: seen.y_px, depth: seen.depth, area_px: seen.area_px }
+    }
+
     /// Whether a particle with this number faces the eye within the bounds.
     #[inline(always)]
     pub(crate) fn shows(&self, [position, normal]: [[f32; 3]; 2], number: u32, bounds: &Bounds) -> bool {
@@ -91,7 +111,7 @@ impl ParticleView {
 
     /// One bit per particle, set where it faces the eye and is within the bounds; 64 particles per word, the first in
     /// the lowest bit.
-    pub fn within(&self, particles: &BakedParticles, bounds: &Bounds) -> Vec<u64> {
+    pub fn within(&self, particles: &PlacedParticles, bounds: &Bounds) -> Vec<u64> {
         let mut words = vec![0; particles.len().div_ceil(WORD)];
         words.par_chunks_mut(CHUNK / WORD).enumerate().for_each(|(chunk, words)| {
             widest(Marking { particles, first: chunk * CHUNK, rows: &self.rows, bounds, words });
@@ -102,7 +122,7 @@ impl ParticleView {
 
 /// Sets the bits of the particles from `first` on that are within the bounds.
 struct Marking<'a> {
-    particles: &'a BakedParticles,
+    particles: &'a PlacedParticles,
     first: usize,
     rows: &'a Rows,
     bounds: &'a Bounds,
@@ -129,7 +149,7 @@ impl Wide for Marking<'_> {
 }
 
 #[inline(always)]
-fn mark_word(particles: &BakedParticles, first: usize, rows: &Rows, bounds: &Bounds, flags: &mut [u8]) {
+fn mark_word(particles: &PlacedParticles, first: usize, rows: &Rows, bounds: &Bounds, flags: &mut [u8]) {
     let count = flags.len();
     let [px, py, pz] = slices(&particles.position, first, count);
     let [nx, ny, nz] = slices(&particles.normal, first, count);
@@ -223,9 +243,9 @@ mod tests {
             solve(&particles, &map, &mut solved);
             let (mut compared, mut angles) = (0, 0);
             for index in 0..particles.len() {
-                let at = particles.position_of(index);
+                let at = particles.placed.position_of(index);
                 let (px, jacobian) = (map.project(at), map.jacobian(at));
-                let area_px = particles.normal_of(index).dot(jacobian[0].cross(jacobian[1]));
+                let area_px = particles.placed.normal_of(index).dot(jacobian[0].cross(jacobian[1]));
                 let on_screen = particles.lift_of(index).map(jacobian);
                 let depth = f64::from(solved.depth[index]);
                 if depth < 1.0 {
@@ -259,10 +279,11 @@ mod tests {
         solve(&particles, &map, &mut solved);
         let bounds = Bounds { half_px: [640.0, 360.0], near_far: [2.0, 6.0], most_per_area: 0.15 };
         let view = ParticleView::new(&map);
-        let words = view.within(&particles, &bounds);
+        let words = view.within(&particles.placed, &bounds);
         let mut portable = vec![0; words.len()];
         let (rows, words_of) = (Rows::new(&map), &mut portable);
-        Marking { particles: &particles, first: 0, rows: &rows, bounds: &bounds, words: words_of }.run();
+        Marking { particles: &particles.placed, first: 0, rows: &rows, bounds: &bounds, words: words_of }
+            .run();
         assert_eq!(words, portable);
         // How often each bound alone keeps a particle out.
         let mut alone = [0; 6];
@@ -278,8 +299,7 @@ mod tests {
             ];
             let bit = words[index / WORD] >> (index % WORD) & 1;
             assert_eq!(bit == 1, holds.iter().all(|&holds| holds), "particle {index}");
-            let vectors =
-                [&particles.position, &particles.normal].map(|axes| axes.each_ref().map(|axis| axis[index]));
+            let vectors = particles.placed.vectors_of(index);
             assert_eq!(view.shows(vectors, index as u32, &bounds), bit == 1, "particle {index} alone");
             if let [out] = [0, 1, 2, 3, 4, 5].iter().filter(|&&bound| !holds[bound]).collect::<Vec<_>>()[..] {
                 alone[*out] += 1;

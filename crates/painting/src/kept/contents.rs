@@ -7,7 +7,7 @@ use bytemuck::{Pod, Zeroable};
 use impasto_core::brush::{self, Mark};
 use impasto_core::neighbours::Neighbours;
 use impasto_core::sampling::{PackedParticle, ProgressiveState};
-use impasto_core::solve::BakedParticles;
+use impasto_core::solve::PlacedParticles;
 use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
 
@@ -16,6 +16,7 @@ use super::{KeptBytes, KeptKey};
 use crate::bake::BakedBody;
 use crate::body::BodySurface;
 use crate::frame::Brushes;
+use crate::looks::{LookArrays, Looks};
 use crate::order::PaintingOrder;
 use crate::paper::{PolygonCounts, PolygonSide};
 
@@ -79,7 +80,6 @@ pub(crate) struct KeptCoat {
     pub(crate) polygons: Option<PolygonCounts>,
     /// The region of each particle; empty where it follows from the triangles.
     pub(crate) dabbed: Vec<u16>,
-    pub(crate) drift: Vec<[f32; 2]>,
     pub(crate) baked: BakedBody,
     pub(crate) neighbours: Option<Neighbours>,
 }
@@ -249,13 +249,17 @@ impl<'a> CoatArrays<'a> {
             self.vectors.into_par_iter().map(|array| array.of_len(count)).collect();
         let mut vectors = vectors?.into_iter();
         let mut three = || std::array::from_fn(|_| vectors.next().unwrap_or_default());
-        let baked = BakedParticles {
-            position: three(),
-            normal: three(),
-            along: three(),
-            across: three(),
-            flatness: self.flatness.of_len_or_empty(count)?,
-        };
+        let placed = PlacedParticles { position: three(), normal: three() };
+        let [along, across] = [three(), three()];
+        let looks = Looks::of_arrays(&LookArrays {
+            lift: {
+                let ([ax, ay, az], [bx, by, bz]) = (along, across);
+                [ax, ay, az, bx, by, bz]
+            },
+            drift: self.drift.of_len(count)?,
+            base_angle_rad: self.base_angle_rad.of_len_or_empty(count)?,
+        });
+        let baked = BakedBody { placed, flatness: self.flatness.of_len_or_empty(count)?, looks };
         let polygons = match self.polygons {
             Some((of_particle, sides, faces)) => Some(
                 PolygonCounts::of_kept(of_particle.of_len(count)?, sides.read()?, faces.read()?, triangles)
@@ -279,8 +283,7 @@ impl<'a> CoatArrays<'a> {
             area: f64::from_bits(numbers.area),
             polygons,
             dabbed,
-            drift: self.drift.of_len(count)?,
-            baked: BakedBody::of_kept(baked, self.base_angle_rad.of_len_or_empty(count)?),
+            baked,
             neighbours,
             places,
         })

@@ -74,15 +74,17 @@ fn push_coat<'a>(coat: &'a Coat, arrays: &mut ArraysToWrite<'a>) {
     arrays.push(sampled.particles.places());
     arrays.push(sampled.albedo_of_particles());
     arrays.push(traits.dabbed());
-    arrays.push(&traits.drift);
-    let particles = &baked.baked;
-    for array in
-        [&particles.position, &particles.normal, &particles.along, &particles.across].into_iter().flatten()
-    {
+    let looks = baked.looks.to_arrays();
+    arrays.push_made(&looks.drift);
+    let placed = &baked.placed;
+    for array in placed.position.iter().chain(&placed.normal) {
         arrays.push(array);
     }
-    arrays.push(&particles.flatness);
-    arrays.push(baked.base_angles_rad());
+    for array in &looks.lift {
+        arrays.push_made(array);
+    }
+    arrays.push(&baked.flatness);
+    arrays.push_made(&looks.base_angle_rad);
     if let Some(KeptPolygons { of_particle, sides, faces }) = polygons {
         arrays.push_made(&of_particle);
         arrays.push(sides);
