@@ -183,17 +183,24 @@ impl PaintWorker {
         self.finish_film(&painting, order, mailbox, tell);
     }
 
-    /// Shows the kept exact picture of a view, if there is one and the view is not shown exactly already.
+    /// Shows the kept exact picture of a view, if there is one and the view is not shown exactly already. When playback
+    /// stops, icons of lights are to be seen again: until they are, the picture without them is shown.
     fn show_finished(&mut self, order: &Order, index: usize, tell: Tell<'_>) {
         let (view, serial) = (&order.job.views[index], order.job.serial);
         if self.shows_exactly(order, index) {
             return;
         }
-        let Some(Finished { image, strokes, .. }) = self.film.of(view, serial) else { return };
+        let exact = self.film.has(view, serial);
+        let without_icons = ViewJob { lights: Vec::new(), ..view.clone() };
+        if !exact && self.shows(order, index) {
+            return;
+        }
+        let finished = self.film.of(if exact { view } else { &without_icons }, serial);
+        let Some(Finished { image, strokes, .. }) = finished else { return };
         // Drafts go on recalling the last picture that was drawn.
         let recall = self.drawn[index].take().and_then(|drawn| drawn.recall);
         self.drawn[index] =
-            Some(Drawn { view: view.clone(), serial, exact: true, strokes: strokes.clone(), recall });
+            Some(Drawn { view: view.clone(), serial, exact, strokes: strokes.clone(), recall });
         self.held_view = None;
         let (view, (strokes, strokes_of)) = (view.clone(), strokes);
         tell(Report::Picture(Picture {
@@ -201,7 +208,7 @@ impl PaintWorker {
             view,
             serial,
             image,
-            exact: true,
+            exact,
             strokes,
             strokes_of,
             seconds: 0.0,
