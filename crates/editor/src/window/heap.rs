@@ -10,7 +10,8 @@ pub fn give_back_free_memory() {
     let _gave = unsafe { libc::malloc_trim(0) };
 }
 
-#[cfg(all(test, target_os = "linux", target_env = "gnu"))]
+#[cfg(all(target_os = "linux", target_env = "gnu"))]
+#[cfg(test)]
 mod tests {
     use super::*;
 
