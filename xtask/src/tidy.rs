@@ -2,6 +2,7 @@
 //! and how to mend it.
 
 mod finding;
+mod locks;
 mod names;
 pub mod pictures;
 mod techniques;
@@ -35,6 +36,13 @@ fn findings(root: &Path, files: &[String]) -> anyhow::Result<Vec<Finding>> {
         findings.extend(pictures::check(file, bytes.len() as u64));
         if let Ok(content) = std::str::from_utf8(&bytes) {
             findings.extend(text::check(file, content));
+            if file.ends_with("/Cargo.lock") {
+                let manifest = |name: &str| {
+                    let folder = root.join("crates").join(name.strip_prefix("impasto-")?);
+                    std::fs::read_to_string(folder.join("Cargo.toml")).ok()
+                };
+                findings.extend(locks::check(file, content, manifest));
+            }
         }
     }
     findings.sort();

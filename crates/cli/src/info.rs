@@ -76,7 +76,7 @@ pub(crate) fn run(arguments: &InfoArguments) -> Result<(), Failure> {
     writeln!(out, "regions: {}", if regions.is_empty() { "none".to_owned() } else { regions.join(", ") })?;
     writeln!(
         out,
-        "{} particles, {:.1} MB of them, {} lights",
+        "{} particles, at most {:.1} MB of them, {} lights",
         facts["particles"],
         painting.particle_bytes() as f64 / 1e6,
         scene.lights.len()

@@ -221,7 +221,8 @@ fn vector(arrays: &[Vec<f32>; 3], particle: usize) -> DVec3 {
     DVec3::from_array(components(arrays, particle).map(f64::from))
 }
 
-/// Projects every particle and finds its stroke's angle. With flatness 1 that is φ, the angle of the rotation nearest to
+/// Projects every particle and finds its stroke's angle. A picture solves only the particles that show, one by one
+/// ([`ParticleView`]); this solves a whole body, for tests and to be timed beside others. With flatness 1 that is φ, the angle of the rotation nearest to
 /// A = J N'. With flatness 0 it is the direction of A e₁, the first column of A. With a flatness F between, the two unit vectors are
 /// blended: `arg(F·e^{iφ} + (1 − F)·A e₁/|A e₁|)`. The result depends on the inputs alone, not on the threads.
 pub fn solve(particles: &BakedParticles, map: &ScreenMap, solved: &mut SolvedParticles) {

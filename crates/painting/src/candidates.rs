@@ -58,7 +58,8 @@ impl PaintingView<'_> {
         let chunk = |(number, part): (usize, &[u32])| self.candidates(number * CHUNK, part, &may_show);
         let candidates: Vec<Vec<Candidate>> = numbers.par_chunks(CHUNK).enumerate().map(chunk).collect();
         self.find_looks(&candidates);
-        let found: Vec<Found> = candidates.par_iter().map(|candidates| self.found(candidates)).collect();
+        let found: Vec<Found> =
+            candidates.into_par_iter().map(|candidates| self.found(&candidates)).collect();
         let count = found.iter().map(|found| found.strokes.len()).sum();
         let (mut strokes, mut sources) = (Vec::with_capacity(count), Vec::with_capacity(count));
         let mut layers: Vec<(LayerKey, LayerRun)> = Vec::new();

@@ -44,21 +44,12 @@ pub(crate) struct Looks {
     /// A bit for each particle: whether its look is known.
     known: Vec<AtomicU64>,
     /// The bits of each look's numbers, one look after the other. The system gives zeroed pages when they are first
-    /// written to, so looks that are not known take no memory.
+    /// written to, so ranks that no picture shows take no memory.
     words: Vec<AtomicU32>,
     count: usize,
     has_angles: bool,
     /// What looks are found from; `None` where all are known.
     inputs: Option<Arc<dyn FindLooks>>,
-}
-
-/// The numbers of all looks, one array per number.
-pub(crate) struct LookArrays {
-    /// The columns of N', by component.
-    pub(crate) lift: [Vec<f32>; 6],
-    pub(crate) drift: Vec<[f32; 2]>,
-    /// Empty with the solver `Tangent`.
-    pub(crate) base_angle_rad: Vec<f32>,
 }
 
 impl Looks {
@@ -87,31 +78,28 @@ impl Looks {
         resized
     }
 
-    /// Looks that are all known. The arrays are equally long, but for base angles that may be left out.
-    pub(crate) fn of_arrays(arrays: &LookArrays) -> Self {
-        let LookArrays { lift: [ax, ay, az, bx, by, bz], drift, base_angle_rad } = arrays;
-        let looks = Self::of_count(drift.len(), !base_angle_rad.is_empty(), None);
-        (0..drift.len()).into_par_iter().with_min_len(CHUNK).for_each(|at| {
-            let lift = [[ax[at], ay[at], az[at]], [bx[at], by[at], bz[at]]];
-            let base_angle_rad = base_angle_rad.get(at).copied().unwrap_or(0.0);
-            looks.set(at, Look { lift, drift: drift[at], base_angle_rad });
-        });
-        looks
+    /// The looks that [`Looks::to_words`] gave; `None` where a look has no whole number of words.
+    pub(crate) fn of_words(words: Vec<u32>, has_angles: bool) -> Option<Self> {
+        let width = width(has_angles);
+        let count = words.len() / width;
+        let known = (0..count.div_ceil(BITS)).map(|_| AtomicU64::new(u64::MAX)).collect();
+        // The memory of the words is used again.
+        let all = words.len() == count * width;
+        let words = words.into_iter().map(AtomicU32::new).collect();
+        all.then_some(Self { known, words, count, has_angles, inputs: None })
     }
 
-    /// All looks as arrays. Finds those that are not known yet.
-    pub(crate) fn to_arrays(&self) -> LookArrays {
+    /// The words of all looks, one look after the other. Finds those that are not known yet.
+    pub(crate) fn to_words(&self) -> Vec<u32> {
         let particles = 0..self.count as u32;
         let unknown: Vec<u32> = particles.filter(|&particle| !self.knows(particle as usize)).collect();
         unknown.par_chunks(CHUNK).for_each(|particles| self.find(particles));
-        let of = |number: usize| -> Vec<f32> {
-            (0..self.count).map(|particle| f32::from_bits(self.word(particle, number))).collect()
-        };
-        LookArrays {
-            lift: std::array::from_fn(of),
-            drift: of(6).into_iter().zip(of(7)).map(|(hue, edge)| [hue, edge]).collect(),
-            base_angle_rad: if self.has_angles { of(8) } else { Vec::new() },
-        }
+        self.words.iter().map(|word| word.load(Ordering::Relaxed)).collect()
+    }
+
+    /// How many words so many looks have.
+    pub(crate) fn words_of(count: usize, has_angles: bool) -> usize {
+        count * width(has_angles)
     }
 
     /// Whether base angles are known by themselves.
@@ -164,11 +152,6 @@ impl Looks {
         }
     }
 
-    /// A word of a look that is known.
-    fn word(&self, particle: usize, number: usize) -> u32 {
-        self.words[particle * width(self.has_angles) + number].load(Ordering::Relaxed)
-    }
-
     fn set(&self, particle: usize, look: Look) {
         let Look { lift: [[ax, ay, az], [bx, by, bz]], drift: [hue, edge], base_angle_rad } = look;
         let numbers = [ax, ay, az, bx, by, bz, hue, edge, base_angle_rad];
@@ -196,41 +179,59 @@ mod tests {
     use crate::painting::Painting;
     use crate::prepare::prepare;
 
-    fn painting() -> Painting {
+    fn painting(set: &[(&str, &str)]) -> Painting {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/touching_cubes.ron");
-        prepare(Arc::new(load(&path, &LoadOptions::default()).unwrap())).unwrap()
+        let overrides = set.iter().map(|&(path, value)| (path.to_owned(), value.to_owned())).collect();
+        let options = LoadOptions { overrides, ..LoadOptions::default() };
+        prepare(Arc::new(load(&path, &options).unwrap())).unwrap()
     }
 
-    fn bits(arrays: &LookArrays) -> Vec<u32> {
-        let drift = arrays.drift.as_flattened();
-        arrays.lift.iter().flatten().chain(drift).map(|number| number.to_bits()).collect()
+    fn known(looks: &Looks) -> usize {
+        (0..looks.count).filter(|&particle| looks.knows(particle)).count()
     }
 
     #[test]
-    fn a_picture_finds_the_looks_that_it_needs_and_they_are_the_same_in_any_company() {
-        let (seen, unseen) = (painting(), painting());
-        let known = |painting: &Painting| -> Vec<usize> {
-            let looks = painting.coats.iter().map(|coat| &coat.baked.looks);
-            looks.map(|looks| (0..looks.count).filter(|&particle| looks.knows(particle)).count()).collect()
-        };
-        assert!(known(&seen).iter().all(|&known| known == 0), "preparing finds none");
-        let strokes = seen.at(3.0, &FrameOptions::new([320, 180])).strokes.len();
-        let found = known(&seen).iter().sum::<usize>();
-        let particles: usize = seen.coats.iter().map(|coat| coat.baked.looks.count).sum();
+    fn a_picture_finds_only_the_looks_that_it_needs() {
+        let painting = painting(&[]);
+        let looks = || painting.coats.iter().map(|coat| &coat.baked.looks);
+        assert!(looks().all(|looks| known(looks) == 0), "preparing finds none");
+        let strokes = painting.at(3.0, &FrameOptions::new([320, 180])).strokes.len();
+        let (found, all) =
+            (looks().map(known).sum::<usize>(), looks().map(|looks| looks.count).sum::<usize>());
         assert!(
             strokes > 200 && found >= strokes && found < 4 * strokes,
             "{found} looks of {strokes} strokes"
         );
-        assert!(found < particles / 2, "{found} of {particles}");
-        for (seen, unseen) in seen.coats.iter().zip(&unseen.coats) {
-            // One by one from the last, a few that were found together for the picture, and all others at once.
-            let (one, all) = (&unseen.baked.looks, &seen.baked.looks);
-            for particle in (0..one.count).rev().step_by(7) {
-                one.at(particle);
+        assert!(found < all / 2, "{found} of {all}");
+    }
+
+    /// Found one by one by several threads, a few together for a picture and all others at once, and found all at once.
+    #[test]
+    fn a_look_is_the_same_in_any_company() {
+        // With `HornExact`, looks have base angles.
+        for set in [&[][..], &[("style", "RotatingStrokes(solver: HornExact)"), ("strokes.scale", "4")]] {
+            let [seen, asked, bulk] = [(); 3].map(|()| painting(set));
+            assert!(!seen.at(3.0, &FrameOptions::new([320, 180])).strokes.is_empty());
+            for ((seen, asked), bulk) in seen.coats.iter().zip(&asked.coats).zip(&bulk.coats) {
+                let [seen, asked, bulk] = [seen, asked, bulk].map(|coat| &coat.baked.looks);
+                assert_eq!(bulk.has_angles, !set.is_empty());
+                std::thread::scope(|scope| {
+                    for thread in 0..4 {
+                        // All ask for the same looks, each from another place on.
+                        let order = (0..asked.count).rev().cycle().skip(thread * asked.count / 4);
+                        scope.spawn(move || {
+                            order.take(asked.count).step_by(7).for_each(|at| {
+                                asked.at(at);
+                            })
+                        });
+                    }
+                });
+                let words = bulk.to_words();
+                assert!(words == seen.to_words() && words == asked.to_words());
+                let again = Looks::of_words(words.clone(), bulk.has_angles).unwrap();
+                assert!(known(&again) == bulk.count && words == again.to_words());
+                assert!((0..bulk.count).all(|at| again.at(at) == bulk.at(at)));
             }
-            let arrays = all.to_arrays();
-            assert_eq!(bits(&arrays), bits(&one.to_arrays()));
-            assert_eq!(bits(&arrays), bits(&Looks::of_arrays(&arrays).to_arrays()));
         }
     }
 }

@@ -406,7 +406,7 @@ impl CoatCache {
         if let Some(lists) = kept.neighbours {
             self.neighbours.update(sampled.particles.clone(), |_, _| Arc::new(lists));
         }
-        let traits = given.traits(sampled.particles.clone()).of_kept(kept.dabbed);
+        let traits = given.traits(sampled.particles.clone()).with_regions(kept.dabbed);
         let traits = Arc::new(traits);
         let amounts = Arc::new(given.amounts(&traits).find());
         let lift_sources = given.lift_sources(&traits, self.neighbours.output());

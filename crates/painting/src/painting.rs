@@ -134,7 +134,7 @@ impl Painting {
         self.coats.iter().map(|coat| coat.sampled.particles.len()).sum()
     }
 
-    /// Memory of all baked particles, in bytes.
+    /// Memory of all baked particles once all their looks are known, in bytes.
     pub fn particle_bytes(&self) -> usize {
         self.coats.iter().map(|coat| coat.baked.bytes()).sum()
     }

@@ -86,7 +86,9 @@ impl Painting {
             for index in indices(&coat.within(&bounds)) {
                 let seen = coat.seen(index);
                 let [x, y] = view.position_px(&seen);
-                let cell = (x / cell_px) as usize + (y / cell_px) as usize * columns;
+                // The last float below half a picture's height becomes the height itself.
+                let [column, row] = [(x / cell_px) as usize, (y / cell_px) as usize];
+                let cell = column.min(columns - 1) + row.min(rows - 1) * columns;
                 if cells[cell].is_some_and(|(_, best)| best.rank <= rank(index, coat)) {
                     continue;
                 }

@@ -75,7 +75,6 @@ struct TraitRule {
 }
 
 /// The traits that pictures need, of particles in progressive order.
-#[derive(Clone)]
 pub(crate) struct Traits {
     pub(crate) particles: Particles,
     regions: Arc<BodyRegions>,
@@ -111,13 +110,6 @@ impl FormMemo {
         let found = find();
         known.store(found.to_bits(), Ordering::Relaxed);
         found
-    }
-}
-
-impl Clone for FormMemo {
-    fn clone(&self) -> Self {
-        let copy = |size: &AtomicU32| AtomicU32::new(size.load(Ordering::Relaxed));
-        Self(self.0.iter().map(copy).collect())
     }
 }
 
@@ -223,8 +215,8 @@ impl TraitInputs {
         }
     }
 
-    /// The traits, restored from a kept file.
-    pub(crate) fn of_kept(&self, dabbed: Vec<u16>) -> Traits {
+    /// The traits, with the region of each particle where there are dabs.
+    pub(crate) fn with_regions(&self, dabbed: Vec<u16>) -> Traits {
         Traits {
             particles: self.particles.clone(),
             regions: Arc::clone(&self.regions),
@@ -243,13 +235,13 @@ impl TraitInputs {
         {
             return Arc::clone(before);
         }
-        let mut dabbed = before.map_or(Vec::new(), |before| Arc::unwrap_or_clone(before).dabbed);
+        let mut dabbed = before.map_or_else(Vec::new, |before| before.dabbed.clone());
         dabbed.truncate(count);
         if self.regions.has_dabs() {
             let rest = self.particles.par_range(dabbed.len()..count);
             dabbed.par_extend(rest.map(|particle| self.regions.of(&particle)));
         }
-        Arc::new(self.of_kept(dabbed))
+        Arc::new(self.with_regions(dabbed))
     }
 
     /// The slow noise and the stray angles of up to [`BATCH`] particles.

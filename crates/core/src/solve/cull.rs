@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{BakedParticles, CHUNK, PlacedParticles, Rows, components, project, slices};
+use super::{CHUNK, PlacedParticles, Rows, project, slices};
 use crate::ScreenMap;
 use crate::wide::{Wide, widest};
 
@@ -60,16 +60,8 @@ impl ParticleView {
         Self { rows: Rows::new(map) }
     }
 
-    /// Solves one particle, with the same bits as [`super::solve`].
-    #[inline]
-    pub fn solved(&self, particles: &BakedParticles, particle: usize) -> SolvedParticle {
-        let [position, normal] = particles.placed.vectors_of(particle);
-        let lift = [&particles.along, &particles.across].map(|arrays| components(arrays, particle));
-        let vectors = [position, normal, lift[0], lift[1]];
-        self.solved_at(vectors, particles.flatness.get(particle).copied())
-    }
-
-    /// Solves a particle with this position, normal and columns of N'. `None` stands for a flatness of 1.
+    /// Solves a particle with this position, normal and columns of N', with the same bits as [`super::solve`]. `None`
+    /// stands for a flatness of 1.
     #[inline]
     pub fn solved_at(
         &self,
@@ -183,7 +175,7 @@ fn packed(flags: &[u8; WORD]) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{SolvedParticles, solve};
+    use super::super::{BakedParticles, SolvedParticles, components, solve};
     use super::*;
     use crate::angle::wrap_pi;
     use crate::hash;
@@ -222,7 +214,14 @@ mod tests {
             solve(&particles, &map, &mut solved);
             let view = ParticleView::new(&map);
             for index in 0..particles.len() {
-                let one = view.solved(&particles, index);
+                let [position, normal] = particles.placed.vectors_of(index);
+                let [along, across] =
+                    [&particles.along, &particles.across].map(|axes| components(axes, index));
+                let flatness = particles.flatness.get(index).copied();
+                let one = view.solved_at([position, normal, along, across], flatness);
+                let seen = view.seen([position, normal]);
+                assert_eq!([seen.x_px, seen.y_px, seen.depth], [one.x_px, one.y_px, one.depth]);
+                assert_eq!(seen.area_px, one.area_px);
                 let bits = [one.x_px, one.y_px, one.depth, one.angle_rad, one.area_px].map(f32::to_bits);
                 let all = [&solved.x_px, &solved.y_px, &solved.depth, &solved.angle_rad, &solved.area_px];
                 assert_eq!(bits, all.map(|array| array[index].to_bits()), "particle {index}");

@@ -151,8 +151,7 @@ impl Film {
         });
         let Finished { view, serial, image, strokes } = finished;
         let within = |most: usize| (bytes + own <= most).then(|| Place::Memory(Arc::clone(&image)));
-        let place = within(room.easy_bytes).or_else(|| self.file(&image, folder));
-        let mut place = place.or_else(|| within(room.most_bytes));
+        let mut place = within(room.easy_bytes).or_else(|| self.file(&image, folder));
         // The file only grows: once nothing in it is wanted any more, it begins anew.
         if place.is_none() && !self.kept.iter().any(|kept| !in_memory(kept) && is_wanted(kept)) {
             self.kept.retain(in_memory);
@@ -161,6 +160,7 @@ impl Film {
                 place = self.file(&image, folder);
             }
         }
+        let place = place.or_else(|| within(room.most_bytes));
         let Some(place) = place else { return false };
         self.kept.push(Kept { view, serial, strokes, place });
         true
@@ -270,13 +270,17 @@ mod tests {
         let mut film = Film { file: Some(FilmFile::within(folder.path(), 800, 0)), ..Film::default() };
         let [old, new] = [[1.0, 2.0, 3.0].map(view), [4.0, 5.0, 6.0].map(view)];
         let keep = |film: &mut Film, view: &ViewJob, wanted: &[ViewJob]| {
-            film.keep_within(finished(view, 1), wanted, room(0), None)
+            let room = Room { easy_bytes: 0, most_bytes: 400 };
+            film.keep_within(finished(view, 1), wanted, room, None)
         };
+        let in_memory =
+            |film: &Film| film.kept.iter().filter(|kept| matches!(kept.place, Place::Memory(_))).count();
         let kept = old.each_ref().map(|view| keep(&mut film, view, &old));
-        assert_eq!(kept, [true, true, false], "the file takes two");
-        let kept = new.each_ref().map(|view| keep(&mut film, view, &new));
-        assert_eq!(kept, [true, true, false]);
-        assert_eq!((film.frames(&old, 1), film.frames(&new, 1)), (Vec::new(), vec![4, 5]));
+        assert_eq!((kept, in_memory(&film)), ([true; 3], 1), "the file takes two, and then memory one");
+        let kept = new[..2].iter().all(|view| keep(&mut film, view, &new));
+        assert_eq!((kept, in_memory(&film)), (true, 0), "the file begins anew before memory is asked");
+        assert!(keep(&mut film, &new[2], &new) && in_memory(&film) == 1);
+        assert_eq!((film.frames(&old, 1), film.frames(&new, 1)), (Vec::new(), vec![4, 5, 6]));
         // A disk that would be too full takes nothing, but memory does.
         film.file = Some(FilmFile::within(folder.path(), 800, u64::MAX / 2));
         film.follow(2);

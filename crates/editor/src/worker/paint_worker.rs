@@ -67,6 +67,9 @@ fn panic_message(panic: &(dyn Any + Send)) -> String {
 
 type Tell<'a> = &'a dyn Fn(Report);
 
+#[cfg(test)]
+mod tests;
+
 struct PaintWorker {
     preparer: Preparer,
     /// The picker is brought up to date here, and the window gets copies of it.
@@ -81,9 +84,6 @@ struct PaintWorker {
     draft_size: DraftSize,
     /// The view whose picture the renderer still holds.
     held_view: Option<usize>,
-    /// Counts the pictures drawn for views. [`Recall::of`] uses the count to pick the absent strokes that the next
-    /// draft computes.
-    turn: u32,
     /// How long the last exact picture took, seconds.
     exact_s: Option<f64>,
     /// The next frame of the playback, which is computed while the present one is drawn.
@@ -99,6 +99,9 @@ struct Drawn {
     strokes: (usize, Vec<usize>),
     /// What the next draft may recall of this picture; `None` if it has no strokes.
     recall: Option<Arc<Recall>>,
+    /// Counts the pictures drawn of the view. [`Recall::of`] uses the count to pick the absent strokes that the next
+    /// draft computes. Each view has its own count: two that are drawn in turn would see every other number only.
+    turn: u32,
 }
 
 impl Drawn {
@@ -131,7 +134,6 @@ impl PaintWorker {
             drawn: Vec::new(),
             draft_size: DraftSize::default(),
             held_view: None,
-            turn: 0,
             exact_s: None,
             ahead: Ahead::default(),
             film: Film::default(),
@@ -184,35 +186,27 @@ impl PaintWorker {
     }
 
     /// Shows the kept exact picture of a view, if there is one and the view is not shown exactly already. When playback
-    /// stops, icons of lights are to be seen again: until they are, the picture without them is shown.
+    /// has stopped, icons of lights are to be seen again: until they are drawn, the picture stays without them.
     fn show_finished(&mut self, order: &Order, index: usize, tell: Tell<'_>) {
         let (view, serial) = (&order.job.views[index], order.job.serial);
         if self.shows_exactly(order, index) {
             return;
         }
         let exact = self.film.has(view, serial);
-        let without_icons = ViewJob { lights: Vec::new(), ..view.clone() };
-        if !exact && self.shows(order, index) {
+        let shows_no_icons = |drawn: &Drawn| drawn.serial == serial && drawn.view.lights.is_empty();
+        if !exact && !self.drawn[index].as_ref().is_some_and(shows_no_icons) {
             return;
         }
+        let without_icons = ViewJob { lights: Vec::new(), ..view.clone() };
         let finished = self.film.of(if exact { view } else { &without_icons }, serial);
         let Some(Finished { image, strokes, .. }) = finished else { return };
         // Drafts go on recalling the last picture that was drawn.
-        let recall = self.drawn[index].take().and_then(|drawn| drawn.recall);
-        self.drawn[index] =
-            Some(Drawn { view: view.clone(), serial, exact, strokes: strokes.clone(), recall });
+        let (recall, turn) = self.drawn[index].take().map_or((None, 0), |drawn| (drawn.recall, drawn.turn));
+        let (view, (number, strokes_of)) = (view.clone(), strokes.clone());
+        self.drawn[index] = Some(Drawn { view: view.clone(), serial, exact, strokes, recall, turn });
         self.held_view = None;
-        let (view, (strokes, strokes_of)) = (view.clone(), strokes);
-        tell(Report::Picture(Picture {
-            index,
-            view,
-            serial,
-            image,
-            exact,
-            strokes,
-            strokes_of,
-            seconds: 0.0,
-        }));
+        let (strokes, seconds) = (number, 0.0);
+        tell(Report::Picture(Picture { index, view, serial, image, exact, strokes, strokes_of, seconds }));
     }
 
     /// Draws the frames of the job's film exactly and keeps them, while nothing else is to be done.
@@ -380,7 +374,9 @@ impl PaintWorker {
         let next = order.later.ahead.get(index);
         let ahead = self.ahead.take(serial, view, next, options);
         let (view, frame) = ahead.map_or_else(|| (view.clone(), None), |(view, frame)| (view, Some(frame)));
-        let recall = self.drawn[index].as_ref().and_then(|drawn| drawn.recall.clone());
+        let drawn = self.drawn[index].as_ref();
+        let turn = drawn.map_or(0, |drawn| drawn.turn.wrapping_add(1));
+        let recall = drawn.and_then(|drawn| drawn.recall.clone());
         if let Some(next) = next {
             self.ahead.begin(painting, serial, next, options, recall.clone());
         }
@@ -403,14 +399,13 @@ impl PaintWorker {
         if options.is_exact {
             self.exact_s = Some(seconds);
         }
-        self.turn = self.turn.wrapping_add(1);
         let resolved = renderer.resolved_strokes();
         let is_there = |index: usize| resolved.get(index).is_some_and(|stroke| stroke.alpha > 0.0);
-        let recall = (strokes > 0).then(|| Arc::new(Recall::of(painting, &frame, is_there, self.turn)));
+        let recall = (strokes > 0).then(|| Arc::new(Recall::of(painting, &frame, is_there, turn)));
         let exact = options.is_exact;
         self.held_view = Some(index);
-        self.drawn[index] =
-            Some(Drawn { view: view.clone(), serial, exact, strokes: (strokes, strokes_of.clone()), recall });
+        let counted = (strokes, strokes_of.clone());
+        self.drawn[index] = Some(Drawn { view: view.clone(), serial, exact, strokes: counted, recall, turn });
         let image = Arc::new(picture);
         if exact && order.later.film.iter().any(|of_film| of_film.looks_like(&view)) {
             let (view, image, strokes) = (view.clone(), Arc::clone(&image), (strokes, strokes_of.clone()));

@@ -16,7 +16,7 @@ use super::{KeptBytes, KeptKey};
 use crate::bake::BakedBody;
 use crate::body::BodySurface;
 use crate::frame::Brushes;
-use crate::looks::{LookArrays, Looks};
+use crate::looks::Looks;
 use crate::order::PaintingOrder;
 use crate::paper::{PolygonCounts, PolygonSide};
 
@@ -42,7 +42,8 @@ pub(super) struct CoatNumbers {
     pub(super) state: [u64; 2],
     /// The bits of the area, which is a float.
     pub(super) area: u64,
-    /// 0 or 1, as is `has_neighbours`.
+    /// 0 or 1, as are `has_polygons` and `has_neighbours`: whether looks have base angles.
+    pub(super) has_angles: u64,
     pub(super) has_polygons: u64,
     pub(super) has_neighbours: u64,
     /// How many neighbours a list has room for.
@@ -190,11 +191,10 @@ struct CoatArrays<'a> {
     places: Array<'a, PackedParticle>,
     albedo: Array<'a, u32>,
     dabbed: Array<'a, u16>,
-    drift: Array<'a, [f32; 2]>,
-    /// Position, normal, and both columns of the lift, by component.
-    vectors: [Array<'a, f32>; 12],
+    /// Position and normal, by component.
+    vectors: [Array<'a, f32>; 6],
+    looks: Array<'a, u32>,
     flatness: Array<'a, f32>,
-    base_angle_rad: Array<'a, f32>,
     polygons: Option<PolygonArrays<'a>>,
     neighbours: Option<NeighbourArrays<'a>>,
 }
@@ -202,13 +202,12 @@ struct CoatArrays<'a> {
 impl<'a> CoatArrays<'a> {
     fn next(arrays: &mut Arrays<'a>, surface: &'a BodySurface) -> Result<Self, Unfit> {
         let [numbers] = arrays.next::<CoatNumbers>()?.numbers()?;
-        let (places, albedo, dabbed, drift) =
-            (arrays.next()?, arrays.next()?, arrays.next()?, arrays.next()?);
+        let (places, albedo, dabbed) = (arrays.next()?, arrays.next()?, arrays.next()?);
         let mut vectors = Vec::new();
-        for _ in 0..12 {
+        for _ in 0..6 {
             vectors.push(arrays.next()?);
         }
-        let (flatness, base_angle_rad) = (arrays.next()?, arrays.next()?);
+        let (looks, flatness) = (arrays.next()?, arrays.next()?);
         let polygons = match numbers.has_polygons {
             0 => None,
             _ => Some((arrays.next()?, arrays.next()?, arrays.next()?)),
@@ -223,10 +222,9 @@ impl<'a> CoatArrays<'a> {
             places,
             albedo,
             dabbed,
-            drift,
             vectors: vectors.try_into().map_err(|_| Unfit::Damaged)?,
+            looks,
             flatness,
-            base_angle_rad,
             polygons,
             neighbours,
         })
@@ -250,15 +248,9 @@ impl<'a> CoatArrays<'a> {
         let mut vectors = vectors?.into_iter();
         let mut three = || std::array::from_fn(|_| vectors.next().unwrap_or_default());
         let placed = PlacedParticles { position: three(), normal: three() };
-        let [along, across] = [three(), three()];
-        let looks = Looks::of_arrays(&LookArrays {
-            lift: {
-                let ([ax, ay, az], [bx, by, bz]) = (along, across);
-                [ax, ay, az, bx, by, bz]
-            },
-            drift: self.drift.of_len(count)?,
-            base_angle_rad: self.base_angle_rad.of_len_or_empty(count)?,
-        });
+        let has_angles = numbers.has_angles != 0;
+        let words = self.looks.of_len(Looks::words_of(count, has_angles))?;
+        let looks = Looks::of_words(words, has_angles).ok_or(Unfit::Damaged)?;
         let baked = BakedBody { placed, flatness: self.flatness.of_len_or_empty(count)?, looks };
         let polygons = match self.polygons {
             Some((of_particle, sides, faces)) => Some(

@@ -67,6 +67,7 @@ fn push_coat<'a>(coat: &'a Coat, arrays: &mut ArraysToWrite<'a>) {
         count: sampled.particles.len() as u64,
         state: sampled.state().to_numbers(),
         area: sampled.area.to_bits(),
+        has_angles: u64::from(baked.looks.has_angles()),
         has_polygons: u64::from(polygons.is_some()),
         has_neighbours: u64::from(neighbours.is_some()),
         most_neighbours: neighbours.map_or(0, |lists| lists.most as u64),
@@ -74,17 +75,12 @@ fn push_coat<'a>(coat: &'a Coat, arrays: &mut ArraysToWrite<'a>) {
     arrays.push(sampled.particles.places());
     arrays.push(sampled.albedo_of_particles());
     arrays.push(traits.dabbed());
-    let looks = baked.looks.to_arrays();
-    arrays.push_made(&looks.drift);
     let placed = &baked.placed;
     for array in placed.position.iter().chain(&placed.normal) {
         arrays.push(array);
     }
-    for array in &looks.lift {
-        arrays.push_made(array);
-    }
+    arrays.push_made(&baked.looks.to_words());
     arrays.push(&baked.flatness);
-    arrays.push_made(&looks.base_angle_rad);
     if let Some(KeptPolygons { of_particle, sides, faces }) = polygons {
         arrays.push_made(&of_particle);
         arrays.push(sides);
