@@ -28,7 +28,8 @@ pub enum Metric {
     M9,
     /// Angular jitter.
     M10,
-    /// Authoring: saving, scrubbing and a higher density do not change the strokes.
+    /// Authoring: saving and scrubbing leave the strokes as they are, a higher density keeps their directions, and strokes
+    /// on a guide lie as drawn.
     M11,
     /// Speed.
     M12,

@@ -7,9 +7,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// The files that were found while a scene was read. Copies share one list.
 #[derive(Clone, Debug, Default)]
 pub struct FoundFiles {
-    /// For the path at which each file was found, the place to which the file could be moved, so that the name that the
-    /// scene or a mesh calls it by leads there, and [`AssetFolders`] need not be searched. The place is a path relative
-    /// to the scene's folder; `None` if no place in that folder will do.
+    /// Maps the path at which each file was found to a place in the scene's folder, as a relative path. If the file is
+    /// moved there, the name in the scene or mesh leads to it without [`AssetFolders`]. `None` if no place in the folder
+    /// will do.
     places: Arc<Mutex<BTreeMap<PathBuf, Option<PathBuf>>>>,
 }
 
@@ -37,9 +37,9 @@ impl FoundFiles {
         places.insert(path.to_owned(), place);
     }
 
-    /// For the path at which each file was found, the place to which the file could be moved, so that the name that the
-    /// scene or a mesh calls it by leads there, and [`AssetFolders`] need not be searched. The place is a path relative
-    /// to the scene's folder; `None` if no place in that folder will do.
+    /// Maps the path at which each file was found to a place in the scene's folder, as a relative path. If the file is
+    /// moved there, the name in the scene or mesh leads to it without [`AssetFolders`]. `None` if no place in the folder
+    /// will do.
     pub fn places(&self) -> BTreeMap<PathBuf, Option<PathBuf>> {
         self.places.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }

@@ -60,8 +60,8 @@ pub struct NewScene {
 
 /// A scene with one model before a ground, framed with a margin of a tenth whatever its size and position.
 ///
-/// The model is the first object and is named after the file. If it has groups and no colours, each group is an object,
-/// and the first of these is the parent of the others. Objects name the mesh by its bare file name, so the scene must
+/// The model is the first object and is named after the file. If it has no colours and from 2 to 12 groups, each group
+/// is an object, and the first of these is the parent of the others. Objects name the mesh by its bare file name, so the scene must
 /// lie in the same folder. A model without colours gets one, chosen by its name. With [`ViewFrom::Auto`], an open mesh
 /// that would show its back is seen from the side that shows most of its front; if that is from below, there is no
 /// ground, since the floor would hide the mesh.

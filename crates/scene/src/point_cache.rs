@@ -48,7 +48,7 @@ pub struct PointCache {
     fault_of_places: OnceLock<Option<Fault>>,
 }
 
-/// Prints the path alone.
+/// Prints the path alone, because a cache may be large.
 impl fmt::Debug for PointCache {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.debug_tuple("PointCache").field(&self.path).finish()

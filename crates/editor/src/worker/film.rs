@@ -122,8 +122,8 @@ impl Film {
         frames
     }
 
-    /// Keeps a picture: in memory, where pictures that are not `wanted` make way, or else on the disk. If there is no
-    /// room at all, it is not kept, and false is returned.
+    /// Keeps a picture: in memory up to the easy limit, where pictures that are not `wanted` make way; or else on the
+    /// disk; or else in memory up to the other limit. If there is no room at all, it is not kept, and false is returned.
     pub(super) fn keep(&mut self, finished: Finished, wanted: &[ViewJob]) -> bool {
         self.keep_within(finished, wanted, Room::now(), film_folder().as_deref())
     }

@@ -1,4 +1,4 @@
-//! Pictures for which memory has no room, in a file without a name: the system deletes it when it is closed, however
+//! Pictures beyond what memory takes easily, in a file without a name: the system deletes it when it is closed, however
 //! the program ends.
 
 use std::fs::File;
