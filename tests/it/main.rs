@@ -32,6 +32,7 @@ mod keeps;
 mod kept_paintings;
 mod kills;
 mod lamp_shadows;
+mod large_floors;
 mod light_billboards;
 mod measure;
 mod movies;

@@ -10,7 +10,7 @@ use impasto_frame_files::picture_file::{self, Pixels};
 use impasto_frame_files::{FrameList, Pattern, not_an_input, ready_folder, scene_of, state_of};
 use impasto_gl_render::shader_folder::ShaderFolder;
 use impasto_gl_render::{Cost, PassTime, Picture, Renderer, ShaderTexts};
-use impasto_painting::{FrameOptions, Rotation, StrokeColors};
+use impasto_painting::{FrameOptions, Rotation, SeenFrom, StrokeColors};
 use impasto_scene::document::{Scene, Style};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::memory;
@@ -141,7 +141,9 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
     {
         frames.iter().try_for_each(|frame| of_this_scene(&pattern.path(frame), &scene_name, &state))?;
     }
-    let Prepared { painting, storing } = session::prepare_scene(loaded, &arguments.scene, verbose)?;
+    let seen_from = SeenFrom::for_options(&loaded.scene, &options);
+    let Prepared { painting, storing } =
+        session::prepare_scene(loaded, &arguments.scene, seen_from, verbose)?;
     let sequence = Sequence {
         painting,
         options,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::{Driver, OpenOptions, open};
-use impasto_painting::{FindKept, KeptKey, Painting, PrepareError, PrepareOptions, Preparer};
+use impasto_painting::{FindKept, KeptKey, Painting, PrepareError, PrepareOptions, Preparer, SeenFrom};
 use impasto_scene::assets::AssetFolders;
 use impasto_scene::load::{LoadOptions, load};
 use impasto_scene::loaded::LoadedScene;
@@ -56,10 +56,12 @@ pub(crate) struct Prepared {
     pub(crate) storing: Storing,
 }
 
-/// Prepares a scene within the memory that it may take. If `verbose`, time and peak memory of each step go to stderr.
+/// Prepares a scene within the memory that it may take, for pictures that are `seen_from` there. If `verbose`, time and
+/// peak memory of each step go to stderr.
 pub(crate) fn prepare_scene(
     loaded: LoadedScene,
     arguments: &SceneArguments,
+    seen_from: SeenFrom<'_>,
     verbose: bool,
 ) -> Result<Prepared, Failure> {
     let memory_bytes = memory::granted_bytes(arguments.memory);
@@ -67,6 +69,7 @@ pub(crate) fn prepare_scene(
     let options = PrepareOptions {
         memory_bytes,
         peak_bytes: if verbose { &memory::peak_since_last_bytes } else { &|| None },
+        seen_from,
         ..PrepareOptions::default()
     };
     let painting = prepare_with(&mut Preparer::default(), Arc::new(loaded), options, cache.as_ref())?;

@@ -10,7 +10,7 @@ use impasto_core::color::srgb_from_linear;
 use impasto_frame_files::{not_an_input, ready_folder};
 use impasto_gl_render::ResolvedStroke;
 use impasto_painting::frame::{LayerRun, Stroke, StrokeSource};
-use impasto_painting::{Frame, FrameOptions, Painting};
+use impasto_painting::{Frame, FrameOptions, Painting, SeenFrom};
 use impasto_scene::whole_file;
 use impasto_sequence::{Wanted, fits_in_memory};
 use serde::Serialize;
@@ -65,7 +65,8 @@ pub(crate) fn run(arguments: &StrokesArguments) -> Result<(), Failure> {
     let mut renderer = session::open_renderer(arguments.driver, false)?;
     fits_in_memory(&loaded.scene, Wanted::default(), size_px, &renderer)
         .map_err(|why| Failure::Refused(format!("{why}: make it smaller with --size")))?;
-    let Prepared { painting, storing } = session::prepare_scene(loaded, &arguments.scene, false)?;
+    let seen_from = SeenFrom::for_options(&loaded.scene, &FrameOptions::new(size_px));
+    let Prepared { painting, storing } = session::prepare_scene(loaded, &arguments.scene, seen_from, false)?;
     let frame_number = arguments.frame.unwrap_or(painting.scene().timeline.first as f64);
     if !frame_number.is_finite() {
         return Err(Failure::Usage("--frame wants a number".to_owned()));

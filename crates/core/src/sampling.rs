@@ -2,6 +2,9 @@
 
 mod block;
 mod candidates;
+mod cell_level;
+mod cells;
+mod dart_field;
 mod dart_grid;
 mod face_cones;
 mod packed;
@@ -17,9 +20,10 @@ use crate::shells::{Side, sides};
 use dart_grid::Dart;
 
 pub use candidates::scattered;
+pub use cells::{Cell, Cells, Needed};
 pub use packed::PackedParticle;
 pub use paper::{PolygonParticle, per_polygon};
-pub use progressive::{ProgressiveState, progressive};
+pub use progressive::{ProgressiveOrder, ProgressiveState, progressive};
 
 /// A particle: a point of a triangle, so that it follows any deformation of the mesh, with its position and normal.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -18,7 +18,7 @@ use impasto_editor_model::render_settings::{
 };
 use impasto_gl_render::context::{self, Driver, OpenOptions};
 use impasto_gl_render::{Picture, Renderer, ShaderTexts};
-use impasto_painting::{FrameOptions, PrepareError, PrepareOptions, Preparer};
+use impasto_painting::{FrameOptions, PrepareError, PrepareOptions, Preparer, SeenFrom};
 use impasto_sequence::movie::{Depth, Encoding, FrameFormat, Kind, Movie, MovieError};
 use impasto_sequence::{Ending, FileOutcome, FrameFiles, PngDepth, Sequence, Wanted, fits_in_memory};
 
@@ -189,9 +189,11 @@ fn run(
         return Ok(Outcome::Stopped);
     }
     fits_in_memory(&plan.loaded.scene, wanted(plan), plan.size_px, &renderer)?;
+    let frame_options = FrameOptions { transparent: plan.transparent, ..FrameOptions::new(plan.size_px) };
     let options = PrepareOptions {
         give_up: &stop,
         memory_bytes: impasto_scene::memory::available_bytes(),
+        seen_from: SeenFrom::for_options(&plan.loaded.scene, &frame_options),
         ..PrepareOptions::default()
     };
     let prepared = Preparer::default().prepare_with(Arc::clone(&plan.loaded), &options);
@@ -202,12 +204,11 @@ fn run(
     };
     shared.note(|board| board.progress.stage = Stage::Drawing);
     wake();
-    let options = FrameOptions { transparent: plan.transparent, ..FrameOptions::new(plan.size_px) };
     let sequence = Sequence {
         painting,
-        options,
+        options: frame_options,
         scene_name: plan.scene_name(),
-        state: impasto_sequence::state(&plan.loaded, &options, &wanted(plan), shaders),
+        state: impasto_sequence::state(&plan.loaded, &frame_options, &wanted(plan), shaders),
         driver,
         shaders: shaders.clone(),
         wanted: wanted(plan),

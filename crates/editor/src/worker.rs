@@ -16,6 +16,7 @@ use impasto_gl_render::ShaderTexts;
 use impasto_gl_render::context::{ContextReport, Driver};
 use impasto_gl_render::{BillboardSize, LightBillboard};
 use impasto_painting::Painting;
+use impasto_scene::document::Lens;
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion::CameraPose;
 
@@ -75,6 +76,21 @@ pub struct ViewJob {
 }
 
 impl ViewJob {
+    /// The camera with the lens of the shot, before it was widened to the whole picture.
+    pub(crate) fn shot_camera(&self) -> CameraPose {
+        let more = f64::from(self.size_px[1].max(1)) / f64::from(self.shot_height_px.max(1.0));
+        let lens = match self.camera.lens {
+            Lens::Perspective { fov_y_deg, near, far } => {
+                let slope = (0.5 * fov_y_deg.to_radians()).tan() / more;
+                Lens::Perspective { fov_y_deg: 2.0 * slope.atan().to_degrees(), near, far }
+            }
+            Lens::Orthographic { height, near, far } => {
+                Lens::Orthographic { height: height / more, near, far }
+            }
+        };
+        CameraPose { lens, shift: self.camera.shift * more, ..self.camera.clone() }
+    }
+
     /// Whether both views look the same; `moving` does not count.
     pub fn looks_like(&self, other: &Self) -> bool {
         *self == Self { moving: self.moving, ..other.clone() }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use impasto_gl_render::context::{OpenOptions, open};
 use impasto_gl_render::{MotionPixels, Picture, ReferencePixels, Renderer};
-use impasto_painting::{Frame, FrameOptions, Painting, Preparer, Rotation};
+use impasto_painting::{Frame, FrameOptions, Painting, PrepareOptions, Preparer, Rotation, SeenFrom};
 use impasto_scene::document::Style;
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion::{self, CameraPose};
@@ -97,7 +97,9 @@ impl<'a> MeasureContext<'a> {
             _ => Vec::new(),
         };
         let scene = Arc::new(version.of(self.loaded, &counts));
-        let painting = Rc::new(self.preparer.prepare(scene)?);
+        // Some protocols look from where the scene's own camera never is.
+        let options = PrepareOptions { seen_from: SeenFrom::Anywhere, ..PrepareOptions::default() };
+        let painting = Rc::new(self.preparer.prepare_with(scene, &options)?);
         self.paintings.insert(version, Rc::clone(&painting));
         Ok(painting)
     }

@@ -174,7 +174,7 @@ impl PaintingView<'_> {
         let reach = bound.reach_px * coat.growth(index, self);
         candidate.albedo_srgb8 != HOLE
             && seen.area_px > 0.0
-            && seen.area_px * bound.most_per_area[part] > index as f32
+            && seen.area_px * bound.most_per_area[part] > coat.coat.sampled.particles.ordinal(index)
             && self.is_between(seen.depth)
             && seen.x_px.abs() < self.half_px[0] + reach
             && seen.y_px.abs() < self.half_px[1] + reach

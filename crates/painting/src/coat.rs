@@ -6,7 +6,7 @@ use std::sync::{Arc, OnceLock};
 use glam::Vec3;
 use impasto_core::bending::SortedParticles;
 
-use impasto_core::sampling::{self, PackedParticle, ProgressiveState, Surface};
+use impasto_core::sampling::{self, Needed, PackedParticle, ProgressiveOrder, Surface};
 use impasto_core::solve::{Bounds, ParticleView};
 use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
@@ -16,10 +16,11 @@ use crate::bent::Bent;
 use crate::body::BodySurface;
 use crate::coat_amounts::CoatAmounts;
 use crate::context::{Context, ObjectInputs};
+use crate::counts::CoatCount;
 use crate::kept::KeptCoat;
 use crate::made_once::made_once;
 use crate::paper::PolygonCounts;
-use crate::particles::Particles;
+use crate::particles::{Particles, SampledPlaces};
 use crate::references::RaisedPlace;
 use crate::surface::{Albedo, SurfaceInputs};
 use crate::traits::Traits;
@@ -48,22 +49,28 @@ pub(crate) struct Coat {
 impl Sampled {
     /// Restores the particles that another process kept. The large arrays are taken out of `kept`.
     pub(crate) fn of_kept(body: &Arc<BodySurface>, kept: &mut KeptCoat) -> Self {
-        let none = Particles::new(body, Arc::default(), 0);
+        let none = Particles::new(body, SampledPlaces::default(), 0);
+        let sampled = SampledPlaces {
+            places: std::mem::take(&mut kept.places),
+            ordinals: std::mem::take(&mut kept.ordinals),
+            state: kept.state,
+        };
         Self {
-            particles: Particles::new(body, Arc::new(std::mem::take(&mut kept.places)), kept.count),
+            particles: Particles::new(body, sampled, kept.count),
             albedo: Arc::new(match body.has_colors() {
                 true => Albedo::OfParticle(std::mem::take(&mut kept.albedo)),
                 false => body.albedo(none.par_range(0..0)),
             }),
             area: kept.area,
             polygons: kept.polygons.take().map(Arc::new),
-            state: kept.state,
+            in_order: kept.in_order,
+            is_everywhere: kept.is_everywhere,
         }
     }
 
-    /// Where sampling goes on when more particles are wanted.
-    pub(crate) fn state(&self) -> ProgressiveState {
-        self.state
+    /// The rank of a particle, in (0, 1]: its ordinal over how many particles the whole surface would have.
+    pub(crate) fn rank(&self, index: usize) -> f32 {
+        ((self.particles.ordinal(index) + 0.5) / self.in_order as f32).min(1.0)
     }
 
     /// The albedo of every particle sampled so far; empty where it follows from the surface's materials.
@@ -97,7 +104,9 @@ impl Coat {
     /// A bit for each particle, carried by a body that is not at rest: whether it faces the eye within the bounds.
     pub(crate) fn carried_within(&self, bent: &Bent, view: &ParticleView, bounds: &Bounds) -> Vec<u64> {
         let sorted = made_once(&self.sorted, || {
-            SortedParticles::new(self.sampled.particles.places(), &self.baked.placed, self.heights())
+            let particles = &self.sampled.particles;
+            let (places, ordinals) = (particles.places(), particles.ordinals());
+            SortedParticles::new(places, &self.baked.placed, ordinals, self.heights())
         });
         bent.carrier().within(&self.surface.mesh, sorted, view, bounds)
     }
@@ -126,37 +135,42 @@ pub(crate) struct Sampled {
     /// Area of all sides of triangles that can be seen, model units squared. Of an open sheet, both sides count.
     pub(crate) area: f64,
     pub(crate) polygons: Option<Arc<PolygonCounts>>,
-    /// Where sampling goes on when more particles are wanted.
-    state: ProgressiveState,
+    /// How many particles the coat would have if it had those of its whole surface; at least 1.
+    pub(crate) in_order: usize,
+    /// Whether it has them.
+    pub(crate) is_everywhere: bool,
 }
 
-/// What the particles of a coat depend on, except their number.
+/// What the particles of a coat depend on, except their number where they lie everywhere.
 #[derive(Clone, PartialEq)]
 pub(crate) struct SampleInputs {
     pub(crate) surface: SurfaceInputs,
     pub(crate) name_hash: u32,
     /// With the paper's rule, the number of particles: another number gives other particles, so nothing can be reused.
     pub(crate) per_polygon: Option<usize>,
+    /// Where particles are needed; `None` everywhere.
+    pub(crate) needed: Option<Arc<Needed>>,
 }
 
 impl SampleInputs {
-    /// The inputs of a coat that is to have `count` particles.
+    /// The inputs of a coat that is to have this many particles.
     pub(crate) fn new(
         context: &Context<'_>,
         object: ObjectInputs<'_>,
         kind: LayerKind,
-        count: usize,
+        count: &CoatCount,
     ) -> Self {
         Self {
             surface: object.surface.clone(),
             name_hash: context.name_hash(object.index, kind),
-            per_polygon: (context.paper && count > 0).then_some(count),
+            per_polygon: (context.paper && count.in_order > 0).then_some(count.in_order),
+            needed: count.needed.clone(),
         }
     }
 
     /// The first `count` particles of a body. If `before` has so many, they are taken from it. If not, further ones are
-    /// sampled and appended to those of `before`; with the paper's rule, all are sampled anew. `before` must come from
-    /// equal inputs. `surface` is called only if particles are sampled.
+    /// sampled and appended to those of `before`; with the paper's rule, and where particles are not needed everywhere,
+    /// all are sampled anew. `before` must come from equal inputs. `surface` is called only if particles are sampled.
     pub(crate) fn sample<'a, 'mesh: 'a>(
         &self,
         before: Option<Arc<Sampled>>,
@@ -165,45 +179,65 @@ impl SampleInputs {
         surface: impl Fn() -> &'a Surface<'mesh>,
     ) -> Arc<Sampled> {
         if let Some(sampled) = &before
+            && self.needed.is_some()
+            && sampled.in_order == count
+        {
+            return Arc::clone(sampled);
+        }
+        if let Some(sampled) = &before
+            && self.needed.is_none()
             && let Some(particles) = sampled.particles.first(count)
         {
             return if particles == sampled.particles {
                 Arc::clone(sampled)
             } else {
-                Arc::new(Sampled { particles, ..Sampled::clone(sampled) })
+                Arc::new(Sampled { particles, in_order: count.max(1), ..Sampled::clone(sampled) })
             };
         }
         let surface = surface();
+        if let Some(needed) = &self.needed {
+            let order = ProgressiveOrder::where_needed(surface, self.name_hash, needed);
+            return Arc::new(Sampled {
+                albedo: Arc::new(body.albedo(order.particles.par_iter().copied())),
+                particles: Particles::new(body, SampledPlaces::of(&order), usize::MAX),
+                area: surface.area(),
+                polygons: None,
+                in_order: count.max(1),
+                is_everywhere: false,
+            });
+        }
         if self.per_polygon.is_some() {
             let entries = sampling::per_polygon(surface, count, self.name_hash);
             let polygons = PolygonCounts::new(surface, &body.mesh, &entries);
             let places: Vec<PackedParticle> =
                 entries.iter().map(|entry| PackedParticle::of(&entry.particle)).collect();
-            let particles = Particles::new(body, Arc::new(places), usize::MAX);
+            let particles = Particles::new(body, SampledPlaces::unordered(places), usize::MAX);
             return Arc::new(Sampled {
                 albedo: Arc::new(body.albedo(particles.par_range(0..particles.len()))),
+                in_order: particles.len().max(1),
                 particles,
                 area: surface.area(),
                 polygons: Some(Arc::new(polygons)),
-                state: ProgressiveState::default(),
+                is_everywhere: true,
             });
         }
-        let mut state = before.as_ref().map_or_else(ProgressiveState::default, |before| before.state);
-        let mut all = Vec::new();
-        if let Some(before) = &before {
-            all.extend(before.particles.places().iter().map(|place| place.on(&body.mesh)));
-        }
-        state.grow(surface, self.name_hash, &mut all, count);
-        let places: Arc<Vec<PackedParticle>> = Arc::new(all.iter().map(PackedParticle::of).collect());
+        let mut order = before.as_ref().map_or_else(ProgressiveOrder::default, |before| {
+            let SampledPlaces { places, ordinals, state } = before.particles.sampled();
+            let particles = places.iter().map(|place| place.on(&body.mesh)).collect();
+            ProgressiveOrder { particles, ordinals: ordinals.clone(), state: *state }
+        });
+        order.grow(surface, self.name_hash, count);
+        let places = SampledPlaces::of(&order);
         Arc::new(Sampled {
-            albedo: Arc::new(body.albedo(all.par_iter().copied())),
+            albedo: Arc::new(body.albedo(order.particles.par_iter().copied())),
             particles: match before {
                 Some(before) => before.particles.continued(places, count),
                 None => Particles::new(body, places, count),
             },
             area: surface.area(),
             polygons: None,
-            state,
+            in_order: count.max(1),
+            is_everywhere: true,
         })
     }
 }

@@ -10,6 +10,7 @@ use impasto_scene::presets::LayerKind;
 use crate::amounts::BodyAmounts;
 use crate::body_shape::BodyShape;
 use crate::parts::Cap;
+use crate::prepare::Seen;
 use crate::references::BodyReferences;
 use crate::regions::{BodyGuide, BodyRegions, RegionRule};
 use crate::surface::SurfaceInputs;
@@ -23,6 +24,8 @@ pub(crate) struct Context<'a> {
     pub(crate) views: &'a [(PictureView, Vec<DAffine3>)],
     /// For each of these views, the objects' shapes.
     pub(crate) shapes: &'a [Vec<BodyShape>],
+    /// All views, for what is made only where it is seen.
+    pub(crate) seen: &'a Seen<'a>,
     pub(crate) solver: Solver,
     /// Whether strokes are painted by the source paper's own rule.
     pub(crate) paper: bool,

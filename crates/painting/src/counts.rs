@@ -3,8 +3,10 @@
 
 use std::sync::Arc;
 
-use glam::DVec2;
-use impasto_core::sampling::Surface;
+use glam::{DAffine3, DVec3};
+use impasto_core::TriangleMesh;
+use impasto_core::sampling::{Needed, Surface};
+use impasto_scene::document::Solver;
 use impasto_scene::presets::LayerKind;
 
 use crate::body::BodySurface;
@@ -13,6 +15,8 @@ use crate::context::{Context, ObjectInputs};
 use crate::particle_count::{self, Sighting};
 use crate::parts::{BodyParts, Cap, fit_of, wanted_where_small};
 use crate::regions::BodyRegions;
+use crate::stroke_size::reach_px;
+use crate::view::PictureView;
 
 const LAYERS: usize = LayerKind::ALL.len();
 
@@ -34,6 +38,8 @@ pub(crate) struct CountInputs {
     /// The factor, at least 1, by which painted amounts raise the counts.
     more_wanted: f32,
     paper: bool,
+    /// Whether what shows of a stroke depends on its ordinal and the view alone, and on a body at rest.
+    is_by_view: bool,
 }
 
 impl PartialEq for CountInputs {
@@ -41,6 +47,7 @@ impl PartialEq for CountInputs {
         Arc::ptr_eq(&self.surface, &other.surface)
             && (self.left_out, self.least) == (other.left_out, other.least)
             && (self.stated, self.more_wanted, self.paper) == (other.stated, other.more_wanted, other.paper)
+            && self.is_by_view == other.is_by_view
             && self.layers == other.layers
             && self.fits == other.fits
             && self.caps == other.caps
@@ -73,7 +80,6 @@ impl CountInputs {
                 || has_no_paint(kind)
         });
         Self {
-            surface,
             regions: Arc::clone(object.regions),
             caps: object.caps.to_vec(),
             sightings: sightings(context, object.index),
@@ -84,50 +90,124 @@ impl CountInputs {
             stated: context.scene.objects[object.index].particles,
             more_wanted: object.amounts.more_wanted(),
             paper: context.paper,
+            is_by_view: {
+                let follows = |rule: &u16| context.rules[usize::from(*rule)].strokes.size_follow > 0.0;
+                let shapes = context.shapes.iter().map(|shapes| &shapes[object.index]);
+                let rests = |shape: &BodyShape| shape.noise.is_none() && surface.is_at_rest(shape);
+                context.solver == Solver::Tangent
+                    && !context.paper
+                    && !object.used.iter().any(follows)
+                    && !surface.bends()
+                    && shapes.clone().all(rests)
+            },
+            surface,
         }
     }
 
     /// The counts, in the order of [`LayerKind::ALL`].
-    pub(crate) fn counts(&self, surface: &Surface<'_>, parts: &BodyParts) -> [usize; LAYERS] {
+    pub(crate) fn counts(&self, surface: &Surface<'_>, parts: &BodyParts) -> Counted {
         let body = &self.surface;
         let positions_at = |shape: &BodyShape| (!body.is_at_rest(shape)).then(|| body.positions_at(shape));
-        let found: [usize; LAYERS] = particle_count::find(
-            surface,
-            &self.sightings,
-            self.least,
-            positions_at,
-            |triangle, center, normal| {
-                let cap = self.caps[parts.of_triangle[triangle] as usize];
-                let form = parts.form.at(center.as_vec3(), normal.as_vec3());
-                let mut densest = [0.0f32; LAYERS];
-                for rule in self.regions.on_triangle(surface.mesh(), triangle) {
-                    let moments = &self.layers[usize::from(rule)];
-                    for (kind, densest) in
-                        densest.iter_mut().enumerate().filter(|(kind, _)| !self.left_out[*kind])
-                    {
-                        let fit = fit_of(LayerKind::ALL[kind], self.fits[usize::from(rule)]);
-                        for [length_px, width_px, coverage] in moments.iter().map(|layers| layers[kind]) {
-                            let [length, width] = cap.fitted([length_px, width_px], form, fit);
-                            let wanted =
-                                coverage * wanted_where_small(LayerKind::ALL[kind], width / width_px);
-                            *densest = densest.max(wanted / (length * width));
-                        }
-                    }
-                }
-                std::array::from_fn(|kind| densest[kind] * most_wanted(LayerKind::ALL[kind]))
-            },
-        );
-        std::array::from_fn(|kind| match self.stated {
-            Some(stated) if kind == LayerKind::Body as usize => stated as usize,
-            _ if self.left_out[kind] => 0,
+        let wanted_per_px = self.wanted_per_px(surface.mesh(), parts);
+        let needed: [f64; LAYERS] =
+            particle_count::find(surface, &self.sightings, positions_at, wanted_per_px);
+        let found = needed.map(|needed| particle_count::bounded(needed, self.least));
+        let is_stated = |kind: usize| self.stated.filter(|_| kind == LayerKind::Body as usize);
+        let counts = std::array::from_fn(|kind| match is_stated(kind) {
+            Some(stated) => stated as usize,
+            None if self.left_out[kind] => 0,
             // By the source paper's rule, a polygon without a particle would stay bare, so each polygon gets at least
             // one.
-            _ if self.paper => found[kind].max(surface.faces().count()),
-            _ if LayerKind::ALL[kind] != LayerKind::Underpainting => {
+            None if self.paper => found[kind].max(surface.faces().count()),
+            None if LayerKind::ALL[kind] != LayerKind::Underpainting => {
                 particle_count::times(found[kind], self.more_wanted)
             }
-            _ => found[kind],
-        })
+            None => found[kind],
+        });
+        let wanted = std::array::from_fn(|kind| {
+            let is_fixed = is_stated(kind).is_some() || self.left_out[kind] || !self.is_by_view;
+            if is_fixed { 0.0 } else { needed[kind] * f64::from(self.more_wanted) }
+        });
+        Counted { counts, wanted, more_wanted: f64::from(self.more_wanted) }
+    }
+
+    /// How far the largest strokes reach from their particles, pixels at the scene's own size, before chance changes
+    /// their size.
+    pub(crate) fn most_reach_px(&self) -> f64 {
+        let sizes = self.layers.iter().flatten().flatten();
+        let reach = sizes.map(|&[length_px, width_px, _]| reach_px([1.0; 2], [length_px, width_px]));
+        f64::from(reach.fold(0.0, f32::max))
+    }
+
+    /// Gives the strokes of each layer that may be wanted per pixel on a triangle, from its index, a point of it and
+    /// its normal.
+    pub(crate) fn wanted_per_px<'a>(
+        &'a self,
+        mesh: &'a TriangleMesh,
+        parts: &'a BodyParts,
+    ) -> impl Fn(usize, DVec3, DVec3) -> [f32; LAYERS] + Sync + 'a {
+        |triangle, center, normal| {
+            let cap = self.caps[parts.of_triangle[triangle] as usize];
+            let form = parts.form.at(center.as_vec3(), normal.as_vec3());
+            let mut densest = [0.0f32; LAYERS];
+            for rule in self.regions.on_triangle(mesh, triangle) {
+                let moments = &self.layers[usize::from(rule)];
+                for (kind, densest) in
+                    densest.iter_mut().enumerate().filter(|(kind, _)| !self.left_out[*kind])
+                {
+                    let fit = fit_of(LayerKind::ALL[kind], self.fits[usize::from(rule)]);
+                    for [length_px, width_px, coverage] in moments.iter().map(|layers| layers[kind]) {
+                        let [length, width] = cap.fitted([length_px, width_px], form, fit);
+                        let wanted = coverage * wanted_where_small(LayerKind::ALL[kind], width / width_px);
+                        *densest = densest.max(wanted / (length * width));
+                    }
+                }
+            }
+            std::array::from_fn(|kind| densest[kind] * most_wanted(LayerKind::ALL[kind]))
+        }
+    }
+}
+
+/// How many particles the coats of an object need.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Counted {
+    /// If they lie on the whole surface.
+    pub(crate) counts: [usize; LAYERS],
+    /// The same without an upper bound; 0 for coats whose particles always lie on the whole surface.
+    pub(crate) wanted: [f64; LAYERS],
+    /// The factor, at least 1, by which painted amounts raise the counts.
+    pub(crate) more_wanted: f64,
+}
+
+/// How many particles a coat is to have, and where.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct CoatCount {
+    /// How many it has, or would have on its whole surface.
+    pub(crate) in_order: usize,
+    /// Where they are needed; `None` everywhere.
+    pub(crate) needed: Option<Arc<Needed>>,
+    /// How many these are, roughly.
+    pub(crate) made: usize,
+}
+
+/// How many particles the coats of an object are to have, in the order of [`LayerKind::ALL`].
+#[derive(Clone, Debug, Default)]
+pub(crate) struct BodyCounts {
+    pub(crate) counted: Counted,
+    pub(crate) of_coats: [CoatCount; LAYERS],
+}
+
+impl BodyCounts {
+    /// How many particles are made, roughly.
+    pub(crate) fn made(&self) -> usize {
+        self.of_coats.iter().map(|count| count.made).sum()
+    }
+}
+
+impl CoatCount {
+    /// So many everywhere.
+    pub(crate) fn everywhere(count: usize) -> Self {
+        Self { in_order: count, needed: None, made: count }
     }
 }
 
@@ -138,17 +218,10 @@ pub(crate) fn most_wanted(kind: LayerKind) -> f32 {
 }
 
 fn sightings(context: &Context<'_>, object: usize) -> Vec<Sighting> {
-    let half_size_px = DVec2::new(f64::from(context.scene.size.0), f64::from(context.scene.size.1)) * 0.5;
-    context
-        .views
-        .iter()
-        .zip(context.shapes)
-        .map(|((view, poses), shapes)| Sighting {
-            map: view.screen_map(poses[object]),
-            half_size_px,
-            near: view.near(),
-            // Noise changes the area little.
-            shape: BodyShape { noise: None, ..shapes[object].clone() },
-        })
-        .collect()
+    let of_view = |((view, poses), shapes): (&(PictureView, Vec<DAffine3>), &Vec<BodyShape>)| Sighting {
+        // Noise changes the area little.
+        shape: BodyShape { noise: None, ..shapes[object].clone() },
+        ..Sighting::of(view, poses[object])
+    };
+    context.views.iter().zip(context.shapes).map(of_view).collect()
 }

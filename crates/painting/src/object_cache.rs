@@ -16,11 +16,12 @@ use crate::cached::Cached;
 use crate::coat::{Coat, SampleInputs, Sampled};
 use crate::coat_amounts::{AmountInputs, CoatAmounts};
 use crate::context::{Context, ObjectInputs};
-use crate::counts::CountInputs;
+use crate::counts::{BodyCounts, CoatCount, CountInputs, Counted};
 use crate::field::{BodyField, FieldInputs, FieldSamples};
 use crate::frame::Brushes;
 use crate::kept::{KeptCoat, KeptObject};
 use crate::late_field::LateField;
+use crate::needed::{self, NeededInputs};
 use crate::noise_displace::NoiseInputs;
 use crate::particles::Particles;
 use crate::parts::BodyParts;
@@ -38,8 +39,9 @@ pub(crate) struct ObjectCache {
     noise: Cached<NoiseInputs, Option<Arc<BodyNoise>>>,
     bounds: Cached<Shaped, Option<(Vec3, Vec3)>>,
     stands: Cached<Shaped, Vec<Standing>>,
-    /// In the order of [`LayerKind::ALL`].
-    counts: Cached<CountInputs, [usize; LAYERS]>,
+    counts: Cached<Arc<CountInputs>, Counted>,
+    /// Empty where every coat has its particles everywhere.
+    needed: Cached<NeededInputs, [CoatCount; LAYERS]>,
     samples: Cached<FieldSampleInputs, Arc<FieldSamples>>,
     /// `None` where every direction is stated outright.
     field: Cached<Arc<FieldInputs>, Option<Arc<BodyField>>>,
@@ -168,18 +170,30 @@ impl ObjectCache {
         known.clone()
     }
 
-    /// Finds how many particles each coat has.
+    /// Finds how many particles each coat has, and where.
     pub(crate) fn count(&mut self, context: &Context<'_>, object: ObjectInputs<'_>) {
         let ObjectSurface { body, parts, .. } = self.object_surface().clone();
-        let inputs = CountInputs::new(context, object, Arc::clone(&body));
-        self.counts.update(inputs, |inputs, _| {
-            inputs.counts(&Surface::with_sides(&body.mesh, &body.sides, |_| true), &parts)
-        });
+        let surface = OnceLock::new();
+        let surface = || surface.get_or_init(|| Surface::with_sides(&body.mesh, &body.sides, |_| true));
+        let inputs = Arc::new(CountInputs::new(context, object, Arc::clone(&body)));
+        let counted = self.counts.update(inputs, |inputs, _| inputs.counts(surface(), &parts)).clone();
+        match self.counts.inputs() {
+            Some(inputs) if needed::may_pay(&counted) => {
+                let inputs = NeededInputs::new(context, object, inputs);
+                self.needed.update(inputs, |inputs, _| inputs.counts(&counted, surface(), &parts));
+            }
+            _ => self.needed.clear(),
+        }
     }
 
     /// How many particles each coat is to have.
-    pub(crate) fn counted(&self) -> [usize; LAYERS] {
-        self.counts.output().copied().unwrap_or([0; LAYERS])
+    pub(crate) fn counted(&self) -> BodyCounts {
+        let counted = self.counts.output().cloned().unwrap_or_default();
+        let of_coats = self.needed.output().cloned();
+        BodyCounts {
+            of_coats: of_coats.unwrap_or_else(|| counted.counts.map(CoatCount::everywhere)),
+            counted,
+        }
     }
 
     /// Samples the particles of every coat.
@@ -187,10 +201,11 @@ impl ObjectCache {
         let body = self.surface();
         let surface = OnceLock::new();
         let surface = || surface.get_or_init(|| Surface::with_sides(&body.mesh, &body.sides, |_| true));
-        let counts = self.counted();
+        let counts = self.counted().of_coats;
         let coats = self.coats.par_iter_mut().zip(LayerKind::ALL).zip(counts);
         coats.for_each(|((coat, kind), count)| {
-            let inputs = SampleInputs::new(context, object, kind, count);
+            let inputs = SampleInputs::new(context, object, kind, &count);
+            let count = count.in_order;
             coat.sampled.resize(inputs, |inputs, before| inputs.sample(before, count, &body, surface));
         });
     }
@@ -296,8 +311,9 @@ impl ObjectCache {
         kept: KeptObject,
     ) -> Vec<Arc<Coat>> {
         let surface = self.object_surface().clone();
-        let inputs = CountInputs::new(context, object, Arc::clone(&surface.body));
-        self.counts.update(inputs, |_, _| kept.counts);
+        let inputs = Arc::new(CountInputs::new(context, object, Arc::clone(&surface.body)));
+        self.counts.update(inputs, |_, _| kept.counts.counted);
+        self.needed.clear();
         let coats = self.coats.par_iter_mut().zip(LayerKind::ALL).zip(kept.coats);
         let coats = coats.filter_map(|((coat, kind), kept)| {
             coat.sampled.clear();
@@ -401,8 +417,12 @@ impl CoatCache {
 
     fn take_kept(&mut self, given: &CoatInputs<'_>, mut kept: KeptCoat) -> Coat {
         let sampled = Arc::new(Sampled::of_kept(&given.surface.body, &mut kept));
-        let inputs = SampleInputs::new(given.context, given.object, given.kind, kept.wanted);
-        self.sampled.update(inputs, |_, _| Arc::clone(&sampled));
+        // Where particles are needed was not kept, so those that do not lie everywhere cannot be reused.
+        if kept.is_everywhere {
+            let wanted = CoatCount::everywhere(kept.wanted);
+            let inputs = SampleInputs::new(given.context, given.object, given.kind, &wanted);
+            self.sampled.update(inputs, |_, _| Arc::clone(&sampled));
+        }
         if let Some(lists) = kept.neighbours {
             self.neighbours.update(sampled.particles.clone(), |_, _| Arc::new(lists));
         }

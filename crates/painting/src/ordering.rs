@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use crate::coat::Coat;
 use crate::order::{PaintingOrder, begins};
+use crate::particles::Particles;
 use crate::regions::RegionRule;
 use crate::traits::Traits;
 
@@ -26,7 +27,9 @@ pub(crate) struct OrderInputs {
 struct OrderedCoat {
     kind: LayerKind,
     name_hash: u32,
-    count: usize,
+    particles: Particles,
+    /// See [`crate::coat::Sampled::in_order`].
+    in_order: usize,
     /// Tells the region of each particle; `None` if all regions have the same layer.
     traits: Option<Arc<Traits>>,
 }
@@ -37,7 +40,9 @@ impl PartialEq for OrderedCoat {
             (Some(a), Some(b)) => Arc::ptr_eq(a, b) || a.same_regions(b),
             (a, b) => a.is_none() && b.is_none(),
         };
-        (self.kind, self.name_hash, self.count) == (other.kind, other.name_hash, other.count) && same_regions
+        (self.kind, self.name_hash, self.in_order) == (other.kind, other.name_hash, other.in_order)
+            && self.particles == other.particles
+            && same_regions
     }
 }
 
@@ -56,7 +61,8 @@ impl OrderInputs {
             .map(|coat| OrderedCoat {
                 kind: coat.kind,
                 name_hash: coat.traits.name_hash,
-                count: coat.sampled.particles.len(),
+                particles: coat.sampled.particles.clone(),
+                in_order: coat.sampled.in_order,
                 traits: (!one_layer).then(|| Arc::clone(&coat.traits)),
             })
             .collect();
@@ -65,17 +71,16 @@ impl OrderInputs {
 
     /// All particles in painting order; equal ranks of two objects are ordered by the hash of their names.
     pub(crate) fn order(&self) -> PaintingOrder {
-        let (firsts, _) = begins(self.coats.iter().map(|coat| coat.count));
-        let mut runs: BTreeMap<(i32, Option<usize>), Vec<Queue>> = BTreeMap::new();
+        let (firsts, _) = begins(self.coats.iter().map(|coat| coat.particles.len()));
+        let mut runs: BTreeMap<(i32, Option<usize>), Vec<Queue<'_>>> = BTreeMap::new();
         for (index, coat) in self.coats.iter().enumerate() {
             let place = self.kinds.iter().position(|kind| *kind == coat.kind);
             for (layer, particles) in coat.by_layer(&self.layers) {
-                let queue =
-                    Queue { first: firsts[index], name_hash: coat.name_hash, count: coat.count, particles };
+                let queue = Queue { first: firsts[index], coat, particles };
                 runs.entry((layer, place)).or_default().push(queue);
             }
         }
-        let runs: Vec<Vec<Queue>> = runs.into_values().collect();
+        let runs: Vec<Vec<Queue<'_>>> = runs.into_values().collect();
         let runs: Vec<Vec<u32>> = runs.into_par_iter().map(merged).collect();
         PaintingOrder::new(runs.concat(), firsts)
     }
@@ -85,10 +90,10 @@ impl OrderedCoat {
     /// The particles of each of the regions' layers, in progressive order.
     fn by_layer(&self, layers: &[i32]) -> BTreeMap<i32, LayerParticles> {
         let Some(traits) = &self.traits else {
-            return BTreeMap::from([(0, LayerParticles::First(self.count as u32))]);
+            return BTreeMap::from([(0, LayerParticles::First(self.particles.len() as u32))]);
         };
         let mut of_layer: BTreeMap<i32, Vec<u32>> = BTreeMap::new();
-        for particle in 0..self.count {
+        for particle in 0..self.particles.len() {
             let layer = layers[usize::from(traits.region(particle))];
             of_layer.entry(layer).or_default().push(particle as u32);
         }
@@ -104,16 +109,14 @@ enum LayerParticles {
 }
 
 /// The particles of a coat that are not in the order yet. They are taken from the end.
-struct Queue {
+struct Queue<'a> {
     /// The number of the coat's first particle.
     first: u32,
-    name_hash: u32,
-    /// How many particles the coat has.
-    count: usize,
+    coat: &'a OrderedCoat,
     particles: LayerParticles,
 }
 
-impl Queue {
+impl Queue<'_> {
     fn len(&self) -> usize {
         match &self.particles {
             LayerParticles::First(count) => *count as usize,
@@ -131,9 +134,10 @@ impl Queue {
         }
     }
 
-    /// Twice the rank of a particle, (2 index + 1) / count, as bits: the bits of positive floats sort as the floats do.
+    /// Twice the rank of a particle, (2 ordinal + 1) / count, as bits: the bits of positive floats sort as the floats do.
     fn rank(&self, particle: u32) -> u64 {
-        ((u64::from(particle) * 2 + 1) as f64 / self.count as f64).to_bits()
+        let ordinal = f64::from(self.coat.particles.ordinal(particle as usize));
+        ((ordinal * 2.0 + 1.0) / self.coat.in_order as f64).to_bits()
     }
 }
 
@@ -142,12 +146,12 @@ impl Queue {
 type Head = (u64, Reverse<(u32, u32, usize)>);
 
 /// The numbers of the particles of queues, the highest rank first; each queue is sorted already.
-fn merged(mut queues: Vec<Queue>) -> Vec<u32> {
-    let mut order = Vec::with_capacity(queues.iter().map(Queue::len).sum());
+fn merged(mut queues: Vec<Queue<'_>>) -> Vec<u32> {
+    let mut order = Vec::with_capacity(queues.iter().map(|queue| queue.len()).sum());
     let mut heads: BinaryHeap<Head> = BinaryHeap::new();
     for (index, queue) in queues.iter_mut().enumerate() {
         if let Some(particle) = queue.pop() {
-            heads.push((queue.rank(particle), Reverse((queue.name_hash, particle, index))));
+            heads.push((queue.rank(particle), Reverse((queue.coat.name_hash, particle, index))));
         }
     }
     while let Some(mut head) = heads.peek_mut() {
@@ -155,7 +159,7 @@ fn merged(mut queues: Vec<Queue>) -> Vec<u32> {
         let queue = &mut queues[index];
         order.push(queue.first + particle);
         match queue.pop() {
-            Some(next) => *head = (queue.rank(next), Reverse((queue.name_hash, next, index))),
+            Some(next) => *head = (queue.rank(next), Reverse((queue.coat.name_hash, next, index))),
             None => drop(PeekMut::pop(head)),
         }
     }

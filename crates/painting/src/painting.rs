@@ -16,12 +16,13 @@ use crate::bent::{Bent, BentMemo};
 use crate::body::BodySurface;
 use crate::body_shape::{BodyNoise, BodyShape, FrameNoise};
 use crate::coat::Coat;
+use crate::counts::BodyCounts;
 use crate::finish::FinishRule;
 use crate::frame::{ANY_COLOR, Brushes, Palette};
 use crate::kept::Kept;
 use crate::late_field::LateField;
 use crate::order::PaintingOrder;
-use crate::particles::Particles;
+use crate::particles::{Particles, SampledPlaces};
 use crate::parts::Cap;
 use crate::prepare::Step;
 use crate::references::SceneReferences;
@@ -77,7 +78,7 @@ pub(crate) struct PreparedBody {
     /// The direction field, empty where all directions are stated outright; `None` before strokes are made.
     pub(crate) field: Option<Arc<LateField>>,
     /// How many particles each layer was to have.
-    pub(crate) counts: [usize; LayerKind::ALL.len()],
+    pub(crate) counts: BodyCounts,
     /// Which region lies where.
     pub(crate) regions: Arc<BodyRegions>,
     /// What is painted onto it.
@@ -134,6 +135,11 @@ impl Painting {
         self.coats.iter().map(|coat| coat.sampled.particles.len()).sum()
     }
 
+    /// Whether large surfaces have particles only where they are seen from: see [`crate::SeenFrom`].
+    pub fn is_partial(&self) -> bool {
+        self.coats.iter().any(|coat| !coat.sampled.is_everywhere)
+    }
+
     /// Memory of all baked particles once all their looks are known, in bytes.
     pub fn particle_bytes(&self) -> usize {
         self.coats.iter().map(|coat| coat.baked.bytes()).sum()
@@ -142,7 +148,7 @@ impl Painting {
     /// The particles of one object's body layer, in progressive order.
     pub fn particles(&self, object: usize) -> Particles {
         self.coat(object, LayerKind::Body).map_or_else(
-            || Particles::new(&self.bodies[object].surface, Arc::default(), 0),
+            || Particles::new(&self.bodies[object].surface, SampledPlaces::default(), 0),
             |coat| coat.sampled.particles.clone(),
         )
     }

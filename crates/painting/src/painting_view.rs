@@ -217,7 +217,10 @@ impl CoatView<'_> {
     pub(crate) fn within(&self, bounds: &Bounds) -> Vec<u64> {
         match &self.bent {
             Some(bent) => self.coat.carried_within(bent, &self.particle_view, bounds),
-            None => self.particle_view.within(self.at_rest_all(), bounds),
+            None => {
+                let ordinals = self.coat.sampled.particles.ordinals();
+                self.particle_view.within(self.at_rest_all(), ordinals, bounds)
+            }
         }
     }
 

@@ -1,14 +1,15 @@
 //! How many particles an object needs where the scene does not state it.
 
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DAffine3, DVec2, DVec3, Vec3};
 use impasto_core::sampling::Surface;
 use impasto_core::screen_map::{area_px, facing};
 use impasto_core::{ScreenMap, TriangleMesh};
 use rayon::prelude::*;
 
 use crate::body_shape::BodyShape;
+use crate::view::PictureView;
 
-/// The greatest count that is found.
+/// The greatest count of a coat.
 const MOST: f64 = 400_000.0;
 
 /// The least count that is found: a reserve for cameras that come nearer than the scene's own. Where there are many
@@ -69,17 +70,16 @@ struct CountedFace<const LAYERS: usize> {
     wanted_per_px: [f64; LAYERS],
 }
 
-/// How many particles each layer needs, at least `least`. The count is large enough that, in every view, nine tenths of
-/// the object's area in the picture have all the strokes that are wanted there. `wanted_per_px` gives the strokes per
+/// How many particles each layer needs on the whole surface. They are enough that, in every view, nine tenths of the
+/// object's area in the picture have all the strokes that are wanted there. `wanted_per_px` gives the strokes per
 /// pixel wanted on a triangle, from its index, a point of it and its normal. `positions_at` gives the vertices'
 /// positions in a shape, or `None` at rest.
 pub(crate) fn find<const LAYERS: usize>(
     surface: &Surface<'_>,
     sightings: &[Sighting],
-    least: u32,
     positions_at: impl Fn(&BodyShape) -> Option<Vec<Vec3>> + Sync,
     wanted_per_px: impl Fn(usize, DVec3, DVec3) -> [f32; LAYERS],
-) -> [usize; LAYERS] {
+) -> [f64; LAYERS] {
     // Odd, since front and back faces of a sheet alternate: an even stride would take one side only.
     let stride = surface.faces().count().div_ceil(FACES) | 1;
     let faces: Vec<CountedFace<LAYERS>> = surface
@@ -115,8 +115,12 @@ pub(crate) fn find<const LAYERS: usize>(
     };
     let needed_per_area = sightings.par_iter().map(needed_in).reduce(|| [0.0; LAYERS], most);
     // A quarter more, since the highest ranks are only half present at just the number wanted.
-    needed_per_area
-        .map(|needed| (needed * surface.area() * 1.25).clamp(f64::from(least), MOST).ceil() as usize)
+    needed_per_area.map(|needed| needed * surface.area() * 1.25)
+}
+
+/// The count of a coat that needs so many, at least `least` and at most [`MOST`].
+pub(crate) fn bounded(needed: f64, least: u32) -> usize {
+    needed.clamp(f64::from(least), MOST).ceil() as usize
 }
 
 /// A count that was found, times `by`, but at most [`MOST`].
@@ -144,6 +148,17 @@ impl<const LAYERS: usize> CountedFace<LAYERS> {
 }
 
 impl Sighting {
+    /// A body at this pose, at rest, in a view.
+    pub(crate) fn of(view: &PictureView, world_from_model: DAffine3) -> Self {
+        let [width, height] = view.size_px.map(f64::from);
+        Self {
+            map: view.screen_map(world_from_model),
+            half_size_px: DVec2::new(width, height) * 0.5,
+            near: view.near(),
+            shape: BodyShape::default(),
+        }
+    }
+
     /// Whether the middle of a triangle does not stand for all of it: a part of it is out of sight, or much nearer than
     /// another.
     fn is_uneven(&self, corners: [DVec3; 3]) -> bool {
@@ -232,7 +247,6 @@ fn reached(mut values: &mut [(f64, f64)], target: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::DAffine3;
     use impasto_core::screen_map::PixelLens;
     use impasto_core::{TriangleMesh, hash};
 
@@ -267,7 +281,7 @@ mod tests {
         let counted = |cells: u32| {
             let mesh = floor(10.0, cells);
             let surface = Surface::new(&mesh, |_| true);
-            find(&surface, std::slice::from_ref(&sighting), 64, |_| None, |_, _, _| [0.001])[0] as f64
+            find(&surface, std::slice::from_ref(&sighting), |_| None, |_, _, _| [0.001])[0]
         };
         let (rough, fine) = (counted(1), counted(100));
         assert!((rough / fine - 1.0).abs() < 0.2, "{rough} particles, but {fine} on the grid");
@@ -284,7 +298,7 @@ mod tests {
             let map = ScreenMap::new(view, DAffine3::IDENTITY, PixelLens::Perspective { focal_px: 300.0 });
             let (half_size_px, shape) = (DVec2::new(320.0, 180.0), BodyShape::default());
             let sighting = Sighting { map, half_size_px, near: 0.1, shape };
-            find(&surface, &[sighting], 64, |_| None, |_, _, _| [0.01])[0] as f64
+            find(&surface, &[sighting], |_| None, |_, _, _| [0.01])[0]
         };
         let [above, below] = [4.0, -4.0].map(counted);
         assert!(above > 300.0 && (above / below - 1.0).abs() < 0.05, "{above} from above, {below} below");
@@ -309,7 +323,7 @@ mod tests {
                     .extend(one.triangles.iter().map(|of| of.map(|corner| corner + level * corners)));
             }
             let surface = Surface::new(&mesh, |_| true);
-            find(&surface, std::slice::from_ref(&sighting), 64, |_| None, |_, _, _| [0.001])[0] as f64
+            find(&surface, std::slice::from_ref(&sighting), |_| None, |_, _, _| [0.001])[0]
         };
         let [one, some, many, more] = [1, 8, 64, 128].map(counted);
         assert!((some / one / 8.0 - 1.0).abs() < 0.1, "8 floors need {some}, one needs {one}");

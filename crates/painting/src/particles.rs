@@ -5,7 +5,8 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use glam::Vec3;
-use impasto_core::sampling::{PackedParticle, Particle};
+use impasto_core::hash;
+use impasto_core::sampling::{PackedParticle, Particle, ProgressiveOrder, ProgressiveState};
 use rayon::prelude::*;
 
 use crate::body::BodySurface;
@@ -16,9 +17,35 @@ pub struct Particles {
     /// The same `Arc` in all `Particles` of one order, however many of its particles have been sampled; compared by
     /// address.
     order: Arc<()>,
-    all: Arc<Vec<PackedParticle>>,
+    sampled: Arc<SampledPlaces>,
     surface: Arc<BodySurface>,
     count: usize,
+}
+
+/// The places of all particles that have been sampled of a progressive order.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct SampledPlaces {
+    pub(crate) places: Vec<PackedParticle>,
+    /// See [`ProgressiveOrder::ordinals`].
+    pub(crate) ordinals: Vec<f32>,
+    /// Where sampling goes on when more particles are wanted.
+    pub(crate) state: ProgressiveState,
+}
+
+impl SampledPlaces {
+    /// Those of a progressive order.
+    pub(crate) fn of(order: &ProgressiveOrder) -> Self {
+        Self {
+            places: order.particles.iter().map(PackedParticle::of).collect(),
+            ordinals: order.ordinals.clone(),
+            state: order.state,
+        }
+    }
+
+    /// Particles without a progressive order: their ordinals are their indices.
+    pub(crate) fn unordered(places: Vec<PackedParticle>) -> Self {
+        Self { places, ..Self::default() }
+    }
 }
 
 /// Equal where they are the same particles of the same order.
@@ -30,19 +57,19 @@ impl PartialEq for Particles {
 
 impl Particles {
     /// The first `count` of a new order on a surface at rest.
-    pub(crate) fn new(surface: &Arc<BodySurface>, all: Arc<Vec<PackedParticle>>, count: usize) -> Self {
-        let count = count.min(all.len());
-        Self { order: Arc::new(()), all, surface: Arc::clone(surface), count }
+    pub(crate) fn new(surface: &Arc<BodySurface>, sampled: SampledPlaces, count: usize) -> Self {
+        let count = count.min(sampled.places.len());
+        Self { order: Arc::new(()), sampled: Arc::new(sampled), surface: Arc::clone(surface), count }
     }
 
     /// The first `count` of the same order, if so many have been sampled.
     pub(crate) fn first(&self, count: usize) -> Option<Self> {
-        (count <= self.all.len()).then(|| Self { count, ..self.clone() })
+        (count <= self.sampled.places.len()).then(|| Self { count, ..self.clone() })
     }
 
     /// The same order with more particles.
-    pub(crate) fn continued(&self, all: Arc<Vec<PackedParticle>>, count: usize) -> Self {
-        Self { count: count.min(all.len()), all, ..self.clone() }
+    pub(crate) fn continued(&self, sampled: SampledPlaces, count: usize) -> Self {
+        Self { count: count.min(sampled.places.len()), sampled: Arc::new(sampled), ..self.clone() }
     }
 
     /// Whether one is the beginning of the other.
@@ -51,8 +78,37 @@ impl Particles {
     }
 
     /// The places of all particles of the order that have been sampled.
-    pub(crate) fn places(&self) -> &Arc<Vec<PackedParticle>> {
-        &self.all
+    pub(crate) fn places(&self) -> &[PackedParticle] {
+        &self.sampled.places
+    }
+
+    /// All that has been sampled of the order.
+    pub(crate) fn sampled(&self) -> &SampledPlaces {
+        &self.sampled
+    }
+
+    /// The ordinals of all particles; empty where they are the particles' indices. An ordinal says about how many
+    /// particles come before one when the whole surface has all of its particles.
+    pub(crate) fn ordinals(&self) -> &[f32] {
+        self.sampled.ordinals.get(..self.count).unwrap_or_default()
+    }
+
+    /// The ordinal of a particle.
+    #[inline]
+    pub(crate) fn ordinal(&self, index: usize) -> f32 {
+        self.sampled.ordinals.get(index).copied().unwrap_or(index as f32)
+    }
+
+    /// Random bits of a particle: by its index where this is its ordinal too, else by its place. They stay the same
+    /// however many other particles there are.
+    #[inline]
+    pub(crate) fn random_bits(&self, index: usize, seed: u32) -> u32 {
+        let SampledPlaces { places, ordinals, state } = &*self.sampled;
+        if ordinals.is_empty() || index < state.counted() {
+            hash::combine(seed, index as u32)
+        } else {
+            places[index].random_bits(seed)
+        }
     }
 
     /// How many.
@@ -68,7 +124,7 @@ impl Particles {
     /// One of them; `index` is less than [`Particles::len`].
     #[inline]
     pub fn at(&self, index: usize) -> Particle {
-        self.place_on_surface(self.all[..self.count][index])
+        self.place_on_surface(self.sampled.places[..self.count][index])
     }
 
     /// One of them, if there are so many.
@@ -78,7 +134,7 @@ impl Particles {
 
     /// All of them, in progressive order.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = Particle> + '_ {
-        self.all[..self.count].iter().map(|&place| self.place_on_surface(place))
+        self.sampled.places[..self.count].iter().map(|&place| self.place_on_surface(place))
     }
 
     /// Positions and unit normals of all of them, in model space.
@@ -90,7 +146,7 @@ impl Particles {
     /// Index of the triangle of one of them.
     #[inline]
     pub(crate) fn triangle(&self, index: usize) -> usize {
-        self.all[index].triangle()
+        self.sampled.places[index].triangle()
     }
 
     /// Those of a range, on all threads.
@@ -98,7 +154,7 @@ impl Particles {
         &self,
         range: Range<usize>,
     ) -> impl IndexedParallelIterator<Item = Particle> + '_ {
-        self.all[range].par_iter().map(|&place| self.place_on_surface(place))
+        self.sampled.places[range].par_iter().map(|&place| self.place_on_surface(place))
     }
 
     #[inline]

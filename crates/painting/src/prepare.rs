@@ -1,6 +1,7 @@
 //! From a scene to a painting, step by step; a step runs again only when its inputs have changed.
 
 mod options;
+mod seen;
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -8,7 +9,6 @@ use std::sync::Arc;
 use glam::DAffine3;
 use impasto_scene::document::{Lens, Scene, Solver, Style};
 use impasto_scene::loaded::LoadedScene;
-use impasto_scene::presets::LayerKind;
 use impasto_scene::{motion, presets};
 use rayon::prelude::*;
 
@@ -19,6 +19,7 @@ use crate::brushes;
 use crate::cached::Cached;
 use crate::coat::Coat;
 use crate::context::{Context, ObjectInputs};
+use crate::counts::BodyCounts;
 use crate::finish::FinishRule;
 use crate::frame::Brushes;
 use crate::kept::{Kept, KeptPainting, SceneKey, Wanted};
@@ -38,6 +39,8 @@ use crate::view::PictureView;
 use options::{StepClock, fits};
 
 pub use options::{PrepareError, PrepareOptions, Step};
+pub(crate) use seen::Seen;
+pub use seen::SeenFrom;
 
 /// Prepares scenes one after the other and reuses every result whose inputs have not changed.
 #[derive(Default)]
@@ -97,7 +100,9 @@ impl Preparer {
         }
         let Painting { rules, solver, .. } = &plain;
         let paper = presets::is_paper(scene);
+        let seen = Seen::new(scene, options.seen_from);
         let context = Context {
+            seen: &seen,
             scene,
             rules,
             views: &views,
@@ -218,7 +223,7 @@ impl Preparer {
     ) -> Result<Strokes, PrepareError> {
         let &Work { context, objects, .. } = work;
         for (body, object) in bodies.iter_mut().zip(&found.objects) {
-            body.counts = object.counts;
+            body.counts = object.counts.clone();
         }
         work.fits(bodies)?;
         brushes::know(&found.brushes);
@@ -314,7 +319,7 @@ impl Work<'_> {
 
     /// Checks that all particles fit into memory.
     fn fits(&self, bodies: &[PreparedBody]) -> Result<(), PrepareError> {
-        let counts: Vec<u64> = bodies.iter().map(|body| body.counts.iter().sum::<usize>() as u64).collect();
+        let counts: Vec<u64> = bodies.iter().map(|body| body.counts.made() as u64).collect();
         fits(self.options.memory_bytes, self.context.scene, &counts, self.context.solver)
     }
 }
@@ -390,7 +395,7 @@ fn plain(
         caps: cache.parts().caps(of_body[index].own()),
         least_form: cache.parts().form.least(),
         field: None,
-        counts: [0; LayerKind::ALL.len()],
+        counts: BodyCounts::default(),
         regions: Arc::default(),
         amounts: Arc::default(),
     });

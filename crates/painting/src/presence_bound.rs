@@ -25,14 +25,14 @@ pub(crate) struct PresenceBound {
     /// How far from its particle a stroke can reach, pixels, with the largest size and shift that chance, boil and
     /// painted amounts give. A stroke that grows as its surface comes nearer (`size_follow`) can reach farther.
     pub(crate) reach_px: f32,
-    /// By part: a stroke can be present only while its particle's index is below this times the projected area of the
-    /// surface there (px² per unit of surface). Infinite where presence does not depend on the index.
+    /// By part: a stroke can be present only while its particle's ordinal is below this times the projected area of the
+    /// surface there (px² per unit of surface). Infinite where presence does not depend on the ordinal.
     pub(crate) most_per_area: Vec<f32>,
 }
 
 impl Painting {
     /// The bound of each rule, whose strokes at the frame are in `strokes_of_rule`; `None` where it paints nothing on
-    /// this coat. `by_polygon`: the source paper's counts per polygon decide what shows, so no index bounds it.
+    /// this coat. `by_polygon`: the source paper's counts per polygon decide what shows, so no ordinal bounds it.
     pub(crate) fn presence_bounds(
         &self,
         coat: &Coat,
@@ -57,7 +57,7 @@ impl Painting {
                 let wanted_per_px = f64::from(layer.coverage / (length * width) * more_painted);
                 (wanted_per_px * coat.sampled.area * most * LEEWAY / f64::from(px_scale * px_scale)) as f32
             };
-            let by_index = !by_polygon && strokes.size_follow <= 0.0;
+            let by_ordinal = !by_polygon && strokes.size_follow <= 0.0;
             let [longer, wider] = most_size(strokes.size_jitter);
             let [longer_boiled, wider_boiled] = boil::most_size(strokes.boil);
             let [along, across] = boil::most_shift(strokes.boil);
@@ -69,7 +69,7 @@ impl Painting {
                 most_per_area: body
                     .caps
                     .iter()
-                    .map(|cap| if by_index { of_part(cap) } else { f32::INFINITY })
+                    .map(|cap| if by_ordinal { of_part(cap) } else { f32::INFINITY })
                     .collect(),
             })
         };

@@ -185,7 +185,10 @@ impl PaintingView<'_> {
                 StrokeColors::Scene => candidate.albedo_srgb8,
                 StrokeColors::Trust => trust_srgb8(map.kappa() as f32),
             },
-            mark: brushes::mark(&coat.first_marks[region as usize], entry.particle, bits),
+            mark: {
+                let order = coat.sampled.particles.ordinal(index) as u32;
+                brushes::mark(&coat.first_marks[region as usize], order, bits)
+            },
             paint: chance.paint(layer, strokes.size_jitter > 0.0, boldness),
             mixing: mixing(strokes, boldness, self.painting.palette_of_rule[region as usize]),
             normal_in_world: (coat_view.world_from_model.matrix3.inverse().transpose() * normal)
@@ -202,24 +205,25 @@ impl PaintingView<'_> {
         let most_rad = stroke.most_bend_rad();
         let bend_rad = (bend_rad * chance.bend(strokes.size_jitter)).clamp(-most_rad, most_rad);
         let stroke = Stroke { bend_rad, ..stroke };
-        let count = coat.sampled.particles.len() as f32;
         let source = StrokeSource {
             place,
             particle: entry.particle,
             region: u32::from(region),
             kappa: map.kappa() as f32,
             facing,
-            rank: (entry.particle as f32 + 0.5) / count,
+            rank: coat.sampled.rank(index),
         };
         Some((stroke, source))
     }
 
-    /// ln of the supply over the rank, ρ*·A/(index + ½). Supply is the strokes wanted per pixel, ρ*, over the particles
+    /// ln of the supply over the rank, ρ*·A/(ordinal + ½). Supply is the strokes wanted per pixel, ρ*, over the particles
     /// per pixel; A is how many pixels the coat's whole area would fill at this particle's scale. The number of
     /// particles cancels out, so doubling it leaves the first half of the particles unchanged.
     fn supply_ln(&self, coat: &CoatView<'_>, index: usize, area_px: f32, wanted_per_px: f32) -> f32 {
         let area_px = area_px / (self.px_scale * self.px_scale);
-        let wanted = f64::from(wanted_per_px * area_px) * coat.coat.sampled.area / (index as f64 + 0.5);
+        let sampled = &coat.coat.sampled;
+        let ordinal = f64::from(sampled.particles.ordinal(index));
+        let wanted = f64::from(wanted_per_px * area_px) * sampled.area / (ordinal + 0.5);
         wanted.ln() as f32
     }
 

@@ -89,7 +89,7 @@ impl Painting {
                 // The last float below half a picture's height becomes the height itself.
                 let [column, row] = [(x / cell_px) as usize, (y / cell_px) as usize];
                 let cell = column.min(columns - 1) + row.min(rows - 1) * columns;
-                if cells[cell].is_some_and(|(_, best)| best.rank <= rank(index, coat)) {
+                if cells[cell].is_some_and(|(_, best)| best.rank <= coat.coat.sampled.rank(index)) {
                     continue;
                 }
                 let direction = view.without_angle(coat, &seen, index);
@@ -158,11 +158,6 @@ impl SurfacePlace {
     }
 }
 
-/// The rank of a particle of a coat.
-fn rank(index: usize, coat: &CoatView<'_>) -> f32 {
-    (index as f32 + 0.5) / coat.len() as f32
-}
-
 /// The numbers of the bits that are set, in order; 64 to a word, the first in the lowest bit.
 fn indices(words: &[u64]) -> impl Iterator<Item = usize> + '_ {
     words.iter().enumerate().flat_map(|(word, &bits)| {
@@ -189,7 +184,7 @@ impl PaintingView<'_> {
             object: coat.coat.object,
             region: usize::from(coat.coat.traits.region(index)),
             particle: index,
-            rank: rank(index, coat),
+            rank: coat.coat.sampled.rank(index),
             position_px: self.position_px(seen),
             angle_rad: 0.0,
             kappa: 0.0,

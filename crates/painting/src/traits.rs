@@ -154,7 +154,7 @@ impl Traits {
     /// Random bits of a particle. Only another object name or another seed of the scene changes them.
     #[inline]
     pub(crate) fn bits(&self, particle: usize) -> u32 {
-        hash::combine(self.name_hash, particle as u32)
+        self.particles.random_bits(particle, self.name_hash)
     }
 
     /// Whether each particle is known to belong to the same region in both.

@@ -41,21 +41,25 @@ pub struct SortedParticles(Vec<SortedParticle>);
 struct SortedParticle {
     place: PackedParticle,
     number: u32,
+    /// In the progressive order.
+    ordinal: f32,
     /// At rest.
     normal: Vec3,
     height: f32,
 }
 
 impl SortedParticles {
-    /// Sorts particles; `height` is how far each is lifted off the surface.
+    /// Sorts particles; `ordinals` is as in [`ParticleView::within`], `height` is how far each is lifted off the surface.
     pub fn new(
         places: &[PackedParticle],
         placed: &PlacedParticles,
+        ordinals: &[f32],
         height: impl Fn(usize) -> f32 + Sync,
     ) -> Self {
         let entry = |(index, &place): (usize, &PackedParticle)| SortedParticle {
             place,
             number: index as u32,
+            ordinal: ordinals.get(index).copied().unwrap_or(index as f32),
             normal: placed.normal_of(index).as_vec3(),
             height: height(index),
         };
@@ -224,6 +228,7 @@ impl Wide for Culling<'_> {
         let mut normals = [[0.0f32; WORD]; 3];
         let mut heights = [0.0f32; WORD];
         let mut numbers = [0u32; WORD];
+        let mut ordinals = [0.0f32; WORD];
         let mut shows = [0u8; WORD];
         for entries in self.entries.chunks(WORD) {
             // First each particle is looked up, then all are computed, in arrays, so that the compiler vectorises.
@@ -239,6 +244,7 @@ impl Wide for Culling<'_> {
                 }
                 heights[lane] = entry.height;
                 numbers[lane] = entry.number;
+                ordinals[lane] = entry.ordinal;
             }
             let is_lifted = heights[..entries.len()].iter().any(|height| *height != 0.0);
             for lane in 0..WORD {
@@ -252,7 +258,7 @@ impl Wide for Culling<'_> {
                     position = lifted(position, normal, heights[lane]);
                 }
                 let vectors = [position.to_array(), normal.to_array()];
-                shows[lane] = u8::from(self.view.shows(vectors, numbers[lane], self.bounds));
+                shows[lane] = u8::from(self.view.shows(vectors, ordinals[lane], self.bounds));
             }
             for (shows, number) in shows.iter().zip(&numbers[..entries.len()]) {
                 if *shows != 0 {

@@ -5,6 +5,7 @@ use glam::Vec3;
 
 use super::Particle;
 use crate::TriangleMesh;
+use crate::hash;
 
 /// The bit of `triangle_and_side` that is set for particles on the back of their triangle.
 const FLIPPED: u32 = 1 << 31;
@@ -38,6 +39,13 @@ impl PackedParticle {
     pub fn weights(self) -> [f32; 3] {
         let [v, w] = self.barycentric;
         [1.0 - v - w, v, w]
+    }
+
+    /// Random bits that depend on the place and the seed alone.
+    #[inline]
+    pub fn random_bits(self, seed: u32) -> u32 {
+        let [v, w] = self.barycentric.map(f32::to_bits);
+        [self.triangle_and_side, v, w].into_iter().fold(seed, hash::combine)
     }
 
     /// Unpacks the particle on the mesh that it was sampled on; equal to the bit to the one that was packed.

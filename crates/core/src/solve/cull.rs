@@ -22,7 +22,7 @@ pub struct Bounds {
     pub half_px: [f32; 2],
     /// Nearest and farthest depth, exclusive.
     pub near_far: [f32; 2],
-    /// A particle's number must be less than this times its projected area in px² per unit of surface.
+    /// A particle's ordinal must be less than this times its projected area in px² per unit of surface.
     pub most_per_area: f32,
 }
 
@@ -89,12 +89,12 @@ impl ParticleView {
         SeenParticle { x_px: seen.x_px, y_px: seen.y_px, depth: seen.depth, area_px: seen.area_px }
     }
 
-    /// Whether a particle with this number faces the eye within the bounds.
+    /// Whether a particle with this ordinal faces the eye within the bounds.
     #[inline(always)]
-    pub(crate) fn shows(&self, [position, normal]: [[f32; 3]; 2], number: u32, bounds: &Bounds) -> bool {
+    pub(crate) fn shows(&self, [position, normal]: [[f32; 3]; 2], ordinal: f32, bounds: &Bounds) -> bool {
         let seen = project(&self.rows, position, normal);
         (seen.area_px > 0.0)
-            & (seen.area_px * bounds.most_per_area > number as f32)
+            & (seen.area_px * bounds.most_per_area > ordinal)
             & (seen.depth > bounds.near_far[0])
             & (seen.depth < bounds.near_far[1])
             & (seen.x_px.abs() < bounds.half_px[0])
@@ -102,11 +102,12 @@ impl ParticleView {
     }
 
     /// One bit per particle, set where it faces the eye and is within the bounds; 64 particles per word, the first in
-    /// the lowest bit.
-    pub fn within(&self, particles: &PlacedParticles, bounds: &Bounds) -> Vec<u64> {
+    /// the lowest bit. `ordinals` has the particles' ordinals in their progressive order; where it is empty, they are
+    /// the particles' indices.
+    pub fn within(&self, particles: &PlacedParticles, ordinals: &[f32], bounds: &Bounds) -> Vec<u64> {
         let mut words = vec![0; particles.len().div_ceil(WORD)];
         words.par_chunks_mut(CHUNK / WORD).enumerate().for_each(|(chunk, words)| {
-            widest(Marking { particles, first: chunk * CHUNK, rows: &self.rows, bounds, words });
+            widest(Marking { particles, ordinals, first: chunk * CHUNK, rows: &self.rows, bounds, words });
         });
         words
     }
@@ -115,6 +116,7 @@ impl ParticleView {
 /// Sets the bits of the particles from `first` on that are within the bounds.
 struct Marking<'a> {
     particles: &'a PlacedParticles,
+    ordinals: &'a [f32],
     first: usize,
     rows: &'a Rows,
     bounds: &'a Bounds,
@@ -126,14 +128,22 @@ impl Wide for Marking<'_> {
 
     #[inline(always)]
     fn run(self) {
-        let Self { particles, rows, bounds, .. } = self;
+        let Self { particles, ordinals, rows, bounds, .. } = self;
         for (number, word) in self.words.iter_mut().enumerate() {
             let first = self.first + number * WORD;
+            let rest = (particles.len() - first).min(WORD);
+            let mut ordinals_here = [0.0; WORD];
+            match ordinals.get(first..first + rest) {
+                Some(here) => ordinals_here[..rest].copy_from_slice(here),
+                None => {
+                    (ordinals_here.iter_mut().zip(first as i32..)).for_each(|(at, index)| *at = index as f32)
+                }
+            }
             let mut flags = [0; WORD];
-            match particles.len() - first {
+            match rest {
                 // The length is known here, so the compiler vectorises the loop.
-                WORD.. => mark_word(particles, first, rows, bounds, &mut flags),
-                rest => mark_word(particles, first, rows, bounds, &mut flags[..rest]),
+                WORD => mark_word((particles, &ordinals_here), first, rows, bounds, &mut flags),
+                rest => mark_word((particles, &ordinals_here), first, rows, bounds, &mut flags[..rest]),
             }
             *word = packed(&flags);
         }
@@ -141,7 +151,13 @@ impl Wide for Marking<'_> {
 }
 
 #[inline(always)]
-fn mark_word(particles: &PlacedParticles, first: usize, rows: &Rows, bounds: &Bounds, flags: &mut [u8]) {
+fn mark_word(
+    (particles, ordinals): (&PlacedParticles, &[f32; WORD]),
+    first: usize,
+    rows: &Rows,
+    bounds: &Bounds,
+    flags: &mut [u8],
+) {
     let count = flags.len();
     let [px, py, pz] = slices(&particles.position, first, count);
     let [nx, ny, nz] = slices(&particles.normal, first, count);
@@ -150,7 +166,7 @@ fn mark_word(particles: &PlacedParticles, first: usize, rows: &Rows, bounds: &Bo
         // `&`, not `&&`: making all tests is cheaper than branching.
         *flag = u8::from(
             (seen.area_px > 0.0)
-                & (seen.area_px * bounds.most_per_area > (first as i32 + i as i32) as f32)
+                & (seen.area_px * bounds.most_per_area > ordinals[i])
                 & (seen.depth > bounds.near_far[0])
                 & (seen.depth < bounds.near_far[1])
                 & (seen.x_px.abs() < bounds.half_px[0])
@@ -278,11 +294,28 @@ mod tests {
         solve(&particles, &map, &mut solved);
         let bounds = Bounds { half_px: [640.0, 360.0], near_far: [2.0, 6.0], most_per_area: 0.15 };
         let view = ParticleView::new(&map);
-        let words = view.within(&particles.placed, &bounds);
+        let words = view.within(&particles.placed, &[], &bounds);
+        let indices: Vec<f32> = (0..particles.len()).map(|index| index as f32).collect();
+        assert_eq!(words, view.within(&particles.placed, &indices, &bounds));
+        let halves: Vec<f32> = indices.iter().map(|index| 0.5 * index).collect();
+        let twice = Bounds { most_per_area: 2.0 * bounds.most_per_area, ..bounds };
+        assert_ne!(words, view.within(&particles.placed, &halves, &bounds));
+        assert_eq!(
+            view.within(&particles.placed, &[], &twice),
+            view.within(&particles.placed, &halves, &bounds)
+        );
         let mut portable = vec![0; words.len()];
         let (rows, words_of) = (Rows::new(&map), &mut portable);
-        Marking { particles: &particles.placed, first: 0, rows: &rows, bounds: &bounds, words: words_of }
-            .run();
+        let (particles_of, ordinals) = (&particles.placed, &[][..]);
+        Marking {
+            particles: particles_of,
+            ordinals,
+            first: 0,
+            rows: &rows,
+            bounds: &bounds,
+            words: words_of,
+        }
+        .run();
         assert_eq!(words, portable);
         // How often each bound alone keeps a particle out.
         let mut alone = [0; 6];
@@ -299,7 +332,7 @@ mod tests {
             let bit = words[index / WORD] >> (index % WORD) & 1;
             assert_eq!(bit == 1, holds.iter().all(|&holds| holds), "particle {index}");
             let vectors = particles.placed.vectors_of(index);
-            assert_eq!(view.shows(vectors, index as u32, &bounds), bit == 1, "particle {index} alone");
+            assert_eq!(view.shows(vectors, index as f32, &bounds), bit == 1, "particle {index} alone");
             if let [out] = [0, 1, 2, 3, 4, 5].iter().filter(|&&bound| !holds[bound]).collect::<Vec<_>>()[..] {
                 alone[*out] += 1;
             }

@@ -9,8 +9,9 @@ use egui::ColorImage;
 use impasto_editor_model::picking::Picker;
 use impasto_gl_render::context::{self, Driver, OpenOptions};
 use impasto_gl_render::{RenderError, Renderer};
-use impasto_painting::{Frame, Painting, PrepareError, PrepareOptions, Preparer, Recall};
+use impasto_painting::{Frame, Painting, PrepareError, PrepareOptions, Preparer, Recall, SeenFrom};
 use impasto_scene::mesh_file::MeshFile;
+use impasto_scene::motion::{self, CameraPose};
 
 use super::ahead::Ahead;
 use super::draft::DraftSize;
@@ -70,11 +71,19 @@ type Tell<'a> = &'a dyn Fn(Report);
 #[cfg(test)]
 mod tests;
 
+/// A scene that was prepared.
+struct Prepared {
+    painting: Painting,
+    serial: u64,
+    /// The cameras from which it is seen besides its own, each with a frame.
+    free_views: Vec<(CameraPose, f64)>,
+}
+
 struct PaintWorker {
     preparer: Preparer,
     /// The picker is brought up to date here, and the window gets copies of it.
     picker: Picker,
-    prepared: Option<(Painting, u64)>,
+    prepared: Option<Prepared>,
     /// `None` if no driver was found: then scenes are prepared, but nothing is drawn.
     renderer: Option<Renderer>,
     /// The number of the shaders in use, from [`Mailbox::shaders_after`].
@@ -259,7 +268,7 @@ impl PaintWorker {
     /// Whether the scene shares no mesh with the scene that was prepared last.
     fn is_new(&self, order: &Order) -> bool {
         let known = |mesh: &Arc<MeshFile>| {
-            let before = self.prepared.iter().flat_map(|(painting, _)| painting.loaded().meshes.values());
+            let before = self.prepared.iter().flat_map(|known| known.painting.loaded().meshes.values());
             before.into_iter().any(|before| Arc::ptr_eq(before, mesh))
         };
         !order.job.loaded.meshes.values().any(known)
@@ -296,18 +305,24 @@ impl PaintWorker {
 
     fn prepare(&mut self, order: &Order, mailbox: &Mailbox, tell: Tell<'_>) -> Option<Painting> {
         let serial = order.job.serial;
-        if let Some((painting, _)) = self.prepared.as_ref().filter(|(_, prepared)| *prepared == serial) {
-            return Some(painting.clone());
+        let free_views = self.free_views(order);
+        if let Some(known) = self.prepared.as_ref().filter(|known| known.serial == serial) {
+            // Where a free camera looks at a large surface that the shot does not see, there are few particles yet.
+            if !known.painting.is_partial() || known.free_views == free_views {
+                return Some(known.painting.clone());
+            }
         }
         let give_up = || mailbox.gives_up(order);
         let options = PrepareOptions {
             give_up: &give_up,
             memory_bytes: impasto_scene::memory::available_bytes(),
+            seen_from: SeenFrom::Shot(&free_views),
             ..PrepareOptions::default()
         };
         match self.preparer.prepare_with(Arc::clone(&order.job.loaded), &options) {
             Ok(painting) => {
-                self.prepared = Some((painting.clone(), serial));
+                self.prepared =
+                    Some(Prepared { painting: painting.clone(), serial, free_views: free_views.clone() });
                 let frame = order.job.views.first().map_or(0.0, |view| view.frame);
                 self.picker.follow(&painting, frame);
                 tell(Report::Prepared(Box::new((painting.clone(), self.picker.clone())), serial));
@@ -319,6 +334,24 @@ impl PaintWorker {
                 None
             }
         }
+    }
+
+    /// The free cameras of an order, each with its frame. While they move, they stay those of the order before: a moving
+    /// picture may lack particles for a moment.
+    fn free_views(&self, order: &Order) -> Vec<(CameraPose, f64)> {
+        let views = &order.job.views;
+        if let Some(known) = &self.prepared
+            && views.iter().any(|view| view.moving)
+        {
+            return known.free_views.clone();
+        }
+        let scene = &order.job.loaded.scene;
+        let is_free = |view: &&ViewJob| {
+            let shot = motion::camera_at(scene, view.frame);
+            let of = |pose: &CameraPose| (pose.eye, pose.target, pose.roll_rad);
+            of(&shot) != of(&view.camera)
+        };
+        views.iter().filter(is_free).map(|view| (view.shot_camera(), view.frame)).collect()
     }
 
     /// Redraws only the icons of lights, if nothing else changed since the view's exact picture, and the renderer still

@@ -15,6 +15,7 @@ use super::arrays::{Array, Arrays, Unfit};
 use super::{KeptBytes, KeptKey};
 use crate::bake::BakedBody;
 use crate::body::BodySurface;
+use crate::counts::{BodyCounts, CoatCount, Counted};
 use crate::frame::Brushes;
 use crate::looks::Looks;
 use crate::order::PaintingOrder;
@@ -39,10 +40,14 @@ pub(super) struct Sizes {
 #[derive(Clone, Copy, Default, Pod, Zeroable)]
 pub(super) struct CoatNumbers {
     pub(super) count: u64,
-    pub(super) state: [u64; 2],
+    /// How many particles the coat would have on its whole surface.
+    pub(super) in_order: u64,
+    pub(super) state: [u64; 4],
     /// The bits of the area, which is a float.
     pub(super) area: u64,
-    /// 0 or 1, as are `has_polygons` and `has_neighbours`: whether looks have base angles.
+    /// 0 or 1, as are the next ones: whether the particles lie on the whole surface.
+    pub(super) is_everywhere: u64,
+    /// Whether looks have base angles.
     pub(super) has_angles: u64,
     pub(super) has_polygons: u64,
     pub(super) has_neighbours: u64,
@@ -61,7 +66,7 @@ pub(crate) struct KeptPainting {
 /// What was kept of an object.
 pub(crate) struct KeptObject {
     /// How many particles each layer is to have.
-    pub(crate) counts: [usize; LAYERS],
+    pub(crate) counts: BodyCounts,
     /// In the order of [`LayerKind::ALL`]; `None` for layers that the object does not have.
     pub(crate) coats: [Option<KeptCoat>; LAYERS],
 }
@@ -70,10 +75,15 @@ pub(crate) struct KeptObject {
 pub(crate) struct KeptCoat {
     /// All particles that were sampled.
     pub(crate) places: Vec<PackedParticle>,
+    /// Their ordinals; empty where these are their indices.
+    pub(crate) ordinals: Vec<f32>,
     /// How many of them, from the first on, the coat has.
     pub(crate) count: usize,
     /// How many particles were wanted; a surface without area has none, whatever is wanted.
     pub(crate) wanted: usize,
+    /// How many the coat would have on its whole surface, and whether it has these.
+    pub(crate) in_order: usize,
+    pub(crate) is_everywhere: bool,
     pub(crate) state: ProgressiveState,
     pub(crate) area: f64,
     /// The albedo of all particles that were sampled; empty where it follows from the materials.
@@ -145,13 +155,14 @@ impl<T: Pod> Array<'_, T> {
 
 /// The arrays of an object that were not read yet.
 struct ObjectArrays<'a> {
-    counts: [usize; LAYERS],
+    counted: Counted,
     coats: Vec<Option<CoatArrays<'a>>>,
 }
 
 impl<'a> ObjectArrays<'a> {
     fn next(arrays: &mut Arrays<'a>, surface: &'a BodySurface) -> Result<Self, Unfit> {
-        let [counts, has] = arrays.next::<[u64; LAYERS]>()?.numbers()?;
+        let [counts, wanted, has] = arrays.next::<[u64; LAYERS]>()?.numbers()?;
+        let [more_wanted] = arrays.next::<u64>()?.numbers()?;
         let mut coats = Vec::new();
         for has in has {
             coats.push(match has {
@@ -164,17 +175,24 @@ impl<'a> ObjectArrays<'a> {
         for (whole, count) in whole.iter_mut().zip(counts) {
             *whole = usize::try_from(count).map_err(|_| Unfit::Damaged)?;
         }
-        Ok(Self { counts: whole, coats })
+        let counted = Counted {
+            counts: whole,
+            wanted: wanted.map(f64::from_bits),
+            more_wanted: f64::from_bits(more_wanted),
+        };
+        Ok(Self { counted, coats })
     }
 
     fn read(self, rules: usize) -> Result<KeptObject, Unfit> {
         let read = |(coat, wanted): (Option<CoatArrays<'_>>, usize)| {
             coat.map(|coat| coat.read(rules, wanted)).transpose()
         };
-        let coats = self.coats.into_par_iter().zip(self.counts);
+        let coats = self.coats.into_par_iter().zip(self.counted.counts);
         let coats: Result<Vec<Option<KeptCoat>>, Unfit> = coats.map(read).collect();
-        let coats = coats?.try_into().map_err(|_| Unfit::Damaged)?;
-        Ok(KeptObject { counts: self.counts, coats })
+        let coats: [Option<KeptCoat>; LAYERS] = coats?.try_into().map_err(|_| Unfit::Damaged)?;
+        let count = |coat: &Option<KeptCoat>| coat.as_ref().map_or(0, |coat| coat.count);
+        let of_coats = coats.each_ref().map(|coat| CoatCount::everywhere(count(coat)));
+        Ok(KeptObject { counts: BodyCounts { counted: self.counted, of_coats }, coats })
     }
 }
 
@@ -189,6 +207,7 @@ struct CoatArrays<'a> {
     surface: &'a BodySurface,
     numbers: CoatNumbers,
     places: Array<'a, PackedParticle>,
+    ordinals: Array<'a, f32>,
     albedo: Array<'a, u32>,
     dabbed: Array<'a, u16>,
     /// Position and normal, by component.
@@ -202,7 +221,8 @@ struct CoatArrays<'a> {
 impl<'a> CoatArrays<'a> {
     fn next(arrays: &mut Arrays<'a>, surface: &'a BodySurface) -> Result<Self, Unfit> {
         let [numbers] = arrays.next::<CoatNumbers>()?.numbers()?;
-        let (places, albedo, dabbed) = (arrays.next()?, arrays.next()?, arrays.next()?);
+        let (places, ordinals) = (arrays.next()?, arrays.next()?);
+        let (albedo, dabbed) = (arrays.next()?, arrays.next()?);
         let mut vectors = Vec::new();
         for _ in 0..6 {
             vectors.push(arrays.next()?);
@@ -220,6 +240,7 @@ impl<'a> CoatArrays<'a> {
             surface,
             numbers,
             places,
+            ordinals,
             albedo,
             dabbed,
             vectors: vectors.try_into().map_err(|_| Unfit::Damaged)?,
@@ -269,8 +290,11 @@ impl<'a> CoatArrays<'a> {
         };
         Ok(KeptCoat {
             albedo: self.albedo.of_len(if has_colors { places.len() } else { 0 })?,
+            ordinals: self.ordinals.of_len_or_empty(places.len())?,
             count,
             wanted,
+            in_order: usize::try_from(numbers.in_order).map_err(|_| Unfit::Damaged)?.max(1),
+            is_everywhere: numbers.is_everywhere != 0,
             state: ProgressiveState::from_numbers(numbers.state).ok_or(Unfit::Damaged)?,
             area: f64::from_bits(numbers.area),
             polygons,

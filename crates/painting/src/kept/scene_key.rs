@@ -7,6 +7,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use glam::DAffine3;
 use impasto_core::TriangleMesh;
 use impasto_core::bending::{Bend, BendPose, SkinWeights, Target, Vertices};
 use impasto_core::shells::Side;
@@ -20,6 +21,7 @@ use crate::body::{BodyMaterial, BodySurface};
 use crate::body_bend::{BodyBend, BodyCache};
 use crate::body_shape::BodyShape;
 use crate::context::{Context, ObjectInputs};
+use crate::view::PictureView;
 
 /// What the key of a scene is made of.
 pub(crate) struct SceneKey<'a> {
@@ -41,7 +43,8 @@ impl SceneKey<'_> {
     /// The key.
     pub(crate) fn find(&self) -> KeptKey {
         let Self { loaded, context, objects, surfaces } = self;
-        let Context { scene, rules, views, shapes, solver, paper, underpainting, orthographic } = context;
+        let Context { scene, rules, views, seen, shapes, solver, paper, underpainting, orthographic } =
+            context;
         let mut key = KeyHasher::default();
         key.words(concat!(env!("CARGO_PKG_VERSION"), " ", env!("IMPASTO_SOURCES")));
         key.numbers(&[FORMAT]);
@@ -51,10 +54,15 @@ impl SceneKey<'_> {
         scene.touches.iter().for_each(|touch| key.value(&touch.brush));
         rules.iter().for_each(|rule| key.value(rule));
         key.value(&(solver, paper, underpainting, orthographic));
-        for (view, poses) in *views {
+        let mut feed = |(view, poses): &(PictureView, Vec<DAffine3>)| {
             key.value(view);
             poses.iter().for_each(|pose| key.numbers(&pose.to_cols_array()));
-        }
+        };
+        views.iter().for_each(&mut feed);
+        // All other views follow from the scene, except those that a shot or the caller brings.
+        let further = if seen.follows_from_scene() { None } else { Some(seen.views()) };
+        further.flatten().into_iter().flatten().for_each(&mut feed);
+        key.value(&further.map(|views| views.is_some()));
         let textures = digests(
             surfaces
                 .iter()

@@ -6,8 +6,9 @@ use impasto_scene::presets::LayerKind;
 
 use super::KeptKey;
 use super::arrays::ArraysToWrite;
-use super::contents::{CoatNumbers, LAYERS, Sizes};
+use super::contents::{CoatNumbers, Sizes};
 use crate::coat::Coat;
+use crate::counts::Counted;
 use crate::painting::Painting;
 use crate::paper::KeptPolygons;
 
@@ -48,8 +49,9 @@ impl Painting {
         for (object, body) in self.bodies.iter().enumerate() {
             let coats = LayerKind::ALL.map(|kind| self.coat(object, kind));
             let has = coats.map(|coat| u64::from(coat.is_some()));
-            let counts: [u64; LAYERS] = body.counts.map(|count| count as u64);
-            arrays.push_made(&[counts, has]);
+            let Counted { counts, wanted, more_wanted } = body.counts.counted;
+            arrays.push_made(&[counts.map(|count| count as u64), wanted.map(f64::to_bits), has]);
+            arrays.push_made(&[more_wanted.to_bits()]);
             coats.into_iter().flatten().for_each(|coat| push_coat(coat, &mut arrays));
         }
         let [numbers, firsts] = self.order.to_keep();
@@ -61,18 +63,22 @@ impl Painting {
 
 fn push_coat<'a>(coat: &'a Coat, arrays: &mut ArraysToWrite<'a>) {
     let Coat { sampled, lift_sources, traits, baked, .. } = coat;
+    let particles = sampled.particles.sampled();
     let neighbours = lift_sources.neighbours.as_ref().map(|lists| lists.arrays());
     let polygons = sampled.polygons.as_ref().map(|polygons| polygons.to_keep());
     arrays.push_made(&[CoatNumbers {
         count: sampled.particles.len() as u64,
-        state: sampled.state().to_numbers(),
+        in_order: sampled.in_order as u64,
+        state: particles.state.to_numbers(),
         area: sampled.area.to_bits(),
+        is_everywhere: u64::from(sampled.is_everywhere),
         has_angles: u64::from(baked.looks.has_angles()),
         has_polygons: u64::from(polygons.is_some()),
         has_neighbours: u64::from(neighbours.is_some()),
         most_neighbours: neighbours.map_or(0, |lists| lists.most as u64),
     }]);
-    arrays.push(sampled.particles.places());
+    arrays.push(&particles.places);
+    arrays.push(&particles.ordinals);
     arrays.push(sampled.albedo_of_particles());
     arrays.push(traits.dabbed());
     let placed = &baked.placed;

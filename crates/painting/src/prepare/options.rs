@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use impasto_scene::document::{Scene, Solver};
 
+use super::seen::SeenFrom;
 use crate::kept::FindKept;
 
 /// Why a scene cannot be prepared.
@@ -61,12 +62,20 @@ pub struct PrepareOptions<'a> {
     /// Gives the bytes that another process kept under a key (see [`crate::Painting::to_keep`]), if there are any. It
     /// is called once, when the surfaces are there. `None` asks for nothing.
     pub kept: Option<&'a FindKept<'a>>,
+    /// From where the painting will be seen.
+    pub seen_from: SeenFrom<'a>,
 }
 
 impl Default for PrepareOptions<'_> {
-    /// Never gives up, sets no limit, and asks for nothing that was kept.
+    /// Never gives up, sets no limit, asks for nothing that was kept, and is seen by the scene's own camera.
     fn default() -> Self {
-        Self { give_up: &|| false, memory_bytes: None, peak_bytes: &|| None, kept: None }
+        Self {
+            give_up: &|| false,
+            memory_bytes: None,
+            peak_bytes: &|| None,
+            kept: None,
+            seen_from: SeenFrom::Shot(&[]),
+        }
     }
 }
 

@@ -1,0 +1,163 @@
+//! A level of dart throwing whose candidates are thrown cell by cell, so that cells in which no particles are needed cost
+//! nothing.
+
+use glam::Vec3;
+use rayon::prelude::*;
+
+use super::cells::{Cell, Cells, Needed};
+use super::dart_field::{Accepted, DartField};
+use super::dart_grid::Dart;
+use super::progressive::{ProgressiveState, TRIES};
+use super::{Particle, Surface};
+use crate::hash;
+
+/// The first tries of a level are accepted a little more often than the last: after the share t of its tries, t +
+/// `FRONT_LOAD` t (1 − t) of its particles are there.
+const FRONT_LOAD: f64 = 0.084;
+
+/// How many cells a task throws.
+const CELLS: usize = 32;
+
+/// A cell with more tries in a level is split.
+const MOST_TRIES: f64 = 16.0;
+
+/// The cells in which the present level is thrown.
+pub(super) struct ActiveCells<'a> {
+    /// Each with its index in `needed`.
+    cells: Vec<(Cell, u32)>,
+    needed: Option<&'a Needed>,
+}
+
+impl<'a> ActiveCells<'a> {
+    /// The first cells of a surface.
+    pub(super) fn new(surface: &Surface<'_>, needed: Option<&'a Needed>) -> Self {
+        Self { cells: Cells::new(surface).into_iter().zip(0..).collect(), needed }
+    }
+
+    /// Drops the cells that need no particle from this ordinal on, and splits those that have many tries.
+    fn refine(&mut self, surface: &Surface<'_>, (tries, ordinal): (f64, f32)) {
+        let needed = self.needed;
+        let is_needed = |index: u32| needed.is_none_or(|needed| needed.of_cell[index as usize] > ordinal);
+        let (few, mut many): (Vec<_>, Vec<_>) = std::mem::take(&mut self.cells)
+            .into_iter()
+            .filter(|(_, index)| is_needed(*index))
+            .partition(|(cell, _)| cell.share * tries <= MOST_TRIES);
+        self.cells = few;
+        while let Some((cell, index)) = many.pop() {
+            let parts = cell.split(surface);
+            if parts.is_empty() {
+                self.cells.push((cell, index));
+                continue;
+            }
+            for (part, number) in parts.into_iter().zip(0..) {
+                let index = needed.map_or(0, |needed| needed.part(index, number));
+                match part.share * tries <= MOST_TRIES {
+                    _ if !is_needed(index) => {}
+                    true => self.cells.push((part, index)),
+                    false => many.push((part, index)),
+                }
+            }
+        }
+    }
+}
+
+/// A level.
+pub(super) struct CellLevel {
+    pub(super) seed: u32,
+    /// How many particles it is meant to begin and to end with.
+    pub(super) ends: [usize; 2],
+    /// How far the order has come before it.
+    pub(super) state: ProgressiveState,
+    pub(super) radius: f32,
+}
+
+/// What a level adds, in its order.
+#[derive(Default)]
+pub(super) struct Added {
+    pub(super) particles: Vec<Particle>,
+    pub(super) ordinals: Vec<f32>,
+}
+
+/// A candidate. Candidates are tried in the order of `turn`, where 2³² is the end of the level, and then of `bits`.
+#[derive(Clone, Copy)]
+struct Thrown {
+    turn: u32,
+    bits: u32,
+    face: u32,
+    weights: [f32; 2],
+    position: Vec3,
+}
+
+impl CellLevel {
+    /// The particles that the level adds.
+    pub(super) fn added(
+        &self,
+        surface: &Surface<'_>,
+        active: &mut ActiveCells<'_>,
+        field: &DartField,
+        accepted: &Accepted<'_>,
+    ) -> Added {
+        let tries = (self.ends[1] - self.ends[0]) as f64 * TRIES as f64;
+        active.refine(surface, (tries, self.ordinal(0.0)));
+        let of_cells = |cells: &[(Cell, u32)]| {
+            let mut clear = Vec::new();
+            for (cell, index) in cells {
+                let most = active.needed.map_or(f32::INFINITY, |needed| needed.of_cell[*index as usize]);
+                self.throw(surface, cell, |thrown| {
+                    let dart = Dart { position: thrown.position, face: thrown.face, number: 0 };
+                    let normal = || surface.particle(thrown.face as usize, thrown.weights).normal;
+                    if self.ordinal(turn_share(thrown.turn)) < most && field.is_clear(accepted, &dart, normal)
+                    {
+                        clear.push(thrown);
+                    }
+                });
+            }
+            clear
+        };
+        let found: Vec<Vec<Thrown>> = active.cells.par_chunks(CELLS).map(of_cells).collect();
+        let mut clear = found.concat();
+        clear.par_sort_unstable_by_key(|thrown| (thrown.turn, thrown.bits));
+        let dart =
+            |(thrown, number): (&Thrown, u32)| Dart { position: thrown.position, face: thrown.face, number };
+        let darts: Vec<Dart> = clear.iter().zip(0..).map(dart).collect();
+        let particle = |number: u32| {
+            let Thrown { face, weights, .. } = clear[number as usize];
+            surface.particle(face as usize, weights)
+        };
+        let kept =
+            field.thinned(&(0..darts.len() as u32), &darts, self.radius, |number| particle(number).normal);
+        Added {
+            particles: kept.par_iter().with_min_len(64).map(|dart| particle(dart.number)).collect(),
+            ordinals: kept
+                .iter()
+                .map(|dart| self.ordinal(turn_share(clear[dart.number as usize].turn)))
+                .collect(),
+        }
+    }
+
+    /// Throws the level's candidates in a cell, whether they are needed or not.
+    fn throw(&self, surface: &Surface<'_>, cell: &Cell, mut take: impl FnMut(Thrown)) {
+        let seed = hash::combine(hash::combine(self.seed, cell.bits), self.ends[0] as u32);
+        let tries = (self.ends[1] - self.ends[0]) as f64 * TRIES as f64 * cell.share;
+        // As many as are the cell's share; what is left over one decides chance.
+        let count = (tries + f64::from(hash::unit(seed))) as u32;
+        for number in 0..count {
+            let bits = hash::combine(seed, number);
+            let random = |which: u32| hash::unit(hash::combine(bits, which));
+            let (face, weights) = cell.place(surface, [random(1), random(2), random(3)]);
+            let position = surface.position(face, weights);
+            take(Thrown { turn: hash::combine(bits, 0), bits, face: face as u32, weights, position });
+        }
+    }
+
+    /// The ordinal of a particle that was tried after this share of the level's tries.
+    pub(super) fn ordinal(&self, share: f64) -> f32 {
+        let [begin, end] = self.ends.map(|end| end as f64);
+        let filled = share + FRONT_LOAD * share * (1.0 - share);
+        self.state.ordinal_at(begin + (end - begin) * filled) as f32
+    }
+}
+
+fn turn_share(turn: u32) -> f64 {
+    f64::from(turn) / 4_294_967_296.0
+}

@@ -1,0 +1,317 @@
+//! Cuts a surface into cells, and these into smaller ones, so that particles can be made in some of them and not in others.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use glam::{DVec3, Vec3};
+
+use super::{Face, Surface, barycentric};
+use crate::hash;
+use crate::mesh::of_corners;
+
+/// The first cells are about this share of the surface's area, or smaller.
+const SHARE: f64 = 1.0 / 4096.0;
+
+/// A face is first cut into at most the square of this many cells.
+const MOST_FIRST_CUTS: f64 = 64.0;
+
+/// A side of a face is cut into at most so many parts.
+const MOST_CUTS: u32 = 1 << 16;
+
+/// The first cells of a surface: parts of a large face, or small faces that follow each other in the mesh.
+pub struct Cells(Vec<Cell>);
+
+/// One cell.
+#[derive(Clone, Debug)]
+pub struct Cell {
+    extent: Extent,
+    /// Random bits that tell it from all other cells of its surface.
+    pub(super) bits: u32,
+    /// Centre of a sphere that holds the cell, model units.
+    pub center: DVec3,
+    /// Radius of this sphere.
+    pub radius: f64,
+    /// A unit normal of its visible sides, or zero where they have none in common.
+    pub normal: DVec3,
+    /// How far any normal of its visible sides, smooth or flat, may be from `normal`: the length of the difference.
+    pub spread: f64,
+    /// How far it reaches from its centre along `normal` or against it, model units.
+    pub thickness: f64,
+    /// Its share of the surface's area.
+    pub share: f64,
+}
+
+/// What a cell consists of.
+#[derive(Clone, Debug)]
+enum Extent {
+    /// Whole faces that follow each other; with a `side`, those on this side of triangles of which both sides can be
+    /// seen: `true` is the back.
+    Faces { faces: Range<u32>, side: Option<bool> },
+    /// One of the small triangles into which a face is cut.
+    Part {
+        face: u32,
+        /// Into how many parts each side of the face is cut.
+        cuts: u32,
+        row: u32,
+        column: u32,
+        /// Whether it is the second triangle at this row and column, which stands upside down.
+        second: bool,
+    },
+}
+
+impl Cells {
+    /// Cuts a surface. The result depends on the surface alone.
+    pub fn new(surface: &Surface<'_>) -> Self {
+        let area = surface.area();
+        let mut cells = Vec::new();
+        // Small faces that follow each other; whether both sides of their triangles can be seen; and their share.
+        let (mut run, mut two_sided, mut run_share) = (0..0u32, false, 0.0);
+        let close = |run: &Range<u32>, two_sided: bool, share: f64, cells: &mut Vec<Cell>| {
+            if run.start < run.end && two_sided {
+                for side in [false, true] {
+                    cells.push(Cell::of_faces(surface, run.clone(), Some(side), 0.5 * share));
+                }
+            } else if run.start < run.end {
+                cells.push(Cell::of_faces(surface, run.clone(), None, share));
+            }
+        };
+        let faces: Vec<(u32, f64)> =
+            surface.faces().map(|(triangle, _, face_area)| (triangle, face_area / area)).collect();
+        let mut face = 0;
+        for of_triangle in faces.chunk_by(|one, next| one.0 == next.0) {
+            let sides = of_triangle.len() as u32;
+            let share: f64 = of_triangle.iter().map(|(_, share)| share).sum();
+            let is_large = share > SHARE;
+            if is_large || run_share + share > SHARE || two_sided != (sides == 2) {
+                close(&run, two_sided, run_share, &mut cells);
+                (run, two_sided, run_share) = (face..face, sides == 2, 0.0);
+            }
+            if is_large {
+                for side in 0..sides {
+                    Cell::push_parts(surface, face + side, share / f64::from(sides), &mut cells);
+                }
+                run = face + sides..face + sides;
+            } else {
+                run.end = face + sides;
+                run_share += share;
+            }
+            face += sides;
+        }
+        close(&run, two_sided, run_share, &mut cells);
+        cells.iter_mut().zip(0..).for_each(|(cell, number)| cell.bits = hash::scramble(number));
+        Self(cells)
+    }
+
+    /// All of them.
+    pub fn all(&self) -> &[Cell] {
+        &self.0
+    }
+}
+
+impl IntoIterator for Cells {
+    type Item = Cell;
+    type IntoIter = std::vec::IntoIter<Cell>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.0.into_iter()
+    }
+}
+
+impl Cell {
+    fn of_faces(surface: &Surface<'_>, faces: Range<u32>, side: Option<bool>, share: f64) -> Self {
+        let mesh = surface.mesh;
+        let is_on_side = |face: &&Face| side.is_none_or(|side| face.flipped == side);
+        let faces_of: Vec<Face> = surface.faces[faces.start as usize..faces.end as usize]
+            .iter()
+            .filter(is_on_side)
+            .copied()
+            .collect();
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let mut sum = DVec3::ZERO;
+        for face in &faces_of {
+            for corner in mesh.corners(face.triangle as usize).map(Vec3::as_dvec3) {
+                (low, high) = (low.min(corner), high.max(corner));
+            }
+            let [flat, ..] = normals(surface, *face);
+            sum += flat;
+        }
+        let normal = sum.normalize_or_zero();
+        let spread = spread(normal, faces_of.iter().flat_map(|&face| normals(surface, face)));
+        let center = 0.5 * (low + high);
+        let corners = faces_of.iter().flat_map(|face| mesh.corners(face.triangle as usize));
+        let thickness =
+            corners.map(|corner| (corner.as_dvec3() - center).dot(normal).abs()).fold(0.0, f64::max);
+        let extent = Extent::Faces { faces, side };
+        let radius = 0.5 * low.distance(high);
+        Self { extent, bits: 0, center, radius, normal, spread, thickness, share }
+    }
+
+    /// Cuts a face.
+    fn push_parts(surface: &Surface<'_>, face: u32, share: f64, cells: &mut Vec<Self>) {
+        let cuts = (share / SHARE).sqrt().ceil().clamp(1.0, MOST_FIRST_CUTS) as u32;
+        let whole = Self::of_faces(surface, face..face + 1, None, share);
+        for (row, column) in (0..cuts).flat_map(|row| (0..cuts - row).map(move |column| (row, column))) {
+            let seconds = if column + 1 < cuts - row { &[false, true][..] } else { &[false] };
+            for &second in seconds {
+                cells.push(whole.part(surface, Extent::Part { face, cuts, row, column, second }, cuts));
+            }
+        }
+    }
+
+    /// A part of a cell, each side of which is cut into `cuts`.
+    fn part(&self, surface: &Surface<'_>, extent: Extent, cuts: u32) -> Self {
+        let Extent::Part { face, .. } = extent else { unreachable!("whole faces are no part") };
+        let triangle = surface.faces[face as usize].triangle as usize;
+        let [a, b, c] = surface.mesh.corners(triangle).map(Vec3::as_dvec3);
+        let at = |weights: [f32; 2]| {
+            let [v, w] = extent.weights(weights).map(f64::from);
+            a + (b - a) * v + (c - a) * w
+        };
+        let center = at([1.0 / 3.0; 2]);
+        let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(at);
+        let radius = corners.map(|corner| corner.distance(center)).into_iter().fold(0.0, f64::max);
+        let share = self.share / (f64::from(cuts) * f64::from(cuts));
+        Self { extent, center, radius, thickness: 0.0, share, ..self.clone() }
+    }
+
+    /// The smaller cells that it consists of; none if it is as small as cells get.
+    pub fn split(&self, surface: &Surface<'_>) -> Vec<Self> {
+        let mut cells = match self.extent {
+            Extent::Faces { faces: Range { start, end }, side } if end - start > per_triangle(side) => {
+                let step = per_triangle(side);
+                let middle = start + (end - start) / step / 2 * step;
+                let share_of = |faces: &Range<u32>| {
+                    let before =
+                        |face: u32| face.checked_sub(1).map_or(0.0, |at| surface.area_up_to[at as usize]);
+                    (before(faces.end) - before(faces.start)) / f64::from(step) / surface.area()
+                };
+                [start..middle, middle..end]
+                    .map(|faces| {
+                        let share = share_of(&faces);
+                        Self::of_faces(surface, faces, side, share)
+                    })
+                    .to_vec()
+            }
+            Extent::Faces { faces: Range { start, .. }, side } => {
+                let face = start + u32::from(side == Some(true));
+                let whole = Extent::Part { face, cuts: 1, row: 0, column: 0, second: false };
+                whole.quarters().map(|extent| self.part(surface, extent, 2)).to_vec()
+            }
+            Extent::Part { cuts, .. } if cuts < MOST_CUTS => {
+                self.extent.quarters().map(|extent| self.part(surface, extent, 2)).to_vec()
+            }
+            Extent::Part { .. } => Vec::new(),
+        };
+        cells.iter_mut().zip(1..).for_each(|(cell, number)| cell.bits = hash::combine(self.bits, number));
+        cells
+    }
+
+    /// The triangles on which it lies.
+    pub fn triangles<'a>(&self, surface: &'a Surface<'_>) -> impl Iterator<Item = usize> + 'a {
+        let faces = match &self.extent {
+            Extent::Faces { faces, .. } => faces.clone(),
+            Extent::Part { face, .. } => *face..*face + 1,
+        };
+        faces.map(|face| surface.faces[face as usize].triangle as usize)
+    }
+
+    /// A point of the cell, from three numbers in 0..1 that are spread evenly: its face, and the weights of the face's
+    /// second and third corner.
+    #[inline]
+    pub(super) fn place(&self, surface: &Surface<'_>, [which, first, second]: [f32; 3]) -> (usize, [f32; 2]) {
+        let on_triangle = barycentric(first, second);
+        match &self.extent {
+            Extent::Faces { faces, side } => {
+                let [from, to] = [faces.start as usize, faces.end as usize];
+                let before = if from == 0 { 0.0 } else { surface.area_up_to[from - 1] };
+                let area = before + f64::from(which) * (surface.area_up_to[to - 1] - before);
+                let face = from + surface.area_up_to[from..to].partition_point(|&sum| sum <= area);
+                let face = face.min(to - 1);
+                match side {
+                    None => (face, on_triangle),
+                    // The front comes before the back.
+                    Some(side) => (face - (face - from) % 2 + usize::from(*side), on_triangle),
+                }
+            }
+            part @ Extent::Part { face, .. } => (*face as usize, part.weights(on_triangle)),
+        }
+    }
+}
+
+impl Extent {
+    /// Weights on the face, from those on the part itself.
+    #[inline]
+    fn weights(&self, [v, w]: [f32; 2]) -> [f32; 2] {
+        let &Self::Part { cuts, row, column, second, .. } = self else { return [v, w] };
+        let [v, w] = if second { [1.0 - v, 1.0 - w] } else { [v, w] };
+        [(row as f32 + v) / cuts as f32, (column as f32 + w) / cuts as f32]
+    }
+
+    /// The four parts of a part.
+    fn quarters(&self) -> [Self; 4] {
+        let &Self::Part { face, cuts, row, column, second } = self else {
+            unreachable!("whole faces are no part")
+        };
+        let of = |down: u32, along: u32, second: bool| Self::Part {
+            face,
+            cuts: 2 * cuts,
+            row: 2 * row + down,
+            column: 2 * column + along,
+            second,
+        };
+        if second {
+            [of(1, 1, false), of(1, 1, true), of(0, 1, true), of(1, 0, true)]
+        } else {
+            [of(0, 0, false), of(1, 0, false), of(0, 1, false), of(0, 0, true)]
+        }
+    }
+}
+
+/// How many faces of `Extent::Faces` belong to one triangle.
+fn per_triangle(side: Option<bool>) -> u32 {
+    if side.is_some() { 2 } else { 1 }
+}
+
+/// The unit normals of a face's visible side: the flat one, and the smooth ones at its corners.
+fn normals(surface: &Surface<'_>, face: Face) -> [DVec3; 4] {
+    let mesh = surface.mesh;
+    let [a, b, c] = mesh.corners(face.triangle as usize).map(Vec3::as_dvec3);
+    let across = (b - a).cross(c - a).normalize_or_zero();
+    let flat = if face.flipped { -across } else { across };
+    let smooth = of_corners(&mesh.normals, mesh.triangles[face.triangle as usize]).map(Vec3::as_dvec3);
+    let [first, second, third] = smooth.map(|of| if of.dot(flat) < 0.0 { -of } else { of });
+    [flat, first, second, third]
+}
+
+/// How far these unit normals, and those that are interpolated between them, may be from one: the length of the
+/// difference.
+fn spread(from: DVec3, normals: impl Iterator<Item = DVec3>) -> f64 {
+    let most = normals.map(|normal| normal.distance(from)).fold(0.0, f64::max);
+    // Between normals that differ so much, another one may lie anywhere.
+    if most > 1.0 { 2.0 } else { most }
+}
+
+/// How far into a progressive order each cell needs its particles: those whose ordinals are less than a number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Needed {
+    /// The number of each cell: the first cells of the surface come first.
+    pub of_cell: Vec<f32>,
+    /// The index of the first of the smaller cells that a cell consists of (see [`Cell::split`]); 0 where these need
+    /// what the cell needs.
+    pub first_part: Arc<Vec<u32>>,
+}
+
+impl Needed {
+    /// The greatest number of any cell.
+    pub(super) fn most(&self) -> f32 {
+        self.of_cell.iter().copied().fold(0.0, f32::max)
+    }
+
+    /// The index of a smaller cell, from that of the cell and its number among those that this consists of.
+    pub(super) fn part(&self, of: u32, number: u32) -> u32 {
+        match self.first_part[of as usize] {
+            0 => of,
+            first => first + number,
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! Decides which candidates of dart throwing are accepted.
+
+use std::ops::Range;
+
+use glam::Vec3;
+use rayon::prelude::*;
+
+use super::dart_grid::{Dart, DartGrid};
+use super::face_cones::FaceCones;
+use super::progressive::LEAST_CHUNK;
+use super::{Particle, Surface};
+
+/// Stands for no dart, in place of an index.
+const NONE: u32 = u32::MAX;
+
+/// The particles of earlier levels, and the least distance that the present level keeps from them.
+pub(super) struct Accepted<'a> {
+    pub(super) grid: &'a DartGrid,
+    pub(super) particles: &'a [Particle],
+    pub(super) radius: f32,
+}
+
+/// Tells whether candidates crowd each other.
+pub(super) struct DartField {
+    /// For most pairs of candidates, they tell whether both are on the same side of the surface.
+    cones: FaceCones,
+}
+
+impl DartField {
+    pub(super) fn new(surface: &Surface<'_>) -> Self {
+        Self { cones: FaceCones::new(surface) }
+    }
+
+    /// Whether no accepted particle crowds a candidate, whose normal `own_normal` finds.
+    #[inline]
+    pub(super) fn is_clear(
+        &self,
+        accepted: &Accepted<'_>,
+        dart: &Dart,
+        own_normal: impl Fn() -> Vec3,
+    ) -> bool {
+        let mut normal = None;
+        let crowds = |other: &Dart| {
+            self.cones.same_side(dart.face, other.face).unwrap_or_else(|| {
+                let normal = *normal.get_or_insert_with(&own_normal);
+                accepted.particles[other.number as usize].normal.dot(normal) > 0.0
+            })
+        };
+        !accepted.grid.any_near(dart.position, accepted.radius, crowds)
+    }
+
+    /// Goes through the darts of a level in order of their numbers, and drops each dart that is crowded by an earlier
+    /// one which was kept. Returns the kept darts in this order. `normal_of` finds the normal of the dart with a number.
+    pub(super) fn thinned(
+        &self,
+        level: &Range<u32>,
+        darts: &[Dart],
+        radius: f32,
+        normal_of: impl Fn(u32) -> Vec3 + Sync,
+    ) -> Vec<Dart> {
+        let grid = DartGrid::new(darts, radius);
+        let rivals = |dart: &Dart| {
+            let mut rivals = Vec::new();
+            grid.any_near(dart.position, radius, |other| {
+                let crowded = other.number < dart.number
+                    && self
+                        .cones
+                        .same_side(dart.face, other.face)
+                        .unwrap_or_else(|| normal_of(other.number).dot(normal_of(dart.number)) > 0.0);
+                if crowded {
+                    rivals.push((dart.number - level.start, other.number - level.start));
+                }
+                false
+            });
+            rivals
+        };
+        let sorted = grid.darts();
+        let mut pairs: Vec<(u32, u32)> = if sorted.len() <= LEAST_CHUNK {
+            sorted.iter().flat_map(rivals).collect()
+        } else {
+            sorted.par_iter().with_min_len(LEAST_CHUNK).flat_map_iter(rivals).collect()
+        };
+        pairs.sort_unstable();
+        // For each number of the level, the index of its dart; `NONE` if it has none, or once it is dropped.
+        let mut stays = vec![NONE; level.len()];
+        for (index, dart) in darts.iter().enumerate() {
+            stays[(dart.number - level.start) as usize] = index as u32;
+        }
+        for (later, earlier) in pairs {
+            // Pairs are sorted, so all that could drop the earlier one has been handled.
+            if stays[earlier as usize] != NONE {
+                stays[later as usize] = NONE;
+            }
+        }
+        stays.into_iter().filter(|&index| index != NONE).map(|index| darts[index as usize]).collect()
+    }
+}

@@ -1,0 +1,141 @@
+//! Tests that a surface which no view sees whole is painted as densely as a small one, and is made only where it is seen.
+
+use glam::{DVec2, DVec3};
+use impasto_core::presence;
+use impasto_painting::{FrameOptions, Painting, PrepareOptions, Preparer, SeenFrom, prepare};
+use impasto_scene::document::{Lens, Scene};
+use impasto_scene::motion::CameraPose;
+use impasto_tests::shapes;
+
+const SIZE_PX: [u32; 2] = [640, 360];
+
+/// A level floor of this size, model units; the eye stands 1.6 above its middle.
+fn floor_scene(far: f64) -> Scene {
+    let mut scene = shapes::scene(vec![shapes::object("floor", 1)]);
+    scene.objects[0].particles = None;
+    scene.size = (SIZE_PX[0], SIZE_PX[1]);
+    scene.camera.lens = Lens::Perspective { fov_y_deg: 40.0, near: 0.05, far };
+    scene.camera.keys = vec![shapes::camera_key(0.0, [0.0, 1.6, 5.0], [0.0, 0.9, 0.0])];
+    scene.strokes.layers = shapes::body_layer_alone();
+    scene
+}
+
+/// A floor of this size cut into 2 `cells`² triangles.
+fn floor(size: f64, cells: u32) -> impasto_core::TriangleMesh {
+    let half = 0.5 * size as f32;
+    shapes::moved(&shapes::sheet(cells), move |at| DVec3::new(at.x, 0.0, -at.y) * f64::from(half))
+}
+
+/// The paint in each of four bands of the picture, from the horizon down: how often its strokes would cover it.
+fn covered(painting: &Painting, frame: f64) -> [f64; 4] {
+    let frame = painting.at(frame, &FrameOptions::new(SIZE_PX));
+    let mut covered = [0.0; 4];
+    for stroke in frame.strokes.iter() {
+        let [x, y] = stroke.center_px;
+        // Y runs up; the floor fills the lower half.
+        if !(0.0..640.0).contains(&x) || !(0.0..160.0).contains(&y) {
+            continue;
+        }
+        let band = 3 - (y / 40.0) as usize;
+        let there = presence::of_supply(stroke.supply_ln) * stroke.facing_fade;
+        covered[band] += f64::from(there * stroke.length_px * stroke.width_px) / (640.0 * 40.0);
+    }
+    covered
+}
+
+#[test]
+fn a_floor_is_painted_alike_however_far_it_runs() {
+    let of = |size: f64, cells: u32| {
+        let painting = prepare(shapes::loaded(floor_scene(5000.0), [floor(size, cells)])).unwrap();
+        (covered(&painting, 0.0), painting.particle_total(), painting.is_partial())
+    };
+    let (small, ..) = of(40.0, 1);
+    assert!(small.iter().all(|&covered| covered > 0.5), "{small:?}");
+    for (size, cells) in [(300.0, 1), (300.0, 60), (2000.0, 1)] {
+        let (large, particles, is_partial) = of(size, cells);
+        assert!(is_partial && particles < 200_000, "{size}: {particles} particles");
+        for (band, (small, large)) in small.iter().zip(large).enumerate() {
+            assert!(
+                (large / small - 1.0).abs() < 0.15,
+                "{size}, {cells} cells, band {band}: {large}, not {small}"
+            );
+        }
+    }
+}
+
+/// The camera turns so fast that a view which stands for several frames would miss most of what it sweeps over.
+#[test]
+fn every_frame_of_a_whip_pan_is_painted() {
+    let mut scene = floor_scene(500.0);
+    scene.timeline.last = 120;
+    let eye = [0.0, 1.6, 5.0];
+    scene.camera.keys = vec![
+        shapes::camera_key(0.0, eye, [0.0, 0.9, 0.0]),
+        shapes::camera_key(97.0, eye, [0.0, 0.9, 0.0]),
+        shapes::camera_key(99.0, eye, [5.0, 0.9, 5.0]),
+        shapes::camera_key(101.0, eye, [0.0, 0.9, 10.0]),
+        shapes::camera_key(103.0, eye, [-5.0, 0.9, 5.0]),
+    ];
+    let whole = prepare(shapes::loaded(scene.clone(), [floor(300.0, 1)])).unwrap();
+    assert!(whole.is_partial());
+    for frame in [0.0, 99.0, 100.0, 101.0, 102.0] {
+        let mut alone = scene.clone();
+        let pose = impasto_scene::motion::camera_at(&scene, frame);
+        alone.camera.keys = vec![shapes::camera_key(0.0, pose.eye.to_array(), pose.target.to_array())];
+        alone.timeline.last = 0;
+        let alone = prepare(shapes::loaded(alone, [floor(300.0, 1)])).unwrap();
+        for (band, (found, wanted)) in covered(&whole, frame).iter().zip(covered(&alone, 0.0)).enumerate() {
+            assert!((found / wanted - 1.0).abs() < 0.1, "frame {frame}, band {band}: {found}, not {wanted}");
+        }
+    }
+}
+
+#[test]
+fn a_free_camera_finds_particles_where_it_was_announced() {
+    let scene = floor_scene(500.0);
+    let free = CameraPose {
+        eye: DVec3::new(60.0, 1.6, 30.0),
+        target: DVec3::new(70.0, 0.9, 33.0),
+        roll_rad: 0.0,
+        shift: DVec2::ZERO,
+        lens: scene.camera.lens.clone(),
+    };
+    let mut preparer = Preparer::default();
+    let mut strokes = |seen_from: SeenFrom<'_>| {
+        let loaded = shapes::loaded(scene.clone(), [floor(300.0, 1)]);
+        let options = PrepareOptions { seen_from, ..PrepareOptions::default() };
+        let painting = preparer.prepare_with(loaded, &options).unwrap();
+        let [shot, there] = [None, Some(&free)].map(|camera| {
+            let frame = match camera {
+                Some(camera) => painting.seen_by(camera, 0.0, &FrameOptions::new(SIZE_PX)),
+                None => painting.at(0.0, &FrameOptions::new(SIZE_PX)),
+            };
+            frame.strokes.len()
+        });
+        (shot, there)
+    };
+    let (shot, without) = strokes(SeenFrom::Shot(&[]));
+    let (shot_too, with) = strokes(SeenFrom::Shot(&[(free.clone(), 0.0)]));
+    assert!(with > 10 * without && with > shot / 2, "{without} strokes, {with} when announced");
+    // The picture of the shot hardly notices, and not at all once the free camera is gone.
+    assert!(shot_too.abs_diff(shot) * 50 < shot, "{shot} and {shot_too} strokes");
+    assert_eq!(strokes(SeenFrom::Shot(&[])), (shot, without));
+}
+
+/// Beyond what the picture shows, an editor's view shows what lies round it, up to half a picture.
+#[test]
+fn round_the_picture_the_floor_is_painted_too() {
+    let scene = floor_scene(500.0);
+    let painting = prepare(shapes::loaded(scene.clone(), [floor(300.0, 1)])).unwrap();
+    let wider = FrameOptions { shot_height_px: Some(360.0), ..FrameOptions::new([900, 360]) };
+    let frame = painting.at(0.0, &wider);
+    let near = |from: f32, to: f32| {
+        let inside = |stroke: &&impasto_painting::frame::Stroke| {
+            let [x, y] = stroke.center_px;
+            (from..to).contains(&x) && (20.0..100.0).contains(&y)
+        };
+        frame.strokes.iter().filter(inside).count()
+    };
+    let (beside, middle) = (near(0.0, 120.0), near(390.0, 510.0));
+    assert!(beside * 10 > middle * 8, "{beside} strokes beside the picture, {middle} in its middle");
+}
