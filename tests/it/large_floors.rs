@@ -1,5 +1,7 @@
 //! Tests that a surface which no view sees whole is painted as densely as a small one, and is made only where it is seen.
 
+use std::sync::Arc;
+
 use glam::{DVec2, DVec3};
 use impasto_core::presence;
 use impasto_painting::{FrameOptions, Painting, PrepareOptions, Preparer, SeenFrom, prepare};
@@ -101,10 +103,10 @@ fn a_free_camera_finds_particles_where_it_was_announced() {
         lens: scene.camera.lens.clone(),
     };
     let mut preparer = Preparer::default();
+    let loaded = shapes::loaded(scene, [floor(300.0, 1)]);
     let mut strokes = |seen_from: SeenFrom<'_>| {
-        let loaded = shapes::loaded(scene.clone(), [floor(300.0, 1)]);
         let options = PrepareOptions { seen_from, ..PrepareOptions::default() };
-        let painting = preparer.prepare_with(loaded, &options).unwrap();
+        let painting = preparer.prepare_with(Arc::clone(&loaded), &options).unwrap();
         let [shot, there] = [None, Some(&free)].map(|camera| {
             let frame = match camera {
                 Some(camera) => painting.seen_by(camera, 0.0, &FrameOptions::new(SIZE_PX)),
@@ -114,12 +116,13 @@ fn a_free_camera_finds_particles_where_it_was_announced() {
         });
         (shot, there)
     };
-    let (shot, without) = strokes(SeenFrom::Shot(&[]));
-    let (shot_too, with) = strokes(SeenFrom::Shot(&[(free.clone(), 0.0)]));
+    let (shot, without) = strokes(SeenFrom::SHOT);
+    let (shot_too, with) = strokes(SeenFrom::Shot { also: &[(free.clone(), 0.0)], margin: SeenFrom::MARGIN });
     assert!(with > 10 * without && with > shot / 2, "{without} strokes, {with} when announced");
     // The picture of the shot hardly notices, and not at all once the free camera is gone.
     assert!(shot_too.abs_diff(shot) * 50 < shot, "{shot} and {shot_too} strokes");
-    assert_eq!(strokes(SeenFrom::Shot(&[])), (shot, without));
+    assert_eq!(strokes(SeenFrom::AsBefore), (shot_too, with));
+    assert_eq!(strokes(SeenFrom::SHOT), (shot, without));
 }
 
 /// Beyond what the picture shows, an editor's view shows what lies round it, up to half a picture.

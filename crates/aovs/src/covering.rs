@@ -124,7 +124,7 @@ impl Covering {
     }
 }
 
-/// A name for each stroke of a frame, the same in every frame of every picture of the scene: layer, object, number.
+/// A name for each stroke of a frame, the same in every frame of the scene: layer, object, number.
 pub(crate) fn stroke_names(drawn: &Drawn<'_>) -> Vec<String> {
     let scene = drawn.painting.scene();
     let name = |index: usize| {

@@ -15,7 +15,7 @@ use crate::session::{self, Prepared};
 pub(crate) fn run(arguments: &InfoArguments) -> Result<(), Failure> {
     let loaded = session::read_scene(&arguments.scene, false)?;
     let Prepared { painting, storing: _storing } =
-        session::prepare_scene(loaded, &arguments.scene, SeenFrom::Anywhere, false)?;
+        session::prepare_scene(loaded, &arguments.scene, SeenFrom::SHOT, false)?;
     let facts = facts(&painting);
     let mut out = std::io::stdout();
     if arguments.json {

@@ -11,7 +11,7 @@ use std::time::SystemTime;
 use impasto_frame_files::exr_file::Packing;
 use impasto_frame_files::{FrameList, Pattern, not_an_input, ready_folder};
 use impasto_gl_render::{Renderer, ShaderTexts};
-use impasto_painting::{FrameOptions, Preparer};
+use impasto_painting::{FrameOptions, Preparer, SeenFrom};
 use impasto_scene::aovs::AovSet;
 use impasto_scene::problem::Report;
 use impasto_sequence::{Ending, FileOutcome, FrameFiles, Sequence, Wanted, fits_in_memory};
@@ -118,8 +118,21 @@ impl Server<'_> {
             *first = begun;
         }
         let warnings = loaded.warnings.iter().map(ToString::to_string).collect();
-        let prepared = session::prepare_by(&mut self.preparer, Arc::new(loaded), of_scene)?;
+        let prepared = session::prepare_by(&mut self.preparer, Arc::new(loaded), of_scene, SeenFrom::SHOT)?;
         self.ready = Some(Ready { prepared, warnings, inputs, stamps });
+        Ok(())
+    }
+
+    /// Prepares again what pictures of this size need and the scene's own pictures do not.
+    fn ready_for(&mut self, size_px: Option<[u32; 2]>) -> Result<(), Failure> {
+        let (Some(ready), Some(size_px)) = (&mut self.ready, size_px) else { return Ok(()) };
+        let painting = &ready.prepared.painting;
+        let seen_from = SeenFrom::for_options(painting.scene(), &FrameOptions::new(size_px));
+        if painting.is_partial() && matches!(seen_from, SeenFrom::Anywhere) {
+            let loaded = Arc::clone(painting.loaded());
+            ready.prepared =
+                session::prepare_by(&mut self.preparer, loaded, &self.arguments.scene, seen_from)?;
+        }
         Ok(())
     }
 
@@ -142,6 +155,7 @@ impl Server<'_> {
             return Err(Failure::Usage(format!("output {}: let the name end in .exr", order.output)));
         }
         self.ready()?;
+        self.ready_for(order.size)?;
         tell(&self.words_of_ready(order.id))?;
         let frames = FrameList::parse(&order.frames).map_err(Failure::Usage)?;
         let pattern = Pattern::parse(&order.output, frames.count());

@@ -93,11 +93,12 @@ pub(crate) fn prepare_by(
     preparer: &mut Preparer,
     loaded: Arc<LoadedScene>,
     arguments: &SceneArguments,
+    seen_from: SeenFrom<'_>,
 ) -> Result<Prepared, Failure> {
     let memory_bytes = memory::granted_bytes(arguments.memory);
     // Later states of the scene are not kept in the cache: the preparer remembers what it needs.
     let cache = Cache::of(&arguments.cache, memory_bytes, false).filter(|_| preparer.is_new());
-    let options = PrepareOptions { memory_bytes, ..PrepareOptions::default() };
+    let options = PrepareOptions { memory_bytes, seen_from, ..PrepareOptions::default() };
     let painting = prepare_with(preparer, loaded, options, cache.as_ref())?;
     let storing = cache.map_or_else(Storing::default, |cache| cache.store(&painting));
     Ok(Prepared { painting, storing })

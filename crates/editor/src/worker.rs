@@ -22,6 +22,7 @@ use impasto_scene::motion::CameraPose;
 
 mod ahead;
 mod draft;
+mod editor_views;
 mod film;
 mod film_file;
 mod mailbox;

@@ -6,7 +6,9 @@ use std::sync::Arc;
 
 use impasto_gl_render::context::{OpenOptions, open};
 use impasto_gl_render::{MotionPixels, Picture, ReferencePixels, Renderer};
-use impasto_painting::{Frame, FrameOptions, Painting, PrepareOptions, Preparer, Rotation, SeenFrom};
+use impasto_painting::{
+    Frame, FrameOptions, Painting, PrepareError, PrepareOptions, Preparer, Rotation, SeenFrom,
+};
 use impasto_scene::document::Style;
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion::{self, CameraPose};
@@ -16,6 +18,23 @@ use crate::plane::Plane;
 use crate::shot::WholeShot;
 use crate::strokes::{StrokesByKey, strokes_by_key};
 use crate::versions::SceneVersion;
+
+/// Some protocols look from where the scene's own camera never is.
+const ANYWHERE: PrepareOptions<'static> = PrepareOptions {
+    give_up: &|| false,
+    memory_bytes: None,
+    peak_bytes: &|| None,
+    kept: None,
+    seen_from: SeenFrom::Anywhere,
+};
+
+/// Prepares a scene to be seen from anywhere.
+///
+/// # Errors
+/// When preparing fails.
+pub fn prepare_anywhere(loaded: Arc<LoadedScene>) -> Result<Painting, PrepareError> {
+    Preparer::default().prepare_with(loaded, &ANYWHERE)
+}
 
 /// A drawn frame with what was read back from the renderer.
 pub struct DrawnFrame {
@@ -97,9 +116,7 @@ impl<'a> MeasureContext<'a> {
             _ => Vec::new(),
         };
         let scene = Arc::new(version.of(self.loaded, &counts));
-        // Some protocols look from where the scene's own camera never is.
-        let options = PrepareOptions { seen_from: SeenFrom::Anywhere, ..PrepareOptions::default() };
-        let painting = Rc::new(self.preparer.prepare_with(scene, &options)?);
+        let painting = Rc::new(self.preparer.prepare_with(scene, &ANYWHERE)?);
         self.paintings.insert(version, Rc::clone(&painting));
         Ok(painting)
     }

@@ -63,14 +63,14 @@ impl Sampled {
             }),
             area: kept.area,
             polygons: kept.polygons.take().map(Arc::new),
-            in_order: kept.in_order,
+            count_on_whole: kept.count_on_whole,
             is_everywhere: kept.is_everywhere,
         }
     }
 
     /// The rank of a particle, in (0, 1]: its ordinal over how many particles the whole surface would have.
     pub(crate) fn rank(&self, index: usize) -> f32 {
-        ((self.particles.ordinal(index) + 0.5) / self.in_order as f32).min(1.0)
+        ((self.particles.ordinal(index) + 0.5) / self.count_on_whole as f32).min(1.0)
     }
 
     /// The albedo of every particle sampled so far; empty where it follows from the surface's materials.
@@ -136,7 +136,7 @@ pub(crate) struct Sampled {
     pub(crate) area: f64,
     pub(crate) polygons: Option<Arc<PolygonCounts>>,
     /// How many particles the coat would have if it had those of its whole surface; at least 1.
-    pub(crate) in_order: usize,
+    pub(crate) count_on_whole: usize,
     /// Whether it has them.
     pub(crate) is_everywhere: bool,
 }
@@ -163,7 +163,7 @@ impl SampleInputs {
         Self {
             surface: object.surface.clone(),
             name_hash: context.name_hash(object.index, kind),
-            per_polygon: (context.paper && count.in_order > 0).then_some(count.in_order),
+            per_polygon: (context.paper && count.count_on_whole > 0).then_some(count.count_on_whole),
             needed: count.needed.clone(),
         }
     }
@@ -180,7 +180,7 @@ impl SampleInputs {
     ) -> Arc<Sampled> {
         if let Some(sampled) = &before
             && self.needed.is_some()
-            && sampled.in_order == count
+            && sampled.count_on_whole == count
         {
             return Arc::clone(sampled);
         }
@@ -191,7 +191,7 @@ impl SampleInputs {
             return if particles == sampled.particles {
                 Arc::clone(sampled)
             } else {
-                Arc::new(Sampled { particles, in_order: count.max(1), ..Sampled::clone(sampled) })
+                Arc::new(Sampled { particles, count_on_whole: count.max(1), ..Sampled::clone(sampled) })
             };
         }
         let surface = surface();
@@ -202,7 +202,7 @@ impl SampleInputs {
                 particles: Particles::new(body, SampledPlaces::of(&order), usize::MAX),
                 area: surface.area(),
                 polygons: None,
-                in_order: count.max(1),
+                count_on_whole: count.max(1),
                 is_everywhere: false,
             });
         }
@@ -214,7 +214,7 @@ impl SampleInputs {
             let particles = Particles::new(body, SampledPlaces::unordered(places), usize::MAX);
             return Arc::new(Sampled {
                 albedo: Arc::new(body.albedo(particles.par_range(0..particles.len()))),
-                in_order: particles.len().max(1),
+                count_on_whole: particles.len().max(1),
                 particles,
                 area: surface.area(),
                 polygons: Some(Arc::new(polygons)),
@@ -236,7 +236,7 @@ impl SampleInputs {
             },
             area: surface.area(),
             polygons: None,
-            in_order: count.max(1),
+            count_on_whole: count.max(1),
             is_everywhere: true,
         })
     }

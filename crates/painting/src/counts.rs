@@ -38,7 +38,8 @@ pub(crate) struct CountInputs {
     /// The factor, at least 1, by which painted amounts raise the counts.
     more_wanted: f32,
     paper: bool,
-    /// Whether what shows of a stroke depends on its ordinal and the view alone, and on a body at rest.
+    /// Whether particles may be made where views need them only: the body stays at rest, and a stroke's size and presence
+    /// follow from its ordinal and the view.
     is_by_view: bool,
 }
 
@@ -126,9 +127,19 @@ impl CountInputs {
         });
         let wanted = std::array::from_fn(|kind| {
             let is_fixed = is_stated(kind).is_some() || self.left_out[kind] || !self.is_by_view;
-            if is_fixed { 0.0 } else { needed[kind] * f64::from(self.more_wanted) }
+            let is_toned = LayerKind::ALL[kind] == LayerKind::Underpainting;
+            match is_fixed {
+                true => 0.0,
+                false if is_toned => needed[kind],
+                false => needed[kind] * f64::from(self.more_wanted),
+            }
         });
         Counted { counts, wanted, more_wanted: f64::from(self.more_wanted) }
+    }
+
+    /// Whether both are of one surface.
+    pub(crate) fn same_surface(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.surface, &other.surface)
     }
 
     /// How far the largest strokes reach from their particles, pixels at the scene's own size, before chance changes
@@ -183,7 +194,7 @@ pub(crate) struct Counted {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct CoatCount {
     /// How many it has, or would have on its whole surface.
-    pub(crate) in_order: usize,
+    pub(crate) count_on_whole: usize,
     /// Where they are needed; `None` everywhere.
     pub(crate) needed: Option<Arc<Needed>>,
     /// How many these are, roughly.
@@ -207,7 +218,7 @@ impl BodyCounts {
 impl CoatCount {
     /// So many everywhere.
     pub(crate) fn everywhere(count: usize) -> Self {
-        Self { in_order: count, needed: None, made: count }
+        Self { count_on_whole: count, needed: None, made: count }
     }
 }
 

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3, DVec4};
+use glam::{DVec2, DVec3, DVec4, Vec3};
 use impasto_core::ScreenMap;
 use impasto_core::presence;
 use impasto_core::sampling::{Cell, Cells, Needed, Surface};
@@ -19,15 +19,15 @@ use crate::presence_bound::LEAST_COUNTED_FADE;
 const LAYERS: usize = LayerKind::ALL.len();
 
 /// Orders with fewer particles are made everywhere.
-const LEAST_IN_ORDER: f64 = 16_384.0;
+const LEAST_ON_WHOLE: f64 = 16_384.0;
 
-/// Particles are left out only where at most this share of those that would lie everywhere is needed. The nearest spots
-/// may then be denser than these, as long as no more than this share is made, or than `MOST_MADE`.
+/// Particles are left out of a coat only if at most this share of those that it would have everywhere is needed. Then the
+/// nearest spots may get more than they would have had, until this share of particles is made, or `MOST_MADE`.
 const MOST_SHARE: f64 = 0.5;
 const MOST_MADE: f64 = 50_000.0;
 
 /// The longest order: enough for a floor of some ten kilometres.
-const MOST_IN_ORDER: f64 = 1e12;
+const MOST_ON_WHOLE: f64 = 1e12;
 
 /// At most so many pairs of a cell and a view are looked at: beyond that, particles lie everywhere.
 const MOST_PAIRS: usize = 12_000_000;
@@ -39,15 +39,13 @@ const EVEN: f64 = 0.1;
 const FEW: f64 = 4.0;
 const MOST_DEPTH: u32 = 10;
 
-/// How far beyond the picture's border strokes are made, in half sizes of the picture from its middle: an editor shows
-/// what lies round the shot, and pictures may be wider than the scene states.
-pub(crate) const MARGIN: f64 = 1.5;
-
 /// All that decides where the particles of an object are needed.
 pub(crate) struct NeededInputs {
     pub(crate) counted: Arc<CountInputs>,
     /// Every view of the object; `None` if it must be ready for any view.
     pub(crate) sightings: Option<Vec<Sighting>>,
+    /// How far from the middle of the picture there are particles, in half sizes of the picture.
+    pub(crate) margin: f64,
     /// How far strokes reach beyond their particles, pixels at the scene's own size.
     pub(crate) reach_px: f64,
     /// How far strokes are lifted off the surface, model units.
@@ -58,13 +56,14 @@ impl PartialEq for NeededInputs {
     fn eq(&self, other: &Self) -> bool {
         (Arc::ptr_eq(&self.counted, &other.counted) || self.counted == other.counted)
             && self.sightings == other.sightings
-            && (self.reach_px, self.most_offset) == (other.reach_px, other.most_offset)
+            && (self.margin, self.reach_px) == (other.margin, other.reach_px)
+            && self.most_offset == other.most_offset
     }
 }
 
 /// Whether any coat has so many particles that it may pay to make them only where they are needed.
 pub(crate) fn may_pay(counted: &Counted) -> bool {
-    counted.wanted.iter().any(|&wanted| wanted > LEAST_IN_ORDER)
+    counted.wanted.iter().any(|&wanted| wanted > LEAST_ON_WHOLE)
 }
 
 impl NeededInputs {
@@ -73,6 +72,7 @@ impl NeededInputs {
         Self {
             counted: Arc::clone(counted),
             sightings: context.seen.sightings(object.index),
+            margin: context.seen.margin(),
             reach_px: counted.most_reach_px(),
             most_offset: strokes().map(|strokes| f64::from(strokes.offset).abs()).fold(0.0, f64::max),
         }
@@ -91,7 +91,10 @@ impl NeededInputs {
         if cells.all().len() * sightings.len() > MOST_PAIRS {
             return counts;
         }
-        let eyes: Vec<Eye> = sightings.iter().map(|sighting| self.eye(sighting)).collect();
+        let eyes: Vec<Eye> = sightings
+            .iter()
+            .map(|sighting| Eye::new(sighting, self.margin, [self.reach_px, self.most_offset]))
+            .collect();
         let all_eyes: Vec<usize> = (0..eyes.len()).collect();
         let wanted_per_px = self.counted.wanted_per_px(surface.mesh(), parts);
         let seen = |cell: &Cell| {
@@ -100,7 +103,8 @@ impl NeededInputs {
                 return (seen, [0.0; LAYERS]);
             }
             let most = |most: [f32; LAYERS], triangle: usize| {
-                let wanted = wanted_per_px(triangle, cell.center, cell.normal);
+                let [a, b, c] = surface.mesh().corners(triangle).map(Vec3::as_dvec3);
+                let wanted = wanted_per_px(triangle, (a + b + c) / 3.0, cell.normal);
                 std::array::from_fn(|kind| most[kind].max(wanted[kind]))
             };
             let wanted = cell.triangles(surface).fold([0.0; LAYERS], most);
@@ -115,37 +119,13 @@ impl NeededInputs {
         let seen: Vec<(SeenCell, [f64; LAYERS])> = cells.all().par_iter().map(seen).collect();
         let tree = SeenTree::new(seen);
         for (kind, count) in counts.iter_mut().enumerate() {
-            if counted.wanted[kind] > LEAST_IN_ORDER
+            if counted.wanted[kind] > LEAST_ON_WHOLE
                 && let Some(needed) = tree.count(kind, counted.counts[kind] as f64)
             {
                 *count = needed;
             }
         }
         counts
-    }
-
-    fn eye(&self, sighting: &Sighting) -> Eye {
-        let map = &sighting.map;
-        let planes = |margin: f64, reach_px: f64| {
-            let half_px = sighting.half_size_px * margin + DVec2::splat(reach_px);
-            let side = |row: DVec4, half_px: f64| row - map.row_w * half_px;
-            let sides = [
-                side(map.row_x, half_px.x),
-                side(-map.row_x, half_px.x),
-                side(map.row_y, half_px.y),
-                side(-map.row_y, half_px.y),
-                DVec4::W * sighting.near - map.row_depth,
-            ];
-            sides.map(|plane| (plane, plane.truncate().length()))
-        };
-        Eye {
-            planes: planes(MARGIN, 2.0 * self.reach_px),
-            picture: planes(1.0, 0.0),
-            near: sighting.near,
-            row_w_length: map.row_w.truncate().length(),
-            map: *map,
-            most_offset: self.most_offset,
-        }
     }
 }
 
@@ -156,7 +136,7 @@ struct SeenCell {
     eyes: Vec<usize>,
     /// The most pixels that a unit of its surface may fill: see [`Eye::most_per_area`].
     px_per_area: f64,
-    /// The same of the views that have it in their picture, not only beside it.
+    /// The same of the views that have it in their picture, not only round it.
     px_in_picture: f64,
     /// Whether its parts differ much.
     is_uneven: bool,
@@ -174,14 +154,14 @@ impl SeenCell {
             parts: Vec::new(),
         };
         for &eye in of {
-            let (px_per_area, beside) = eyes[eye].most_per_area(cell);
+            let (px_per_area, radius_per_depth) = eyes[eye].most_per_area(cell);
             if px_per_area > 0.0 {
                 seen.eyes.push(eye);
                 seen.px_per_area = seen.px_per_area.max(px_per_area);
                 if eyes[eye].has_in_picture(cell) {
                     seen.px_in_picture = seen.px_in_picture.max(px_per_area);
                 }
-                seen.is_uneven |= beside > EVEN;
+                seen.is_uneven |= radius_per_depth > EVEN;
             }
         }
         seen
@@ -240,22 +220,26 @@ impl SeenTree {
     /// some out.
     fn count(&self, kind: usize, everywhere: f64) -> Option<CoatCount> {
         let smallest = || self.cells.iter().zip(&*self.first_part).filter(|(_, first)| **first == 0);
-        let made = |in_order: f64| -> f64 {
-            smallest().map(|((share, needed), _)| share * needed[kind].min(in_order)).sum()
+        let made = |count_on_whole: f64| -> f64 {
+            smallest().map(|((share, needed), _)| share * needed[kind].min(count_on_whole)).sum()
         };
-        let most = self.most_in_picture[kind].min(MOST_IN_ORDER);
+        let most = self.most_in_picture[kind].min(MOST_ON_WHOLE);
         let enough = MOST_SHARE * everywhere;
         if made(everywhere) > enough {
             return None;
         }
-        let in_order = longest([everywhere, most], enough.max(MOST_MADE), made);
+        let count_on_whole = longest([everywhere, most], enough.max(MOST_MADE), made);
         Some(CoatCount {
-            in_order: in_order.ceil() as usize,
+            count_on_whole: count_on_whole.ceil() as usize,
             needed: Some(Arc::new(Needed {
-                of_cell: self.cells.iter().map(|(_, needed)| needed[kind].min(in_order) as f32).collect(),
+                of_cell: self
+                    .cells
+                    .iter()
+                    .map(|(_, needed)| needed[kind].min(count_on_whole) as f32)
+                    .collect(),
                 first_part: Arc::clone(&self.first_part),
             })),
-            made: (made(in_order) + LEAST_IN_ORDER).ceil() as usize,
+            made: (made(count_on_whole) + LEAST_ON_WHOLE).ceil() as usize,
         })
     }
 }
@@ -300,14 +284,39 @@ struct Eye {
 }
 
 impl Eye {
+    /// A view with particles to this margin (see [`NeededInputs`]), for strokes that reach so far from their particles,
+    /// pixels, and are lifted so far, model units.
+    fn new(sighting: &Sighting, margin: f64, [reach_px, most_offset]: [f64; 2]) -> Self {
+        let map = &sighting.map;
+        let planes = |margin: f64, reach_px: f64| {
+            let half_px = sighting.half_size_px * margin + DVec2::splat(reach_px);
+            let side = |row: DVec4, half_px: f64| row - map.row_w * half_px;
+            let sides = [
+                side(map.row_x, half_px.x),
+                side(-map.row_x, half_px.x),
+                side(map.row_y, half_px.y),
+                side(-map.row_y, half_px.y),
+                DVec4::W * sighting.near - map.row_depth,
+            ];
+            sides.map(|plane| (plane, plane.truncate().length()))
+        };
+        Self {
+            planes: planes(margin, 2.0 * reach_px),
+            picture: planes(1.0, 0.0),
+            near: sighting.near,
+            row_w_length: map.row_w.truncate().length(),
+            map: *map,
+            most_offset,
+        }
+    }
+
     /// Whether a cell may be in the picture.
     fn has_in_picture(&self, cell: &Cell) -> bool {
         !is_beyond(&self.picture, cell.center, cell.radius + self.most_offset)
     }
 
     /// The most pixels that a unit of a cell's surface may fill in this view, if strokes near an outline count as many
-    /// times as they are laid there; 0 where the view does not see the cell. And how large the cell is beside its
-    /// distance.
+    /// times as they are laid there; 0 where the view does not see the cell. And the cell's radius over its depth.
     fn most_per_area(&self, cell: &Cell) -> (f64, f64) {
         let radius = cell.radius + self.most_offset;
         if is_beyond(&self.planes, cell.center, radius) {
@@ -324,16 +333,19 @@ impl Eye {
         let to_eye = along_x.cross(along_y);
         let px_per_area = to_eye.length();
         // How much nearer, and in how different a direction, the cell's nearest point may be.
-        let beside = self.row_w_length * radius / w;
-        let nearer = (1.0 + beside) / (1.0 - beside).powi(3);
-        let thickness = (cell.thickness + self.most_offset) / cell.radius * beside;
-        let facing = (cell.normal.dot(to_eye) / px_per_area + thickness) / (1.0 - beside) + cell.spread;
+        let radius_per_depth = self.row_w_length * radius / w;
+        let nearer = (1.0 + radius_per_depth) / (1.0 - radius_per_depth).powi(3);
+        let thickness = (cell.thickness + self.most_offset) / cell.radius * radius_per_depth;
+        // The distance to the cell's plane, over the least or the greatest distance to one of its points.
+        let above = cell.normal.dot(to_eye) / px_per_area + thickness;
+        let facing =
+            above / if above > 0.0 { 1.0 - radius_per_depth } else { 1.0 + radius_per_depth } + cell.spread;
         if facing <= 0.0 {
-            return (0.0, beside);
+            return (0.0, radius_per_depth);
         }
         let most = px_per_area * nearer * most_over_fade(facing.min(1.0), map.uneven.is_some());
         // Where it is not a number, the cell is seen along its own plane.
-        (if most.is_nan() { f64::INFINITY } else { most }, beside)
+        (if most.is_nan() { f64::INFINITY } else { most }, radius_per_depth)
     }
 }
 
@@ -355,6 +367,12 @@ const MOST_GRAZING: f64 = 0.243;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::DAffine3;
+    use impasto_core::TriangleMesh;
+    use impasto_core::sampling;
+    use impasto_core::screen_map::{PixelLens, area_px};
+
+    use crate::body_shape::BodyShape;
 
     #[test]
     fn grazing_strokes_need_no_more_than_is_kept_for_them() {
@@ -364,6 +382,71 @@ mod tests {
             assert!(facing / fade <= most_over_fade(facing, false) * 1.000_001, "at {facing}");
             assert!(most_over_fade(facing, false) <= most_over_fade(facing, true));
         }
+    }
+
+    /// A bumpy field, from near and from afar, from above and along it, through either lens.
+    #[test]
+    fn no_place_needs_more_than_its_cell() {
+        let mut mesh = TriangleMesh::default();
+        for index in 0..60u32 * 60 {
+            let [x, z] = [index % 60, index / 60].map(|number| number as f32 * 0.2 - 6.0);
+            let height = |x: f32, z: f32| (1.3 * x).sin() * (1.1 * z + 0.4).cos();
+            let slope =
+                [height(x + 0.01, z) - height(x - 0.01, z), height(x, z + 0.01) - height(x, z - 0.01)];
+            mesh.positions.push(Vec3::new(x, height(x, z), z));
+            mesh.normals.push(Vec3::new(-slope[0], 0.02, -slope[1]).normalize());
+        }
+        for cell in 0..59u32 * 59 {
+            let a = cell / 59 * 60 + cell % 59;
+            mesh.triangles.extend([[a, a + 60, a + 1], [a + 1, a + 60, a + 61]]);
+        }
+        let surface = Surface::new(&mesh, |_| true);
+        let cells: Vec<Cell> = Cells::new(&surface).into_iter().collect();
+        let particles = sampling::scattered(&surface, 20_000, 4);
+        let of_triangle: Vec<Vec<usize>> = {
+            let mut of_triangle = vec![Vec::new(); mesh.triangles.len()];
+            for (index, cell) in cells.iter().enumerate() {
+                cell.triangles(&surface).for_each(|triangle| of_triangle[triangle].push(index));
+            }
+            of_triangle
+        };
+        let mut seen = 0;
+        for (eye, target, lens) in [
+            ([0.0, 2.0, 9.0], [0.0, 0.0, 0.0], PixelLens::Perspective { focal_px: 500.0 }),
+            ([0.3, 1.1, 0.2], [3.0, 1.0, -2.0], PixelLens::Perspective { focal_px: 300.0 }),
+            ([1.0, -4.0, 2.0], [0.0, 0.0, 0.0], PixelLens::Perspective { focal_px: 400.0 }),
+            ([4.0, 3.0, 4.0], [0.0, 0.0, 0.0], PixelLens::Orthographic { px_per_unit: 50.0 }),
+        ] {
+            let view = glam::dcamera::rh::view::look_at_mat4(eye.into(), target.into(), DVec3::Y);
+            for pose in [DAffine3::IDENTITY, DAffine3::from_scale(DVec3::new(1.5, 0.7, 1.0))] {
+                let map = ScreenMap::new(view, pose, lens);
+                let sighting = Sighting {
+                    map,
+                    half_size_px: DVec2::new(320.0, 180.0),
+                    near: 0.05,
+                    shape: BodyShape::default(),
+                };
+                let of_sighting = Eye::new(&sighting, 1.0, [0.0; 2]);
+                for particle in &particles {
+                    let (at, normal) = (particle.position.as_dvec3(), particle.normal.as_dvec3());
+                    let px = map.project(at).abs();
+                    let jacobian = map.jacobian(at);
+                    let facing = map.facing(jacobian, normal) as f32;
+                    if map.depth(at) <= 0.05 || !px.cmplt(sighting.half_size_px).all() || facing <= 0.0 {
+                        continue;
+                    }
+                    seen += 1;
+                    let fade = f64::from(presence::of_facing(facing).max(LEAST_COUNTED_FADE));
+                    let needed = area_px(jacobian, normal) / fade;
+                    let most = of_triangle[particle.triangle as usize]
+                        .iter()
+                        .map(|&cell| of_sighting.most_per_area(&cells[cell]).0)
+                        .fold(0.0, f64::max);
+                    assert!(needed <= most * 1.000_1, "{needed} of {most}, {lens:?}, {pose:?}");
+                }
+            }
+        }
+        assert!(seen > 10_000, "{seen}");
     }
 
     #[test]

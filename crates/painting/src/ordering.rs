@@ -28,8 +28,8 @@ struct OrderedCoat {
     kind: LayerKind,
     name_hash: u32,
     particles: Particles,
-    /// See [`crate::coat::Sampled::in_order`].
-    in_order: usize,
+    /// See [`crate::coat::Sampled::count_on_whole`].
+    count_on_whole: usize,
     /// Tells the region of each particle; `None` if all regions have the same layer.
     traits: Option<Arc<Traits>>,
 }
@@ -40,7 +40,8 @@ impl PartialEq for OrderedCoat {
             (Some(a), Some(b)) => Arc::ptr_eq(a, b) || a.same_regions(b),
             (a, b) => a.is_none() && b.is_none(),
         };
-        (self.kind, self.name_hash, self.in_order) == (other.kind, other.name_hash, other.in_order)
+        (self.kind, self.name_hash, self.count_on_whole)
+            == (other.kind, other.name_hash, other.count_on_whole)
             && self.particles == other.particles
             && same_regions
     }
@@ -62,7 +63,7 @@ impl OrderInputs {
                 kind: coat.kind,
                 name_hash: coat.traits.name_hash,
                 particles: coat.sampled.particles.clone(),
-                in_order: coat.sampled.in_order,
+                count_on_whole: coat.sampled.count_on_whole,
                 traits: (!one_layer).then(|| Arc::clone(&coat.traits)),
             })
             .collect();
@@ -137,7 +138,7 @@ impl Queue<'_> {
     /// Twice the rank of a particle, (2 ordinal + 1) / count, as bits: the bits of positive floats sort as the floats do.
     fn rank(&self, particle: u32) -> u64 {
         let ordinal = f64::from(self.coat.particles.ordinal(particle as usize));
-        ((ordinal * 2.0 + 1.0) / self.coat.in_order as f64).to_bits()
+        ((ordinal * 2.0 + 1.0) / self.coat.count_on_whole as f64).to_bits()
     }
 }
 

@@ -116,7 +116,9 @@ impl CellLevel {
         };
         let found: Vec<Vec<Thrown>> = active.cells.par_chunks(CELLS).map(of_cells).collect();
         let mut clear = found.concat();
-        clear.par_sort_unstable_by_key(|thrown| (thrown.turn, thrown.bits));
+        clear.par_sort_unstable_by_key(|thrown| {
+            (thrown.turn, thrown.bits, thrown.face, thrown.weights.map(f32::to_bits))
+        });
         let dart =
             |(thrown, number): (&Thrown, u32)| Dart { position: thrown.position, face: thrown.face, number };
         let darts: Vec<Dart> = clear.iter().zip(0..).map(dart).collect();
@@ -139,7 +141,7 @@ impl CellLevel {
     fn throw(&self, surface: &Surface<'_>, cell: &Cell, mut take: impl FnMut(Thrown)) {
         let seed = hash::combine(hash::combine(self.seed, cell.bits), self.ends[0] as u32);
         let tries = (self.ends[1] - self.ends[0]) as f64 * TRIES as f64 * cell.share;
-        // As many as are the cell's share; what is left over one decides chance.
+        // As many as are the cell's share; chance decides about the fraction that is left.
         let count = (tries + f64::from(hash::unit(seed))) as u32;
         for number in 0..count {
             let bits = hash::combine(seed, number);

@@ -279,8 +279,13 @@ fn normals(surface: &Surface<'_>, face: Face) -> [DVec3; 4] {
     let across = (b - a).cross(c - a).normalize_or_zero();
     let flat = if face.flipped { -across } else { across };
     let smooth = of_corners(&mesh.normals, mesh.triangles[face.triangle as usize]).map(Vec3::as_dvec3);
-    let [first, second, third] = smooth.map(|of| if of.dot(flat) < 0.0 { -of } else { of });
-    [flat, first, second, third]
+    let turned = smooth.map(|of| of.dot(flat) < 0.0);
+    // A particle's normal is turned as a whole: where not all corners turn, it may point anywhere.
+    match turned {
+        [false, false, false] => [flat, smooth[0], smooth[1], smooth[2]],
+        [true, true, true] => [flat, -smooth[0], -smooth[1], -smooth[2]],
+        _ => [flat, -flat, -flat, -flat],
+    }
 }
 
 /// How far these unit normals, and those that are interpolated between them, may be from one: the length of the

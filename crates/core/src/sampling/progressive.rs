@@ -103,6 +103,12 @@ impl ProgressiveState {
         Some(Self { thrown: u32::try_from(thrown).ok()?, level_end, counted })
     }
 
+    /// Whether an order that lies everywhere may have come so far with this many particles.
+    pub fn fits(self, particles: usize) -> bool {
+        // Levels are at least half filled.
+        self.counted[0] <= particles && self.level_end / 4 <= particles.saturating_add(1)
+    }
+
     /// How many particles, from the first on, have their indices as ordinals.
     pub fn counted(self) -> usize {
         self.counted[0]

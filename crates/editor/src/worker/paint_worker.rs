@@ -11,10 +11,10 @@ use impasto_gl_render::context::{self, Driver, OpenOptions};
 use impasto_gl_render::{RenderError, Renderer};
 use impasto_painting::{Frame, Painting, PrepareError, PrepareOptions, Preparer, Recall, SeenFrom};
 use impasto_scene::mesh_file::MeshFile;
-use impasto_scene::motion::{self, CameraPose};
 
 use super::ahead::Ahead;
 use super::draft::DraftSize;
+use super::editor_views::{EditorViews, is_moving};
 use super::film::{Film, Finished};
 use super::mailbox::{Mailbox, Order};
 use super::view_frame::{DrawOptions, frame_of, frame_options, styled};
@@ -75,8 +75,8 @@ mod tests;
 struct Prepared {
     painting: Painting,
     serial: u64,
-    /// The cameras from which it is seen besides its own, each with a frame.
-    free_views: Vec<(CameraPose, f64)>,
+    /// From where it was prepared to be seen; `None` if that was left as it was, since an edit was under way.
+    seen_from: Option<EditorViews>,
 }
 
 struct PaintWorker {
@@ -157,7 +157,7 @@ impl PaintWorker {
         if self.is_new(order) {
             self.show_unpainted(order, tell);
         }
-        let Some(painting) = self.prepare(order, mailbox, tell) else { return };
+        let Some(mut painting) = self.prepare(order, mailbox, tell) else { return };
         let wanted: Vec<usize> =
             (0..views.len()).filter(|&index| !views[index].size_px.contains(&0)).collect();
         wanted.iter().for_each(|&index| self.redraw_light_icons(order, index, tell));
@@ -174,6 +174,16 @@ impl PaintWorker {
                 }
             }
             self.draft_size.took(began.elapsed().as_secs_f64());
+        }
+        if let Some(views) = self.lacking(order) {
+            if !mailbox.rests(order, REST) {
+                return;
+            }
+            match self.prepare_for(order, Some(views), mailbox, tell) {
+                Some(made) => painting = made,
+                None if mailbox.is_stale(order) => return,
+                None => {}
+            }
         }
         let quick = DraftSize::is_needless(self.exact_s);
         let exact = wanted
@@ -303,26 +313,50 @@ impl PaintWorker {
         }
     }
 
+    /// The painting of an order's scene. While an edit is under way, large surfaces keep the particles that they have.
     fn prepare(&mut self, order: &Order, mailbox: &Mailbox, tell: Tell<'_>) -> Option<Painting> {
-        let serial = order.job.serial;
-        let free_views = self.free_views(order);
-        if let Some(known) = self.prepared.as_ref().filter(|known| known.serial == serial) {
-            // Where a free camera looks at a large surface that the shot does not see, there are few particles yet.
-            if !known.painting.is_partial() || known.free_views == free_views {
-                return Some(known.painting.clone());
-            }
+        if let Some(known) = self.prepared.as_ref().filter(|known| known.serial == order.job.serial) {
+            return Some(known.painting.clone());
         }
-        let give_up = || mailbox.gives_up(order);
+        let views = (!is_moving(order)).then(|| EditorViews::of(order));
+        self.prepare_for(order, views, mailbox, tell)
+    }
+
+    /// The views of an order at rest, if its scene was prepared for others, so that large surfaces may lack particles.
+    fn lacking(&self, order: &Order) -> Option<EditorViews> {
+        let known =
+            self.prepared.as_ref().filter(|known| known.painting.is_partial() && !is_moving(order))?;
+        let views = EditorViews::of(order);
+        (known.seen_from.as_ref() != Some(&views)).then_some(views)
+    }
+
+    fn prepare_for(
+        &mut self,
+        order: &Order,
+        views: Option<EditorViews>,
+        mailbox: &Mailbox,
+        tell: Tell<'_>,
+    ) -> Option<Painting> {
+        let serial = order.job.serial;
+        let is_again = self.prepared.as_ref().is_some_and(|known| known.serial == serial);
+        // What is made again for other views is there already, so it may wait.
+        let give_up = || mailbox.gives_up(order) || is_again && mailbox.is_stale(order);
         let options = PrepareOptions {
             give_up: &give_up,
             memory_bytes: impasto_scene::memory::available_bytes(),
-            seen_from: SeenFrom::Shot(&free_views),
+            seen_from: views.as_ref().map_or(SeenFrom::AsBefore, EditorViews::seen_from),
             ..PrepareOptions::default()
         };
         match self.preparer.prepare_with(Arc::clone(&order.job.loaded), &options) {
             Ok(painting) => {
-                self.prepared =
-                    Some(Prepared { painting: painting.clone(), serial, free_views: free_views.clone() });
+                if is_again {
+                    // Pictures of the painting before lack strokes.
+                    self.drawn.iter_mut().flatten().for_each(|drawn| drawn.exact = false);
+                    self.film.clear();
+                    self.ahead = Ahead::default();
+                    self.held_view = None;
+                }
+                self.prepared = Some(Prepared { painting: painting.clone(), serial, seen_from: views });
                 let frame = order.job.views.first().map_or(0.0, |view| view.frame);
                 self.picker.follow(&painting, frame);
                 tell(Report::Prepared(Box::new((painting.clone(), self.picker.clone())), serial));
@@ -330,28 +364,13 @@ impl PaintWorker {
             }
             Err(PrepareError::GivenUp) => None,
             Err(error) => {
-                tell(Report::Failed(error.to_string()));
+                // The painting that is there still serves.
+                if !is_again {
+                    tell(Report::Failed(error.to_string()));
+                }
                 None
             }
         }
-    }
-
-    /// The free cameras of an order, each with its frame. While they move, they stay those of the order before: a moving
-    /// picture may lack particles for a moment.
-    fn free_views(&self, order: &Order) -> Vec<(CameraPose, f64)> {
-        let views = &order.job.views;
-        if let Some(known) = &self.prepared
-            && views.iter().any(|view| view.moving)
-        {
-            return known.free_views.clone();
-        }
-        let scene = &order.job.loaded.scene;
-        let is_free = |view: &&ViewJob| {
-            let shot = motion::camera_at(scene, view.frame);
-            let of = |pose: &CameraPose| (pose.eye, pose.target, pose.roll_rad);
-            of(&shot) != of(&view.camera)
-        };
-        views.iter().filter(is_free).map(|view| (view.shot_camera(), view.frame)).collect()
     }
 
     /// Redraws only the icons of lights, if nothing else changed since the view's exact picture, and the renderer still

@@ -380,3 +380,48 @@ fn other_lights_over_the_same_picture_draw_no_stroke_again() {
     let [again] = &pictures(&told)[..] else { panic!("one picture, and no draft of it") };
     assert!(bytes(again) == first.0);
 }
+
+/// A level floor of 300 x 300 units before the shot's camera.
+fn large_floor() -> Arc<LoadedScene> {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write(
+        "floor.obj",
+        "v -150 0 -150\nv 150 0 -150\nv 150 0 150\nv -150 0 150\nvn 0 1 0\nf 4//1 3//1 2//1 1//1\n",
+    );
+    write(
+        "scene.ron",
+        r#"(version: 1, size: (320, 180), timeline: (fps: 24, first: 0, last: 0),
+            camera: (keys: [(frame: 0, eye: (0, 1.6, 5), target: (0, 0.9, 0))]),
+            objects: [(name: "floor", mesh: "floor.obj")])"#,
+    );
+    Arc::new(load(&folder.path().join("scene.ron"), &LoadOptions::default()).unwrap())
+}
+
+#[test]
+fn a_free_camera_at_rest_sees_a_large_floor_painted_and_the_shot_stays_as_it_is() {
+    let loaded = large_floor();
+    let worker = worker();
+    let shot = view(&loaded, 0.0);
+    let mut away = shot.clone();
+    away.camera.eye += glam::DVec3::new(70.0, 0.0, 40.0);
+    away.camera.target += glam::DVec3::new(75.0, 0.0, 60.0);
+    let shown = |view: &ViewJob, last: &dyn Fn(&Report) -> bool| {
+        worker.0.show(Job { loaded: Arc::clone(&loaded), serial: 1, views: vec![view.clone()] });
+        let told = until(&worker, last);
+        let prepared = told.iter().filter(|report| matches!(report, Report::Prepared(_, 1))).count();
+        let last = *pictures(&told).last().unwrap();
+        (prepared, last.strokes, bytes(last))
+    };
+    let (prepared, strokes, picture) = shown(&shot, &is_exact);
+    assert_eq!(prepared, 1);
+    assert!(picture == rendered(&loaded, &shot, None));
+    // A drag does not wait for strokes.
+    let moving = ViewJob { moving: true, ..away.clone() };
+    let is_picture = |report: &Report| matches!(report, Report::Picture(_));
+    assert_eq!(shown(&moving, &is_picture).0, 0);
+    let (prepared, there, _) = shown(&away, &is_exact);
+    assert!(prepared == 1 && there * 2 > strokes, "{there} strokes, {strokes} in the shot");
+    let (prepared, _, again) = shown(&shot, &is_exact);
+    assert!(prepared == 1 && again == picture);
+}

@@ -5,12 +5,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use impasto_painting::frame::LayerKind;
-use impasto_painting::{Frame, Rotation, prepare};
+use impasto_painting::{Frame, Rotation};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::{load, save};
 
 use super::guides;
-use crate::context::MeasureContext;
+use crate::context::{MeasureContext, prepare_anywhere};
 use crate::figures::Spread;
 use crate::metric::Metric;
 use crate::options::MeasureError;
@@ -35,7 +35,7 @@ pub(super) fn row(context: &mut MeasureContext<'_>) -> Result<Row, MeasureError>
     let saved = load::parse(Path::new("saved.ron"), &text).ok();
     let reread = match &saved {
         Some(scene) => {
-            let again = prepare(Arc::new(LoadedScene {
+            let again = prepare_anywhere(Arc::new(LoadedScene {
                 scene: scene.clone(),
                 ..LoadedScene::clone(context.loaded)
             }))?;
@@ -44,7 +44,7 @@ pub(super) fn row(context: &mut MeasureContext<'_>) -> Result<Row, MeasureError>
         }
         None => false,
     };
-    let alone = prepare(Arc::clone(context.loaded))?;
+    let alone = prepare_anywhere(Arc::clone(context.loaded))?;
     let scrubbed = frames
         .iter()
         .zip(&in_order)

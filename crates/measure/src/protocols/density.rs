@@ -3,13 +3,13 @@
 
 use std::sync::Arc;
 
+use impasto_painting::FrameOptions;
 use impasto_painting::frame::{LayerKind, Stroke};
-use impasto_painting::{FrameOptions, prepare};
 use impasto_scene::document::Selector;
 use impasto_scene::presets;
 
 use crate::cameras::zoomed;
-use crate::context::{DrawnFrame, MeasureContext};
+use crate::context::{DrawnFrame, MeasureContext, prepare_anywhere};
 use crate::density::{PlacedStroke, shown_over_wanted, spacing_over_ideal};
 use crate::metric::Metric;
 use crate::options::MeasureError;
@@ -165,7 +165,7 @@ fn on_sheet(context: &mut MeasureContext<'_>, object: usize, row: &mut Row) -> R
     });
     let Some(version) = sheet::sheet(context.loaded, region, SHEET_PX) else { return Ok(false) };
     let wanted = presets::resolve(&version.scene, None).body().wanted_per_px();
-    let painting = prepare(Arc::new(version))?;
+    let painting = prepare_anywhere(Arc::new(version))?;
     let options = FrameOptions::new([SHEET_PX, SHEET_PX]);
     let mut holds = true;
     for tilt_deg in TILTS_DEG {

@@ -3,10 +3,10 @@
 
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::{Driver, OpenOptions, open};
-use impasto_painting::{Rotation, prepare};
+use impasto_painting::Rotation;
 use impasto_scene::motion;
 
-use crate::context::MeasureContext;
+use crate::context::{MeasureContext, prepare_anywhere};
 use crate::metric::Metric;
 use crate::options::MeasureError;
 use crate::report::{Counts, Reading, Row, Verdict};
@@ -28,7 +28,7 @@ pub(super) fn row(context: &mut MeasureContext<'_>) -> Result<Row, MeasureError>
         context.picture(&painting.at(frame, &options))?;
     }
     let after_others = context.picture(&painting.at(middle, &options))?;
-    let alone_painting = prepare(context.loaded.clone())?;
+    let alone_painting = prepare_anywhere(context.loaded.clone())?;
     let driver = context.renderer.report().driver;
     let mut drivers = vec![driver];
     drivers.push(if driver == Driver::Osmesa { Driver::Egl } else { Driver::Osmesa });

@@ -41,7 +41,7 @@ pub(super) struct Sizes {
 pub(super) struct CoatNumbers {
     pub(super) count: u64,
     /// How many particles the coat would have on its whole surface.
-    pub(super) in_order: u64,
+    pub(super) count_on_whole: u64,
     pub(super) state: [u64; 4],
     /// The bits of the area, which is a float.
     pub(super) area: u64,
@@ -82,7 +82,7 @@ pub(crate) struct KeptCoat {
     /// How many particles were wanted; a surface without area has none, whatever is wanted.
     pub(crate) wanted: usize,
     /// How many the coat would have on its whole surface, and whether it has these.
-    pub(crate) in_order: usize,
+    pub(crate) count_on_whole: usize,
     pub(crate) is_everywhere: bool,
     pub(crate) state: ProgressiveState,
     pub(crate) area: f64,
@@ -288,14 +288,25 @@ impl<'a> CoatArrays<'a> {
             ),
             None => None,
         };
+        let state = ProgressiveState::from_numbers(numbers.state).ok_or(Unfit::Damaged)?;
+        let is_everywhere = numbers.is_everywhere != 0;
+        let ordinals = self.ordinals.of_len_or_empty(places.len())?;
+        let is_counted =
+            |(index, &ordinal): (usize, &f32)| index >= state.counted() || ordinal == index as f32;
+        let are_ordinals = ordinals.is_sorted()
+            && ordinals.iter().all(|ordinal| ordinal.is_finite())
+            && ordinals.iter().enumerate().all(is_counted);
+        if !are_ordinals || is_everywhere && !state.fits(places.len()) {
+            return Err(Unfit::Damaged);
+        }
         Ok(KeptCoat {
             albedo: self.albedo.of_len(if has_colors { places.len() } else { 0 })?,
-            ordinals: self.ordinals.of_len_or_empty(places.len())?,
+            ordinals,
             count,
             wanted,
-            in_order: usize::try_from(numbers.in_order).map_err(|_| Unfit::Damaged)?.max(1),
-            is_everywhere: numbers.is_everywhere != 0,
-            state: ProgressiveState::from_numbers(numbers.state).ok_or(Unfit::Damaged)?,
+            count_on_whole: usize::try_from(numbers.count_on_whole).map_err(|_| Unfit::Damaged)?.max(1),
+            is_everywhere,
+            state,
             area: f64::from_bits(numbers.area),
             polygons,
             dabbed,

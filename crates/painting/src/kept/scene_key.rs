@@ -62,7 +62,7 @@ impl SceneKey<'_> {
         // All other views follow from the scene, except those that a shot or the caller brings.
         let further = if seen.follows_from_scene() { None } else { Some(seen.views()) };
         further.flatten().into_iter().flatten().for_each(&mut feed);
-        key.value(&further.map(|views| views.is_some()));
+        key.value(&(further.map(|views| views.is_some()), seen.margin()));
         let textures = digests(
             surfaces
                 .iter()

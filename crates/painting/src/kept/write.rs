@@ -68,7 +68,7 @@ fn push_coat<'a>(coat: &'a Coat, arrays: &mut ArraysToWrite<'a>) {
     let polygons = sampled.polygons.as_ref().map(|polygons| polygons.to_keep());
     arrays.push_made(&[CoatNumbers {
         count: sampled.particles.len() as u64,
-        in_order: sampled.in_order as u64,
+        count_on_whole: sampled.count_on_whole as u64,
         state: particles.state.to_numbers(),
         area: sampled.area.to_bits(),
         is_everywhere: u64::from(sampled.is_everywhere),

@@ -74,7 +74,7 @@ impl Default for PrepareOptions<'_> {
             memory_bytes: None,
             peak_bytes: &|| None,
             kept: None,
-            seen_from: SeenFrom::Shot(&[]),
+            seen_from: SeenFrom::SHOT,
         }
     }
 }

@@ -7,32 +7,47 @@ use impasto_scene::document::Scene;
 use impasto_scene::motion::{self, CameraPose};
 
 use crate::frame_options::FrameOptions;
-use crate::needed::MARGIN;
 use crate::particle_count::Sighting;
 use crate::view::PictureView;
 
 /// From where a painting will be seen.
 #[derive(Clone, Copy, Debug)]
 pub enum SeenFrom<'a> {
-    /// By the scene's camera, at every frame of its timeline; and by these cameras, each at a frame. Where none of them
-    /// looks, large surfaces have only few particles.
-    Shot(&'a [(CameraPose, f64)]),
+    /// By the scene's camera, at every whole frame of its timeline and of its keys. Where no view looks, large surfaces
+    /// have only few particles.
+    Shot {
+        /// Further cameras, each at a frame.
+        also: &'a [(CameraPose, f64)],
+        /// How far from the middle of the picture there are particles, in half sizes of the picture: at least
+        /// [`SeenFrom::MARGIN`].
+        margin: f64,
+    },
+    /// From where the scene before was seen, while an edit is under way: what is made where is kept for surfaces that are
+    /// the same. For all others as `Shot`.
+    AsBefore,
     /// From anywhere.
     Anywhere,
 }
 
 impl SeenFrom<'_> {
+    /// An editor shows what lies round the shot, and pictures may be wider than the scene states.
+    pub const MARGIN: f64 = 1.5;
+
+    /// By the scene's camera alone.
+    pub const SHOT: Self = Self::Shot { also: &[], margin: Self::MARGIN };
+
     /// What pictures of the scene with these options need: those that are much wider than the scene states, or whose
     /// strokes keep their size in larger pictures, need particles where the scene's own pictures do not.
     pub fn for_options(scene: &Scene, options: &FrameOptions) -> Self {
         let aspect = |[width, height]: [u32; 2]| f64::from(width.max(1)) / f64::from(height.max(1));
         let wider = aspect(options.size_px) / aspect([scene.size.0, scene.size.1]);
-        if options.keep_stroke_px || wider > MARGIN { Self::Anywhere } else { Self::Shot(&[]) }
+        if options.keep_stroke_px || wider > Self::MARGIN { Self::Anywhere } else { Self::SHOT }
     }
 }
 
-/// More frames than this are not looked at one by one.
+/// With more frames than this, or with more poses of objects at all frames, a painting is made to be seen from anywhere.
 const MOST_FRAMES: usize = 4096;
+const MOST_POSES: usize = 200_000;
 
 /// A view, with the poses of all objects.
 type View = (PictureView, Vec<DAffine3>);
@@ -52,17 +67,23 @@ impl<'a> Seen<'a> {
     /// The views; `None` if there may be others.
     pub(crate) fn views(&self) -> Option<&[View]> {
         let find = || {
-            let SeenFrom::Shot(also) = self.from else { return None };
+            let also: &[(CameraPose, f64)] = match self.from {
+                SeenFrom::Shot { also, .. } => also,
+                SeenFrom::AsBefore => &[],
+                SeenFrom::Anywhere => return None,
+            };
             let scene = self.scene;
             let size_px = [scene.size.0, scene.size.1];
-            let (first, last) = (scene.timeline.first, scene.timeline.last.max(scene.timeline.first));
-            let frames =
-                usize::try_from(last.checked_sub(first)?).ok().filter(|&count| count < MOST_FRAMES)?;
+            let [first, last] = frames(scene);
+            let steps = usize::try_from(last.checked_sub(first)?).ok()?;
+            if steps >= MOST_FRAMES || steps.saturating_mul(scene.objects.len()) > MOST_POSES {
+                return None;
+            }
             let view = |pose: CameraPose, frame: f64| {
                 (PictureView { pose, size_px }, motion::poses_at(scene, frame))
             };
             let (referred, frame) = motion::referred_to(scene, &scene.reference);
-            let along = (0..=frames).map(|step| {
+            let along = (0..=steps).map(|step| {
                 let frame = first as f64 + step as f64;
                 view(motion::camera_at(scene, frame), frame)
             });
@@ -72,16 +93,45 @@ impl<'a> Seen<'a> {
         self.views.get_or_init(find).as_deref()
     }
 
+    /// How far from the middle of the picture there are particles, in half sizes of the picture.
+    pub(crate) fn margin(&self) -> f64 {
+        match self.from {
+            SeenFrom::Shot { margin, .. } => margin.max(SeenFrom::MARGIN),
+            SeenFrom::AsBefore | SeenFrom::Anywhere => SeenFrom::MARGIN,
+        }
+    }
+
+    /// Whether particles stay where they were made before.
+    pub(crate) fn is_as_before(&self) -> bool {
+        matches!(self.from, SeenFrom::AsBefore)
+    }
+
     /// Whether the text of the scene tells all views.
     pub(crate) fn follows_from_scene(&self) -> bool {
-        matches!(self.from, SeenFrom::Shot([])) && self.scene.stage.shot.is_none()
+        matches!(self.from, SeenFrom::Shot { also: [], .. })
+            && self.margin() == SeenFrom::MARGIN
+            && self.scene.stage.shot.is_none()
     }
 
     /// Every view of an object, each once while it does not change; `None` if there may be others.
     pub(crate) fn sightings(&self, object: usize) -> Option<Vec<Sighting>> {
-        let mut sightings: Vec<Sighting> =
-            self.views()?.iter().map(|(view, poses)| Sighting::of(view, poses[object])).collect();
-        sightings.dedup();
+        let mut sightings: Vec<Sighting> = Vec::new();
+        for (view, poses) in self.views()? {
+            let sighting = Sighting::of(view, poses[object]);
+            if sightings.last() != Some(&sighting) {
+                sightings.push(sighting);
+            }
+        }
         Some(sightings)
     }
+}
+
+/// The first and the last frame of the timeline and of all keys of the camera and of objects.
+fn frames(scene: &Scene) -> [i64; 2] {
+    let keys = scene.camera.keys.iter().map(|key| key.frame);
+    let keys = keys.chain(scene.objects.iter().flat_map(|object| object.keys.iter().map(|key| key.frame)));
+    let of_keys = keys.filter(|frame| frame.is_finite());
+    of_keys.fold([scene.timeline.first, scene.timeline.last], |[first, last], frame| {
+        [first.min(frame.floor() as i64), last.max(frame.ceil() as i64)]
+    })
 }

@@ -1,0 +1,66 @@
+//! From where the window shows a scene: through the shot's camera or a free one, and with what lies round the shot.
+
+use impasto_painting::SeenFrom;
+use impasto_scene::document::{Lens, Scene};
+use impasto_scene::motion::{self, CameraPose};
+
+use super::ViewJob;
+use super::mailbox::Order;
+
+/// What the views of a job need particles for.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct EditorViews {
+    /// Cameras besides the shot's, each with a frame.
+    free: Vec<(CameraPose, f64)>,
+    /// How far the views reach, in half sizes of the shot from its middle.
+    margin: f64,
+}
+
+/// Margins are rounded up to this, so that few sizes of the window ask for others.
+const MARGIN_STEP: f64 = 0.5;
+
+/// Two lenses are the same if they differ by less than this share: one was widened and narrowed again.
+const SAME_LENS: f64 = 1e-4;
+
+/// Whether an edit, a drag or playback is under way.
+pub(super) fn is_moving(order: &Order) -> bool {
+    order.job.views.iter().any(|view| view.moving)
+}
+
+impl EditorViews {
+    /// Those of a job.
+    pub(super) fn of(order: &Order) -> Self {
+        let (scene, views) = (&order.job.loaded.scene, &order.job.views);
+        let free = views.iter().filter(|view| is_free(view, scene));
+        let reach = |view: &ViewJob| {
+            let aspect = f64::from(scene.size.0.max(1)) / f64::from(scene.size.1.max(1));
+            let [width, height] = view.size_px.map(f64::from);
+            let shot_height = f64::from(view.shot_height_px.max(1.0));
+            (height / shot_height).max(width / (shot_height * aspect))
+        };
+        let reach = views.iter().map(reach).fold(SeenFrom::MARGIN, f64::max);
+        Self {
+            free: free.map(|view| (view.shot_camera(), view.frame)).collect(),
+            margin: (reach / MARGIN_STEP - 0.01).ceil() * MARGIN_STEP,
+        }
+    }
+
+    /// What a painting is prepared for.
+    pub(super) fn seen_from(&self) -> SeenFrom<'_> {
+        SeenFrom::Shot { also: &self.free, margin: self.margin }
+    }
+}
+
+/// Whether the shot's camera at the whole frames of the timeline does not show the same.
+fn is_free(view: &ViewJob, scene: &Scene) -> bool {
+    let [shot, now] = [motion::camera_at(scene, view.frame), view.shot_camera()];
+    let near = |a: f64, b: f64| (a - b).abs() <= SAME_LENS * a.abs().max(b.abs());
+    let same_lens = match (&shot.lens, &now.lens) {
+        (Lens::Perspective { fov_y_deg: a, .. }, Lens::Perspective { fov_y_deg: b, .. })
+        | (Lens::Orthographic { height: a, .. }, Lens::Orthographic { height: b, .. }) => near(*a, *b),
+        _ => false,
+    };
+    let of = |pose: &CameraPose| (pose.eye, pose.target, pose.roll_rad);
+    let in_timeline = (scene.timeline.first as f64..=scene.timeline.last as f64).contains(&view.frame);
+    of(&shot) != of(&now) || !same_lens || view.frame.fract() != 0.0 || !in_timeline
+}
