@@ -64,7 +64,7 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
         PixelLens::Perspective { focal_px: 1000.0 },
     );
     let input = format!("{PARTICLES} particles, {name}");
-    let sorted = SortedParticles::new(&places, &baked.placed, |_| 0.0);
+    let sorted = SortedParticles::new(&places, &baked.placed, &[], |_| 0.0);
     let view = ParticleView::new(&map);
     // As many particles are present as in a picture that is full of strokes.
     let bounds =

@@ -65,6 +65,31 @@ fn a_floor_is_painted_alike_however_far_it_runs() {
     }
 }
 
+/// A picture three units high of a floor of ten kilometres, from straight above; and a long lens from afar.
+#[test]
+fn a_small_part_of_a_huge_floor_is_painted() {
+    let mut scene = floor_scene(5000.0);
+    let eye = [2000.0, 100.0, 1000.0];
+    scene.camera.keys = vec![shapes::camera_key(0.0, eye, [2000.0, 0.0, 999.0])];
+    let lenses = [
+        Lens::Orthographic { height: 3.0, near: 1.0, far: 500.0 },
+        Lens::Perspective { fov_y_deg: 1.7, near: 1.0, far: 500.0 },
+    ];
+    for lens in lenses {
+        scene.camera.lens = lens.clone();
+        let count = |size: f64| {
+            let mesh = shapes::moved(&floor(size, 1), |at| at + DVec3::new(2000.0, 0.0, 1000.0));
+            let painting = prepare(shapes::loaded(scene.clone(), [mesh])).unwrap();
+            assert!(painting.particle_total() < 100_000);
+            covered(&painting, 0.0)
+        };
+        let [small, huge] = [count(8.0), count(10_000.0)];
+        for (small, huge) in small.iter().zip(huge) {
+            assert!(*small > 0.5 && (huge / small - 1.0).abs() < 0.2, "{lens:?}: {huge}, not {small}");
+        }
+    }
+}
+
 /// The camera turns so fast that a view which stands for several frames would miss most of what it sweeps over.
 #[test]
 fn every_frame_of_a_whip_pan_is_painted() {
@@ -125,7 +150,7 @@ fn a_free_camera_finds_particles_where_it_was_announced() {
     assert_eq!(strokes(SeenFrom::SHOT), (shot, without));
 }
 
-/// Beyond what the picture shows, an editor's view shows what lies round it, up to half a picture.
+/// An editor's view shows what lies round the picture: a quarter of it is made beyond each border.
 #[test]
 fn round_the_picture_the_floor_is_painted_too() {
     let scene = floor_scene(500.0);

@@ -74,6 +74,8 @@ type Stamp = Option<(u64, SystemTime)>;
 
 /// A scene that was prepared.
 struct Ready {
+    /// Whether it was prepared to be seen from anywhere.
+    is_for_anywhere: bool,
     prepared: Prepared,
     warnings: Vec<String>,
     inputs: Vec<PathBuf>,
@@ -119,19 +121,23 @@ impl Server<'_> {
         }
         let warnings = loaded.warnings.iter().map(ToString::to_string).collect();
         let prepared = session::prepare_by(&mut self.preparer, Arc::new(loaded), of_scene, SeenFrom::SHOT)?;
-        self.ready = Some(Ready { prepared, warnings, inputs, stamps });
+        self.ready = Some(Ready { prepared, is_for_anywhere: false, warnings, inputs, stamps });
         Ok(())
     }
 
-    /// Prepares again what pictures of this size need and the scene's own pictures do not.
+    /// Prepares again if pictures of this size need particles elsewhere than those before.
     fn ready_for(&mut self, size_px: Option<[u32; 2]>) -> Result<(), Failure> {
-        let (Some(ready), Some(size_px)) = (&mut self.ready, size_px) else { return Ok(()) };
+        let Some(ready) = &mut self.ready else { return Ok(()) };
         let painting = &ready.prepared.painting;
-        let seen_from = SeenFrom::for_options(painting.scene(), &FrameOptions::new(size_px));
-        if painting.is_partial() && matches!(seen_from, SeenFrom::Anywhere) {
+        let scene = painting.scene();
+        let size_px = size_px.unwrap_or([scene.size.0, scene.size.1]);
+        let seen_from = SeenFrom::for_options(scene, &FrameOptions::new(size_px));
+        let is_anywhere = matches!(seen_from, SeenFrom::Anywhere);
+        if is_anywhere != ready.is_for_anywhere && painting.depends_on_views() {
             let loaded = Arc::clone(painting.loaded());
             ready.prepared =
                 session::prepare_by(&mut self.preparer, loaded, &self.arguments.scene, seen_from)?;
+            ready.is_for_anywhere = is_anywhere;
         }
         Ok(())
     }

@@ -7,6 +7,7 @@ mod cells;
 mod dart_field;
 mod dart_grid;
 mod face_cones;
+mod levels;
 mod packed;
 mod paper;
 mod progressive;
@@ -21,9 +22,10 @@ use dart_grid::Dart;
 
 pub use candidates::scattered;
 pub use cells::{Cell, Cells, Needed};
+pub use levels::ProgressiveState;
 pub use packed::PackedParticle;
 pub use paper::{PolygonParticle, per_polygon};
-pub use progressive::{ProgressiveOrder, ProgressiveState, progressive};
+pub use progressive::{ProgressiveOrder, progressive};
 
 /// A particle: a point of a triangle, so that it follows any deformation of the mesh, with its position and normal.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,13 +12,16 @@ use impasto_scene::presets::LayerKind;
 use crate::body::BodySurface;
 use crate::body_shape::BodyShape;
 use crate::context::{Context, ObjectInputs};
-use crate::particle_count::{self, Sighting};
+use crate::particle_count::{self, Found, Sighting};
 use crate::parts::{BodyParts, Cap, fit_of, wanted_where_small};
 use crate::regions::BodyRegions;
 use crate::stroke_size::reach_px;
 use crate::view::PictureView;
 
 const LAYERS: usize = LayerKind::ALL.len();
+
+/// Coats with fewer particles have them everywhere.
+pub(crate) const LEAST_ON_WHOLE: f64 = 16_384.0;
 
 /// All that the counts of an object's coats depend on.
 pub(crate) struct CountInputs {
@@ -110,8 +113,8 @@ impl CountInputs {
         let body = &self.surface;
         let positions_at = |shape: &BodyShape| (!body.is_at_rest(shape)).then(|| body.positions_at(shape));
         let wanted_per_px = self.wanted_per_px(surface.mesh(), parts);
-        let needed: [f64; LAYERS] =
-            particle_count::find(surface, &self.sightings, positions_at, wanted_per_px);
+        let Found { needed, is_cut } =
+            particle_count::find::<LAYERS>(surface, &self.sightings, positions_at, wanted_per_px);
         let found = needed.map(|needed| particle_count::bounded(needed, self.least));
         let is_stated = |kind: usize| self.stated.filter(|_| kind == LayerKind::Body as usize);
         let counts = std::array::from_fn(|kind| match is_stated(kind) {
@@ -125,16 +128,11 @@ impl CountInputs {
             }
             None => found[kind],
         });
-        let wanted = std::array::from_fn(|kind| {
+        let may_depend_on_views = std::array::from_fn(|kind| {
             let is_fixed = is_stated(kind).is_some() || self.left_out[kind] || !self.is_by_view;
-            let is_toned = LayerKind::ALL[kind] == LayerKind::Underpainting;
-            match is_fixed {
-                true => 0.0,
-                false if is_toned => needed[kind],
-                false => needed[kind] * f64::from(self.more_wanted),
-            }
+            !is_fixed && (is_cut || needed[kind] * f64::from(self.more_wanted) > LEAST_ON_WHOLE)
         });
-        Counted { counts, wanted, more_wanted: f64::from(self.more_wanted) }
+        Counted { counts, may_depend_on_views, more_wanted: f64::from(self.more_wanted) }
     }
 
     /// Whether both are of one surface.
@@ -184,8 +182,8 @@ impl CountInputs {
 pub(crate) struct Counted {
     /// If they lie on the whole surface.
     pub(crate) counts: [usize; LAYERS],
-    /// The same without an upper bound; 0 for coats whose particles always lie on the whole surface.
-    pub(crate) wanted: [f64; LAYERS],
+    /// Whether it may pay to make them only where they are needed.
+    pub(crate) may_depend_on_views: [bool; LAYERS],
     /// The factor, at least 1, by which painted amounts raise the counts.
     pub(crate) more_wanted: f64,
 }

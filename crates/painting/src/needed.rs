@@ -11,15 +11,12 @@ use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
 
 use crate::context::{Context, ObjectInputs};
-use crate::counts::{CoatCount, CountInputs, Counted};
+use crate::counts::{CoatCount, CountInputs, Counted, LEAST_ON_WHOLE};
 use crate::particle_count::Sighting;
 use crate::parts::BodyParts;
 use crate::presence_bound::LEAST_COUNTED_FADE;
 
 const LAYERS: usize = LayerKind::ALL.len();
-
-/// Orders with fewer particles are made everywhere.
-const LEAST_ON_WHOLE: f64 = 16_384.0;
 
 /// Particles are left out of a coat only if at most this share of those that it would have everywhere is needed. Then the
 /// nearest spots may get more than they would have had, until this share of particles is made, or `MOST_MADE`.
@@ -35,9 +32,12 @@ const MOST_PAIRS: usize = 12_000_000;
 /// A cell's parts are alike while its radius is at most this share of its distance.
 const EVEN: f64 = 0.1;
 
+/// A cell that is not all inside the view is cut while its radius is more than this share of half the picture.
+const LARGE: f64 = 0.25;
+
 /// A cell that needs fewer particles is not cut, and none is cut more often than `MOST_DEPTH` times.
 const FEW: f64 = 4.0;
-const MOST_DEPTH: u32 = 10;
+const MOST_DEPTH: u32 = 12;
 
 /// All that decides where the particles of an object are needed.
 pub(crate) struct NeededInputs {
@@ -59,11 +59,6 @@ impl PartialEq for NeededInputs {
             && (self.margin, self.reach_px) == (other.margin, other.reach_px)
             && self.most_offset == other.most_offset
     }
-}
-
-/// Whether any coat has so many particles that it may pay to make them only where they are needed.
-pub(crate) fn may_pay(counted: &Counted) -> bool {
-    counted.wanted.iter().any(|&wanted| wanted > LEAST_ON_WHOLE)
 }
 
 impl NeededInputs {
@@ -119,7 +114,7 @@ impl NeededInputs {
         let seen: Vec<(SeenCell, [f64; LAYERS])> = cells.all().par_iter().map(seen).collect();
         let tree = SeenTree::new(seen);
         for (kind, count) in counts.iter_mut().enumerate() {
-            if counted.wanted[kind] > LEAST_ON_WHOLE
+            if counted.may_depend_on_views[kind]
                 && let Some(needed) = tree.count(kind, counted.counts[kind] as f64)
             {
                 *count = needed;
@@ -154,14 +149,14 @@ impl SeenCell {
             parts: Vec::new(),
         };
         for &eye in of {
-            let (px_per_area, radius_per_depth) = eyes[eye].most_per_area(cell);
+            let (px_per_area, is_uneven) = eyes[eye].most_per_area(cell);
             if px_per_area > 0.0 {
                 seen.eyes.push(eye);
                 seen.px_per_area = seen.px_per_area.max(px_per_area);
                 if eyes[eye].has_in_picture(cell) {
                     seen.px_in_picture = seen.px_in_picture.max(px_per_area);
                 }
-                seen.is_uneven |= radius_per_depth > EVEN;
+                seen.is_uneven |= is_uneven;
             }
         }
         seen
@@ -229,6 +224,9 @@ impl SeenTree {
             return None;
         }
         let count_on_whole = longest([everywhere, most], enough.max(MOST_MADE), made);
+        if count_on_whole <= LEAST_ON_WHOLE {
+            return None;
+        }
         Some(CoatCount {
             count_on_whole: count_on_whole.ceil() as usize,
             needed: Some(Arc::new(Needed {
@@ -266,6 +264,11 @@ fn longest([shortest, longest]: [f64; 2], most_made: f64, made: impl Fn(f64) -> 
 /// Sides of a space in model space; each with the length of its first three numbers.
 type Planes = [(DVec4, f64); 5];
 
+/// Whether all of a sphere lies on the near side of all planes.
+fn is_inside(planes: &Planes, center: DVec3, radius: f64) -> bool {
+    planes.iter().all(|(plane, length)| plane.dot(center.extend(1.0)) < -length * radius)
+}
+
 /// Whether all of a sphere lies beyond one of the planes.
 fn is_beyond(planes: &Planes, center: DVec3, radius: f64) -> bool {
     planes.iter().any(|(plane, length)| plane.dot(center.extend(1.0)) > length * radius)
@@ -278,6 +281,7 @@ struct Eye {
     planes: Planes,
     /// The same for the picture alone.
     picture: Planes,
+    half_px: DVec2,
     near: f64,
     row_w_length: f64,
     most_offset: f64,
@@ -303,6 +307,7 @@ impl Eye {
         Self {
             planes: planes(margin, 2.0 * reach_px),
             picture: planes(1.0, 0.0),
+            half_px: sighting.half_size_px,
             near: sighting.near,
             row_w_length: map.row_w.truncate().length(),
             map: *map,
@@ -315,19 +320,20 @@ impl Eye {
         !is_beyond(&self.picture, cell.center, cell.radius + self.most_offset)
     }
 
-    /// The most pixels that a unit of a cell's surface may fill in this view, if strokes near an outline count as many
-    /// times as they are laid there; 0 where the view does not see the cell. And the cell's radius over its depth.
-    fn most_per_area(&self, cell: &Cell) -> (f64, f64) {
+    /// An upper bound on the pixels that a unit of a cell's surface fills in this view, divided by the fade of strokes near
+    /// an outline; 0 where the view does not see the cell. And whether its parts may differ much: it is large beside its
+    /// depth, or a large part of the picture and not all inside.
+    fn most_per_area(&self, cell: &Cell) -> (f64, bool) {
         let radius = cell.radius + self.most_offset;
         if is_beyond(&self.planes, cell.center, radius) {
-            return (0.0, 0.0);
+            return (0.0, false);
         }
         let center = cell.center.extend(1.0);
         let map = &self.map;
         let is_perspective = self.row_w_length > 0.0;
         let w = map.row_w.dot(center);
         if is_perspective && w - self.row_w_length * radius <= self.near {
-            return (f64::INFINITY, f64::INFINITY);
+            return (f64::INFINITY, true);
         }
         let [along_x, along_y] = map.jacobian(cell.center);
         let to_eye = along_x.cross(along_y);
@@ -341,11 +347,13 @@ impl Eye {
         let facing =
             above / if above > 0.0 { 1.0 - radius_per_depth } else { 1.0 + radius_per_depth } + cell.spread;
         if facing <= 0.0 {
-            return (0.0, radius_per_depth);
+            return (0.0, false);
         }
         let most = px_per_area * nearer * most_over_fade(facing.min(1.0), map.uneven.is_some());
         // Where it is not a number, the cell is seen along its own plane.
-        (if most.is_nan() { f64::INFINITY } else { most }, radius_per_depth)
+        let is_large = cell.radius * px_per_area.sqrt() > LARGE * self.half_px.min_element();
+        let is_uneven = radius_per_depth > EVEN || is_large && !is_inside(&self.planes, cell.center, radius);
+        (if most.is_nan() { f64::INFINITY } else { most }, is_uneven)
     }
 }
 

@@ -21,7 +21,7 @@ use crate::field::{BodyField, FieldInputs, FieldSamples};
 use crate::frame::Brushes;
 use crate::kept::{KeptCoat, KeptObject};
 use crate::late_field::LateField;
-use crate::needed::{self, NeededInputs};
+use crate::needed::NeededInputs;
 use crate::noise_displace::NoiseInputs;
 use crate::particles::Particles;
 use crate::parts::BodyParts;
@@ -181,7 +181,7 @@ impl ObjectCache {
             Some(inputs)
                 if context.seen.is_as_before()
                     && self.needed.inputs().is_some_and(|before| before.counted.same_surface(inputs)) => {}
-            Some(inputs) if needed::may_pay(&counted) => {
+            Some(inputs) if counted.may_depend_on_views.contains(&true) => {
                 let inputs = NeededInputs::new(context, object, inputs);
                 self.needed.update(inputs, |inputs, _| inputs.counts(&counted, surface(), &parts));
             }
@@ -192,11 +192,13 @@ impl ObjectCache {
     /// How many particles each coat is to have.
     pub(crate) fn counted(&self) -> BodyCounts {
         let counted = self.counts.output().cloned().unwrap_or_default();
-        let of_coats = self.needed.output().cloned();
-        BodyCounts {
-            of_coats: of_coats.unwrap_or_else(|| counted.counts.map(CoatCount::everywhere)),
-            counted,
+        let mut of_coats = counted.counts.map(CoatCount::everywhere);
+        for (count, needed) in of_coats.iter_mut().zip(self.needed.output().into_iter().flatten()) {
+            if needed.needed.is_some() {
+                *count = needed.clone();
+            }
         }
+        BodyCounts { of_coats, counted }
     }
 
     /// Samples the particles of every coat.

@@ -140,6 +140,16 @@ impl Painting {
         self.coats.iter().any(|coat| !coat.sampled.is_everywhere)
     }
 
+    /// Whether it is another painting if it is prepared to be seen from elsewhere.
+    pub fn depends_on_views(&self) -> bool {
+        self.bodies.iter().any(|body| body.counts.counted.may_depend_on_views.contains(&true))
+    }
+
+    /// Whether both have the same particles in the same painting order.
+    pub fn has_particles_of(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.order, &other.order)
+    }
+
     /// Memory of all baked particles once all their looks are known, in bytes.
     pub fn particle_bytes(&self) -> usize {
         self.coats.iter().map(|coat| coat.baked.bytes()).sum()

@@ -70,6 +70,13 @@ struct CountedFace<const LAYERS: usize> {
     wanted_per_px: [f64; LAYERS],
 }
 
+/// How many particles each layer needs.
+pub(crate) struct Found<const LAYERS: usize> {
+    pub(crate) needed: [f64; LAYERS],
+    /// Whether views see large faces in part, or very unevenly: then a spot that is small beside the face may need more.
+    pub(crate) is_cut: bool,
+}
+
 /// How many particles each layer needs on the whole surface. They are enough that, in every view, nine tenths of the
 /// object's area in the picture have all the strokes that are wanted there. `wanted_per_px` gives the strokes per
 /// pixel wanted on a triangle, from its index, a point of it and its normal. `positions_at` gives the vertices'
@@ -79,7 +86,7 @@ pub(crate) fn find<const LAYERS: usize>(
     sightings: &[Sighting],
     positions_at: impl Fn(&BodyShape) -> Option<Vec<Vec3>> + Sync,
     wanted_per_px: impl Fn(usize, DVec3, DVec3) -> [f32; LAYERS],
-) -> [f64; LAYERS] {
+) -> Found<LAYERS> {
     // Odd, since front and back faces of a sheet alternate: an even stride would take one side only.
     let stride = surface.faces().count().div_ceil(FACES) | 1;
     let faces: Vec<CountedFace<LAYERS>> = surface
@@ -115,7 +122,12 @@ pub(crate) fn find<const LAYERS: usize>(
     };
     let needed_per_area = sightings.par_iter().map(needed_in).reduce(|| [0.0; LAYERS], most);
     // A quarter more, since the highest ranks are only half present at just the number wanted.
-    needed_per_area.map(|needed| needed * surface.area() * 1.25)
+    Found {
+        needed: needed_per_area.map(|needed| needed * surface.area() * 1.25),
+        is_cut: faces
+            .windows(2)
+            .any(|pair| (pair[0].triangle, pair[0].flipped) == (pair[1].triangle, pair[1].flipped)),
+    }
 }
 
 /// The count of a coat that needs so many, at least `least` and at most [`MOST`].
@@ -281,7 +293,7 @@ mod tests {
         let counted = |cells: u32| {
             let mesh = floor(10.0, cells);
             let surface = Surface::new(&mesh, |_| true);
-            find(&surface, std::slice::from_ref(&sighting), |_| None, |_, _, _| [0.001])[0]
+            find(&surface, std::slice::from_ref(&sighting), |_| None, |_, _, _| [0.001]).needed[0]
         };
         let (rough, fine) = (counted(1), counted(100));
         assert!((rough / fine - 1.0).abs() < 0.2, "{rough} particles, but {fine} on the grid");
@@ -298,7 +310,7 @@ mod tests {
             let map = ScreenMap::new(view, DAffine3::IDENTITY, PixelLens::Perspective { focal_px: 300.0 });
             let (half_size_px, shape) = (DVec2::new(320.0, 180.0), BodyShape::default());
             let sighting = Sighting { map, half_size_px, near: 0.1, shape };
-            find(&surface, &[sighting], |_| None, |_, _, _| [0.01])[0]
+            find(&surface, &[sighting], |_| None, |_, _, _| [0.01]).needed[0]
         };
         let [above, below] = [4.0, -4.0].map(counted);
         assert!(above > 300.0 && (above / below - 1.0).abs() < 0.05, "{above} from above, {below} below");
@@ -323,7 +335,7 @@ mod tests {
                     .extend(one.triangles.iter().map(|of| of.map(|corner| corner + level * corners)));
             }
             let surface = Surface::new(&mesh, |_| true);
-            find(&surface, std::slice::from_ref(&sighting), |_| None, |_, _, _| [0.001])[0]
+            find(&surface, std::slice::from_ref(&sighting), |_| None, |_, _, _| [0.001]).needed[0]
         };
         let [one, some, many, more] = [1, 8, 64, 128].map(counted);
         assert!((some / one / 8.0 - 1.0).abs() < 0.1, "8 floors need {some}, one needs {one}");

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::cells::{Cell, Cells, Needed};
 use super::dart_field::{Accepted, DartField};
 use super::dart_grid::Dart;
-use super::progressive::{ProgressiveState, TRIES};
+use super::levels::{ProgressiveState, TRIES};
 use super::{Particle, Surface};
 use crate::hash;
 

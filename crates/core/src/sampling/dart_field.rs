@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::dart_grid::{Dart, DartGrid};
 use super::face_cones::FaceCones;
-use super::progressive::LEAST_CHUNK;
+use super::levels::LEAST_CHUNK;
 use super::{Particle, Surface};
 
 /// Stands for no dart, in place of an index.

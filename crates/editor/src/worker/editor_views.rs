@@ -19,10 +19,10 @@ pub(super) struct EditorViews {
 /// Margins are rounded up to this, so that few sizes of the window ask for others.
 const MARGIN_STEP: f64 = 0.5;
 
-/// Two lenses are the same if they differ by less than this share: one was widened and narrowed again.
+/// `shot_camera` undoes the widening with rounding; lenses that differ by less than this share are the same.
 const SAME_LENS: f64 = 1e-4;
 
-/// Whether an edit, a drag or playback is under way.
+/// Whether a drag or playback is under way.
 pub(super) fn is_moving(order: &Order) -> bool {
     order.job.views.iter().any(|view| view.moving)
 }
@@ -51,7 +51,7 @@ impl EditorViews {
     }
 }
 
-/// Whether the shot's camera at the whole frames of the timeline does not show the same.
+/// Whether the view is not one of the shot's at a whole frame of the timeline, nor that of the reference.
 fn is_free(view: &ViewJob, scene: &Scene) -> bool {
     let [shot, now] = [motion::camera_at(scene, view.frame), view.shot_camera()];
     let near = |a: f64, b: f64| (a - b).abs() <= SAME_LENS * a.abs().max(b.abs());
@@ -62,5 +62,7 @@ fn is_free(view: &ViewJob, scene: &Scene) -> bool {
     };
     let of = |pose: &CameraPose| (pose.eye, pose.target, pose.roll_rad);
     let in_timeline = (scene.timeline.first as f64..=scene.timeline.last as f64).contains(&view.frame);
-    of(&shot) != of(&now) || !same_lens || view.frame.fract() != 0.0 || !in_timeline
+    let is_of_shot = of(&shot) == of(&now) && same_lens && view.frame.fract() == 0.0 && in_timeline;
+    let (reference, frame) = motion::referred_to(scene, &scene.reference);
+    !is_of_shot && (of(&reference), frame) != (of(&now), view.frame)
 }

@@ -9,12 +9,12 @@ use egui::ColorImage;
 use impasto_editor_model::picking::Picker;
 use impasto_gl_render::context::{self, Driver, OpenOptions};
 use impasto_gl_render::{RenderError, Renderer};
-use impasto_painting::{Frame, Painting, PrepareError, PrepareOptions, Preparer, Recall, SeenFrom};
+use impasto_painting::{Frame, Painting, Preparer, Recall};
 use impasto_scene::mesh_file::MeshFile;
 
 use super::ahead::Ahead;
 use super::draft::DraftSize;
-use super::editor_views::{EditorViews, is_moving};
+use super::editor_views::EditorViews;
 use super::film::{Film, Finished};
 use super::mailbox::{Mailbox, Order};
 use super::view_frame::{DrawOptions, frame_of, frame_options, styled};
@@ -68,6 +68,7 @@ fn panic_message(panic: &(dyn Any + Send)) -> String {
 
 type Tell<'a> = &'a dyn Fn(Report);
 
+mod preparing;
 #[cfg(test)]
 mod tests;
 
@@ -75,7 +76,7 @@ mod tests;
 struct Prepared {
     painting: Painting,
     serial: u64,
-    /// From where it was prepared to be seen; `None` if that was left as it was, since an edit was under way.
+    /// The views that it was prepared for; `None` if it was prepared during a drag.
     seen_from: Option<EditorViews>,
 }
 
@@ -164,7 +165,8 @@ impl PaintWorker {
         wanted.iter().for_each(|&index| self.show_finished(order, index, tell));
         let drafts = wanted.iter().copied().filter(|&index| !self.shows(order, index));
         let drafts: Vec<usize> = drafts.collect();
-        if !drafts.is_empty() && !DraftSize::is_needless(self.exact_s) {
+        let lacking = self.lacking(order);
+        if !drafts.is_empty() && (lacking.is_some() || !DraftSize::is_needless(self.exact_s)) {
             let began = Instant::now();
             for &index in &drafts {
                 let size_px = self.draft_size.of(views[index].size_px);
@@ -175,7 +177,7 @@ impl PaintWorker {
             }
             self.draft_size.took(began.elapsed().as_secs_f64());
         }
-        if let Some(views) = self.lacking(order) {
+        if let Some(views) = lacking {
             if !mailbox.rests(order, REST) {
                 return;
             }
@@ -310,66 +312,6 @@ impl PaintWorker {
                 strokes_of: Vec::new(),
                 seconds: began.elapsed().as_secs_f64(),
             }));
-        }
-    }
-
-    /// The painting of an order's scene. While an edit is under way, large surfaces keep the particles that they have.
-    fn prepare(&mut self, order: &Order, mailbox: &Mailbox, tell: Tell<'_>) -> Option<Painting> {
-        if let Some(known) = self.prepared.as_ref().filter(|known| known.serial == order.job.serial) {
-            return Some(known.painting.clone());
-        }
-        let views = (!is_moving(order)).then(|| EditorViews::of(order));
-        self.prepare_for(order, views, mailbox, tell)
-    }
-
-    /// The views of an order at rest, if its scene was prepared for others, so that large surfaces may lack particles.
-    fn lacking(&self, order: &Order) -> Option<EditorViews> {
-        let known =
-            self.prepared.as_ref().filter(|known| known.painting.is_partial() && !is_moving(order))?;
-        let views = EditorViews::of(order);
-        (known.seen_from.as_ref() != Some(&views)).then_some(views)
-    }
-
-    fn prepare_for(
-        &mut self,
-        order: &Order,
-        views: Option<EditorViews>,
-        mailbox: &Mailbox,
-        tell: Tell<'_>,
-    ) -> Option<Painting> {
-        let serial = order.job.serial;
-        let is_again = self.prepared.as_ref().is_some_and(|known| known.serial == serial);
-        // What is made again for other views is there already, so it may wait.
-        let give_up = || mailbox.gives_up(order) || is_again && mailbox.is_stale(order);
-        let options = PrepareOptions {
-            give_up: &give_up,
-            memory_bytes: impasto_scene::memory::available_bytes(),
-            seen_from: views.as_ref().map_or(SeenFrom::AsBefore, EditorViews::seen_from),
-            ..PrepareOptions::default()
-        };
-        match self.preparer.prepare_with(Arc::clone(&order.job.loaded), &options) {
-            Ok(painting) => {
-                if is_again {
-                    // Pictures of the painting before lack strokes.
-                    self.drawn.iter_mut().flatten().for_each(|drawn| drawn.exact = false);
-                    self.film.clear();
-                    self.ahead = Ahead::default();
-                    self.held_view = None;
-                }
-                self.prepared = Some(Prepared { painting: painting.clone(), serial, seen_from: views });
-                let frame = order.job.views.first().map_or(0.0, |view| view.frame);
-                self.picker.follow(&painting, frame);
-                tell(Report::Prepared(Box::new((painting.clone(), self.picker.clone())), serial));
-                Some(painting)
-            }
-            Err(PrepareError::GivenUp) => None,
-            Err(error) => {
-                // The painting that is there still serves.
-                if !is_again {
-                    tell(Report::Failed(error.to_string()));
-                }
-                None
-            }
         }
     }
 

@@ -161,7 +161,7 @@ struct ObjectArrays<'a> {
 
 impl<'a> ObjectArrays<'a> {
     fn next(arrays: &mut Arrays<'a>, surface: &'a BodySurface) -> Result<Self, Unfit> {
-        let [counts, wanted, has] = arrays.next::<[u64; LAYERS]>()?.numbers()?;
+        let [counts, may_depend, has] = arrays.next::<[u64; LAYERS]>()?.numbers()?;
         let [more_wanted] = arrays.next::<u64>()?.numbers()?;
         let mut coats = Vec::new();
         for has in has {
@@ -177,7 +177,7 @@ impl<'a> ObjectArrays<'a> {
         }
         let counted = Counted {
             counts: whole,
-            wanted: wanted.map(f64::from_bits),
+            may_depend_on_views: may_depend.map(|may| may != 0),
             more_wanted: f64::from_bits(more_wanted),
         };
         Ok(Self { counted, coats })

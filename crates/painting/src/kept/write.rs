@@ -49,8 +49,8 @@ impl Painting {
         for (object, body) in self.bodies.iter().enumerate() {
             let coats = LayerKind::ALL.map(|kind| self.coat(object, kind));
             let has = coats.map(|coat| u64::from(coat.is_some()));
-            let Counted { counts, wanted, more_wanted } = body.counts.counted;
-            arrays.push_made(&[counts.map(|count| count as u64), wanted.map(f64::to_bits), has]);
+            let Counted { counts, may_depend_on_views, more_wanted } = body.counts.counted;
+            arrays.push_made(&[counts.map(|count| count as u64), may_depend_on_views.map(u64::from), has]);
             arrays.push_made(&[more_wanted.to_bits()]);
             coats.into_iter().flatten().for_each(|coat| push_coat(coat, &mut arrays));
         }

@@ -22,8 +22,8 @@ pub enum SeenFrom<'a> {
         /// [`SeenFrom::MARGIN`].
         margin: f64,
     },
-    /// From where the scene before was seen, while an edit is under way: what is made where is kept for surfaces that are
-    /// the same. For all others as `Shot`.
+    /// For a drag: unchanged surfaces keep their particles, whatever views these were made for; others are made as for
+    /// [`SeenFrom::SHOT`].
     AsBefore,
     /// From anywhere.
     Anywhere,
@@ -113,7 +113,7 @@ impl<'a> Seen<'a> {
             && self.scene.stage.shot.is_none()
     }
 
-    /// Every view of an object, each once while it does not change; `None` if there may be others.
+    /// Every view of an object, equal ones in a row once; `None` if there may be others.
     pub(crate) fn sightings(&self, object: usize) -> Option<Vec<Sighting>> {
         let mut sightings: Vec<Sighting> = Vec::new();
         for (view, poses) in self.views()? {

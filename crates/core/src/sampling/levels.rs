@@ -1,0 +1,88 @@
+//! The levels of a progressive order: how many particles each is meant to have, how far apart, and how far an order has
+//! come.
+
+use super::{Surface, hexagonal_spacing};
+
+/// Least distance between the particles of a level. It is a share of the hexagonal spacing for the number of particles
+/// that the level is meant to end with.
+const SPACING: f64 = 0.56;
+
+/// Candidates thrown per particle that a level is meant to add. More is smoother and slower.
+pub(super) const TRIES: usize = 5;
+
+/// A level ends with this many times the particles that it began with.
+const GROWTH: f64 = 1.08;
+
+/// How many particles a level adds, as a share of those that it is meant to add, on surfaces without folds or borders:
+/// a sheet, a ball and a creased sheet add 0.924 to 0.926, a rod 0.973.
+const FILLED: f64 = 0.925;
+
+/// The least that one task handles: less is not worth another thread.
+pub(super) const LEAST_CHUNK: usize = 1024;
+
+/// How far a progressive order has come.
+///
+/// The first levels, up to at least 8,192 particles, are always thrown on the whole surface, and a particle's ordinal
+/// is its index. Later levels may be thrown on a part of the surface only. Then nobody can count the particles that
+/// come before one, so its ordinal is computed from the number of its try. In this way neither a particle nor its
+/// ordinal depends on what is far away.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProgressiveState {
+    /// Candidates thrown so far.
+    pub(super) thrown: u32,
+    /// How many particles the last level was meant to end with.
+    pub(super) level_end: usize,
+    /// At the end of the last level in which ordinals are indices: how many particles there were, and how many there
+    /// were meant to be.
+    pub(super) counted: [usize; 2],
+}
+
+impl Default for ProgressiveState {
+    /// Before the first particle.
+    fn default() -> Self {
+        Self { thrown: 0, level_end: 1, counted: [0, 1] }
+    }
+}
+
+impl ProgressiveState {
+    /// The state as numbers, to be stored for another process.
+    pub fn to_numbers(self) -> [u64; 4] {
+        let [count, level_end] = self.counted.map(|number| number as u64);
+        [u64::from(self.thrown), self.level_end as u64, count, level_end]
+    }
+
+    /// The state for which [`ProgressiveState::to_numbers`] gave these numbers; `None` for numbers that it never gives.
+    pub fn from_numbers([thrown, level_end, count, counted_end]: [u64; 4]) -> Option<Self> {
+        let whole = |number: u64| usize::try_from(number).ok();
+        let level_end = whole(level_end).filter(|&end| end > 0)?;
+        let counted = [whole(count)?, whole(counted_end).filter(|&end| (1..=level_end).contains(&end))?];
+        Some(Self { thrown: u32::try_from(thrown).ok()?, level_end, counted })
+    }
+
+    /// Whether an order that lies everywhere may have come so far with this many particles.
+    pub fn fits(self, particles: usize) -> bool {
+        // Levels are at least half filled; a quarter leaves room for rounding.
+        self.counted[0] <= particles && self.level_end / 4 <= particles.saturating_add(1)
+    }
+
+    /// How many particles, from the first on, have their indices as ordinals.
+    pub fn counted(self) -> usize {
+        self.counted[0]
+    }
+
+    /// The ordinal that belongs to a number of particles that levels are meant to have.
+    pub(super) fn ordinal_at(self, meant: f64) -> f64 {
+        let [count, level_end] = self.counted.map(|number| number as f64);
+        count + FILLED * (meant - level_end)
+    }
+}
+
+/// Where the level ends that begins here.
+pub(super) fn next_level_end(level_begin: usize) -> usize {
+    (level_begin + 1).max((level_begin as f64 * GROWTH) as usize)
+}
+
+/// The least distance between the particles of a level that is meant to end with `level_end` particles.
+pub(super) fn spacing(surface: &Surface<'_>, level_end: usize) -> f32 {
+    (SPACING * hexagonal_spacing(surface.area(), level_end)) as f32
+}
