@@ -39,6 +39,10 @@ const LARGE: f64 = 0.25;
 const FEW: f64 = 4.0;
 const MOST_DEPTH: u32 = 12;
 
+/// All cells together are cut about so often; each that is to be cut, this often at least.
+const MOST_CUTS: usize = 65_536;
+const LEAST_CUTS: usize = 16;
+
 /// All that decides where the particles of an object are needed.
 pub(crate) struct NeededInputs {
     pub(crate) counted: Arc<CountInputs>,
@@ -93,7 +97,7 @@ impl NeededInputs {
         let all_eyes: Vec<usize> = (0..eyes.len()).collect();
         let wanted_per_px = self.counted.wanted_per_px(surface.mesh(), parts);
         let seen = |cell: &Cell| {
-            let mut seen = SeenCell::new(cell, &eyes, &all_eyes);
+            let seen = SeenCell::new(cell, &eyes, &all_eyes);
             if seen.px_per_area <= 0.0 {
                 return (seen, [0.0; LAYERS]);
             }
@@ -107,11 +111,15 @@ impl NeededInputs {
             let still_present = (-f64::from(presence::ABSENT_LN)).exp();
             let needed =
                 wanted.map(|wanted| f64::from(wanted) * surface.area() * still_present * counted.more_wanted);
-            let most_needed = needed.into_iter().fold(0.0, f64::max);
-            seen.refine(surface, &eyes, (most_needed, MOST_DEPTH));
             (seen, needed)
         };
-        let seen: Vec<(SeenCell, [f64; LAYERS])> = cells.all().par_iter().map(seen).collect();
+        let mut seen: Vec<(SeenCell, [f64; LAYERS])> = cells.all().par_iter().map(seen).collect();
+        let is_cut = |(seen, needed): &(SeenCell, [f64; LAYERS])| seen.is_to_cut(most(needed));
+        let cuts = MOST_CUTS / seen.iter().filter(|seen| is_cut(seen)).count().max(1);
+        let refine = |(seen, needed): &mut (SeenCell, [f64; LAYERS])| {
+            seen.refine(surface, &eyes, (most(needed), MOST_DEPTH, cuts.max(LEAST_CUTS)));
+        };
+        seen.par_iter_mut().for_each(refine);
         let tree = SeenTree::new(seen);
         for (kind, count) in counts.iter_mut().enumerate() {
             if counted.may_depend_on_views[kind]
@@ -122,6 +130,11 @@ impl NeededInputs {
         }
         counts
     }
+}
+
+/// The most particles that any layer needs for each pixel that a unit of surface fills.
+fn most(needed: &[f64; LAYERS]) -> f64 {
+    needed.iter().copied().fold(0.0, f64::max)
 }
 
 /// A cell, with the smaller ones that it is cut into where a view sees them very differently.
@@ -162,15 +175,21 @@ impl SeenCell {
         seen
     }
 
-    /// Cuts the cell while its parts differ much and it needs many particles: `needed` for each pixel that a unit of
-    /// surface fills.
-    fn refine(&mut self, surface: &Surface<'_>, eyes: &[Eye], (needed, depth): (f64, u32)) {
-        if !self.is_uneven || depth == 0 || needed * self.px_per_area * self.cell.share < FEW {
+    /// Whether its parts differ much and it needs many particles: `needed` for each pixel that a unit of surface fills.
+    fn is_to_cut(&self, needed: f64) -> bool {
+        self.is_uneven && needed * self.px_per_area * self.cell.share >= FEW
+    }
+
+    /// Cuts the cell while it is to be cut, at most so deep and into so many parts.
+    fn refine(&mut self, surface: &Surface<'_>, eyes: &[Eye], (needed, depth, cuts): (f64, u32, usize)) {
+        if depth == 0 || cuts == 0 || !self.is_to_cut(needed) {
             return;
         }
         let parts = self.cell.split(surface);
         self.parts = parts.iter().map(|part| Self::new(part, eyes, &self.eyes)).collect();
-        self.parts.iter_mut().for_each(|part| part.refine(surface, eyes, (needed, depth - 1)));
+        let sharing = self.parts.iter().filter(|part| part.is_to_cut(needed)).count().max(1);
+        let cuts = (cuts - 1).div_ceil(sharing);
+        self.parts.iter_mut().for_each(|part| part.refine(surface, eyes, (needed, depth - 1, cuts)));
         if !self.parts.is_empty() {
             let most = |of: fn(&Self) -> f64| self.parts.iter().map(of).fold(0.0, f64::max);
             (self.px_per_area, self.px_in_picture) =

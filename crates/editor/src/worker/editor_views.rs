@@ -38,7 +38,7 @@ impl EditorViews {
             let shot_height = f64::from(view.shot_height_px.max(1.0));
             (height / shot_height).max(width / (shot_height * aspect))
         };
-        let reach = views.iter().map(reach).fold(SeenFrom::MARGIN, f64::max);
+        let reach = views.iter().map(reach).fold(SeenFrom::MARGIN, f64::max).min(SeenFrom::MOST_MARGIN);
         Self {
             free: free.map(|view| (view.shot_camera(), view.frame)).collect(),
             margin: (reach / MARGIN_STEP - 0.01).ceil() * MARGIN_STEP,

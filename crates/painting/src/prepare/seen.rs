@@ -33,6 +33,9 @@ impl SeenFrom<'_> {
     /// An editor shows what lies round the shot, and pictures may be wider than the scene states.
     pub const MARGIN: f64 = 1.5;
 
+    /// Margins are cut to this.
+    pub const MOST_MARGIN: f64 = 8.0;
+
     /// By the scene's camera alone.
     pub const SHOT: Self = Self::Shot { also: &[], margin: Self::MARGIN };
 
@@ -96,7 +99,7 @@ impl<'a> Seen<'a> {
     /// How far from the middle of the picture there are particles, in half sizes of the picture.
     pub(crate) fn margin(&self) -> f64 {
         match self.from {
-            SeenFrom::Shot { margin, .. } => margin.max(SeenFrom::MARGIN),
+            SeenFrom::Shot { margin, .. } => margin.clamp(SeenFrom::MARGIN, SeenFrom::MOST_MARGIN),
             SeenFrom::AsBefore | SeenFrom::Anywhere => SeenFrom::MARGIN,
         }
     }
