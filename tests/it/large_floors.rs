@@ -4,9 +4,11 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use impasto_core::presence;
+use impasto_gl_render::context::Driver;
 use impasto_painting::{FrameOptions, Painting, PrepareOptions, Preparer, SeenFrom, prepare};
-use impasto_scene::document::{Lens, Scene};
+use impasto_scene::document::{Color, Lens, Light, LightKind, MaterialOverride, Scene, Style};
 use impasto_scene::motion::CameraPose;
+use impasto_tests::pictures::renderer;
 use impasto_tests::shapes;
 
 const SIZE_PX: [u32; 2] = [640, 360];
@@ -166,4 +168,29 @@ fn round_the_picture_the_floor_is_painted_too() {
     };
     let (beside, middle) = (near(0.0, 120.0), near(390.0, 510.0));
     assert!(beside * 10 > middle * 8, "{beside} strokes beside the picture, {middle} in its middle");
+}
+
+/// Strokes fade where ground is seen so flat. There its own colour stands for them, not the tone under all paint.
+#[test]
+fn to_the_horizon_the_ground_keeps_its_colour() {
+    let mut scene = floor_scene(5000.0);
+    scene.background = Color([0.2, 0.3, 0.9]);
+    scene.objects[0].material =
+        Some(MaterialOverride { color: Some(Color([0.45, 0.6, 0.25])), ..MaterialOverride::default() });
+    scene.lights = vec![Light { intensity: 1.0, ..Light::new("sky", LightKind::Ambient) }];
+    let painting = prepare(shapes::loaded(scene, [floor(2000.0, 1)])).unwrap();
+    let mut renderer = renderer(Driver::Egl);
+    let mut mean = |painting: &Painting| {
+        let picture = renderer.render(&painting.at(0.0, &FrameOptions::new(SIZE_PX))).unwrap();
+        // The horizon is 110.5 rows down.
+        let strip = &picture.rgba8[112 * 640 * 4..118 * 640 * 4];
+        let sum =
+            |channel: usize| -> f64 { strip.iter().skip(channel).step_by(4).map(|&of| f64::from(of)).sum() };
+        [0, 1, 2].map(|channel| sum(channel) / (6.0 * 640.0))
+    };
+    let [painted, plain] = [mean(&painting), mean(&painting.in_style(Style::Reference))];
+    for (painted, plain) in painted.iter().zip(plain) {
+        // Varnish makes colours fuller by up to 8.
+        assert!((painted - plain).abs() < 10.0, "{painted}, not {plain}");
+    }
 }

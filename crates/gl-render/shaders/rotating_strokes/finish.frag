@@ -1,6 +1,10 @@
 // Draws paint over its ground as a solid surface in the light of a room: relief, canvas where paint is thin, furrows,
 // varnish.
 #include "shared/encode.glsl"
+#ifndef DRAFT
+#include "shared/lens.glsl"
+uniform sampler2D normal;            // of the surface, world space, towards the eye; 0 where noise colours it
+#endif
 uniform sampler2D picture;           // premultiplied, display-linear
 uniform sampler2D reference_color;   // alpha 1 where a body is
 #ifndef DRAFT
@@ -40,6 +44,19 @@ const float MELTED_RELIEF = 0.45;
 #endif
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 
+#ifndef DRAFT
+// The cosines between which strokes fade near an outline until few are left. Round bodies are seen so flat only within
+// less than a pixel of their outline, but ground that runs to the horizon in a wide strip.
+const vec2 FLAT = vec2(0.015, 0.08);
+
+// How flat a surface is seen: 1 where its own colour must stand for the strokes that faded, 0 where they are there.
+float flatness(ivec2 at) {
+    vec3 facing = texelFetch(normal, at, 0).rgb;
+    if (facing == vec3(0.0)) return 0.0;
+    return 1.0 - smoothstep(FLAT.x, FLAT.y, dot(normalize(facing), towards_eye_from_px(vec2(at) + 0.5)));
+}
+#endif
+
 vec4 toned_ground(ivec2 at) {
     vec4 body = texelFetch(reference_color, at, 0);
 #ifdef DRAFT
@@ -48,7 +65,9 @@ vec4 toned_ground(ivec2 at) {
     float hides = wash > 0.0 ? 1.0 : 0.0;
 #else
     vec3 under = mix(body.rgb * vec3(0.90, 0.85, 0.80), tone.rgb, tone.a);
-    float hides = wash;
+    float flat_there = flatness(at);
+    under = mix(under, body.rgb, flat_there);
+    float hides = wash > 0.0 ? mix(wash, 1.0, flat_there) : 0.0;
 #endif
     // Where the background is transparent, so is the ground.
     return vec4(mix(background.rgb, under, hides * body.a * background.a), background.a);

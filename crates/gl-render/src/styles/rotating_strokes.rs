@@ -23,7 +23,7 @@ use crate::fragments::PaintedLayer;
 use crate::gl::{
     Blend, Bound, DrawState, Format, Framebuffer, GlError, Gpu, Halt, Program, Texture, VertexArray, Vertices,
 };
-use crate::lens::{LENS_UNIFORMS, LensSetup};
+use crate::lens::{LENS_UNIFORMS, LensSetup, RAY_UNIFORMS};
 use crate::marks::Marks;
 use crate::palettes::palette_texture;
 use crate::stroke_buffers::StrokeBuffers;
@@ -318,8 +318,10 @@ impl RotatingStrokes {
         if frame.quality == Quality::Draft {
             return bound;
         }
+        let lens = LensSetup::new(&frame.view, frame.size_px);
         covered
-            .set_surface(bound)
+            .set_surface(lens.set(bound, &RAY_UNIFORMS))
+            .texture("normal", &input.reference.normal)
             .set("tone", tone)
             .texture("height", &targets.height)
             .texture("soft_height", &targets.soft_height)

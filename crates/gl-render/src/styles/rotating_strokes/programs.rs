@@ -4,7 +4,7 @@ use impasto_painting::Quality;
 use impasto_painting::frame::LayerKind;
 
 use crate::gl::{GlError, Gpu, Program, ProgramSource, ShaderFile};
-use crate::lens::LENS_UNIFORMS;
+use crate::lens::{LENS_UNIFORMS, RAY_UNIFORMS};
 use crate::lighting::LIGHT_UNIFORMS;
 use crate::shader_files::{REFERENCE, ROTATING_STROKES, SHARED};
 
@@ -193,6 +193,8 @@ const FINISH: ProgramSource<'static> = ProgramSource {
     uniforms: &[
         FINISH_UNIFORMS,
         &["surface", "height", "soft_height", "canvas", "tone", "to_light", "canvas_axes", "canvas_origin"],
+        &["normal"],
+        &RAY_UNIFORMS,
     ],
     ..DRAFT_FINISH
 };
