@@ -297,4 +297,8 @@ fn set_writes_one_field_and_leaves_the_text() {
         let (is_done, words) = set(&[wrong]);
         assert!(!is_done && !words.is_empty() && text() == before, "{wrong}: {words}");
     }
+    // A file that is no text is refused as every command refuses it.
+    std::fs::write(&scene, b"(version: 1,\n name: \"\xff\")").unwrap();
+    let (is_done, words) = set(&["strokes.scale=2"]);
+    assert!(!is_done && words.contains(":2:8: error: this file is not UTF-8 text"), "{words}");
 }

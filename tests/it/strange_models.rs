@@ -44,6 +44,22 @@ fn normals_that_run_along_their_faces_are_made_anew() {
 }
 
 #[test]
+fn lines_that_obj_does_not_know_are_told_in_the_right_number() {
+    let one = format!("{QUAD}f 1 2 3 4\nfoo 1\n");
+    read_with_one_warning(
+        &one,
+        "",
+        ":6:1: warning: this line begins with a word that OBJ does not know (\"foo\")",
+    );
+    let two = format!("{QUAD}f 1 2 3 4\nfoo 1\nbar\n");
+    read_with_one_warning(
+        &two,
+        "",
+        ":6:1: warning: 2 lines begin with words that OBJ does not know (\"foo\", \"bar\")",
+    );
+}
+
+#[test]
 fn faces_that_lie_on_each_other_are_read_once_where_they_are_many() {
     let times = |count: usize| format!("{QUAD}{}", "f 1 2 3\nf 3 4 1\nf 2 3 1\n".repeat(count));
     let mesh =

@@ -16,6 +16,7 @@ mod package;
 mod packages;
 mod same;
 mod steps;
+mod strange;
 mod test;
 mod tidy;
 
@@ -42,6 +43,8 @@ cargo xtask <command>
   package [--no-install]      a .deb, a .tar.zst and a wheel of the program, in target/package/ (docs/install.md)
   fuzz [--minutes N] [TARGET …]
                               throw strange files at all readers, led by coverage; 30 minutes a target
+  strange [--minutes N] [--seed S] [--only NUMBER]
+                              make strange files, another seed each time, and try the program on them; 10 minutes
   faults [NAME …]             plant each fault of a list in a shader, and see that a test notices it
   meshes                      write the meshes of scenes/meshes/ anew";
 
@@ -70,7 +73,7 @@ fn run(arguments: &[String]) -> anyhow::Result<()> {
             ("test" | "demo" | "package", "--no-install") => install = Install::PrintOnly,
             ("same", "--keep") => keep = true,
             ("measure", "--shots") => {}
-            ("fuzz", _) => {}
+            ("fuzz" | "strange", _) => {}
             ("gallery" | "measure" | "faults", name) if !name.starts_with('-') => {}
             _ => bail!("`{command}` does not know `{flag}`\n{USAGE}"),
         }
@@ -91,6 +94,7 @@ fn run(arguments: &[String]) -> anyhow::Result<()> {
         "blender" => blender::run(&root, blender::Fetch::Yes),
         "package" => package::run(&root, install),
         "fuzz" => fuzz::run(&root, own),
+        "strange" => strange::run(&root, own),
         "faults" => faults::run(&root, own),
         "meshes" => steps::run(&root, &steps::cargo(), &["run", "--locked", "--package", "impasto-meshes"]),
         "help" | "--help" | "-h" => {

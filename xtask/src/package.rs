@@ -1,5 +1,5 @@
-//! `cargo xtask package`: makes what people install, in `target/package/`: a Debian package, an archive for any Linux,
-//! and a wheel by which pip installs the program.
+//! `cargo xtask package`: makes the packages that people install, and puts them into `target/package/`: a Debian
+//! package, an archive for any Linux, and a wheel for pip.
 
 mod changelog;
 mod licences;
@@ -13,17 +13,18 @@ use anyhow::{Context as _, bail, ensure};
 use crate::packages::{self, Install};
 use crate::steps::{self, Profile, build, cargo, step};
 
-/// The tools that pack, each in the version that was tried. They are installed below `target/tools`, for this alone.
+// The versions of the packaging tools that were tried. This command installs its own copies into `target/tools`.
 const CARGO_DEB: &str = "3.8.0";
 const MATURIN: &str = "1.16.0";
 
-/// Where everything is made, below the repository: the manifest of the Debian package names it too.
+/// The folder of the packages, relative to the repository. `[package.metadata.deb]` in crates/cli/Cargo.toml names it
+/// too: change both together.
 const FOLDER: &str = "target/package";
 
 /// Makes all three packages, and says where they are.
 ///
 /// # Errors
-/// A step that failed.
+/// If a step fails.
 pub fn run(root: &Path, install: Install) -> anyhow::Result<()> {
     packages::ensure(root, &[packages::PACKAGING], install)?;
     let binary = step("build", || build(root, Profile::Release))?;
@@ -66,7 +67,7 @@ impl Moment {
     }
 }
 
-/// The version of the workspace, which is that of the program.
+/// The version of this crate and of the program: both take it from the workspace.
 fn version() -> &'static str {
     env!("CARGO_PKG_VERSION")
 }
@@ -78,7 +79,7 @@ fn succeed(command: &mut Command) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Packs the tree by cargo-deb, as `[package.metadata.deb]` of the command line's manifest says.
+/// Packs the tree with cargo-deb, as `[package.metadata.deb]` in crates/cli/Cargo.toml says.
 fn debian_package(root: &Path, folder: &Path, when: &Moment) -> anyhow::Result<PathBuf> {
     let tools = root.join("target/tools");
     let tool = tools.join("bin/cargo-deb");
@@ -109,7 +110,8 @@ fn debian_architecture() -> anyhow::Result<&'static str> {
     }
 }
 
-/// Packs the tree as it is, for any Linux: names sorted, one time stamp for all files, root as owner.
+/// Packs the tree for any Linux: names sorted, one time stamp for all files, root as owner. The completions for zsh move
+/// to where zsh itself looks for them.
 fn archive(root: &Path, tree: &Path, when: &Moment) -> anyhow::Result<PathBuf> {
     let name = format!("impasto-{}-{}-linux", version(), std::env::consts::ARCH);
     let made = root.join(FOLDER).join(format!("{name}.tar.zst"));
@@ -130,7 +132,7 @@ fn archive(root: &Path, tree: &Path, when: &Moment) -> anyhow::Result<PathBuf> {
     Ok(made)
 }
 
-/// Packs the program alone by maturin, as packaging/wheel/pyproject.toml says.
+/// Builds a wheel of the program and its licences with maturin, as packaging/wheel/pyproject.toml says.
 fn wheel(root: &Path, folder: &Path, when: &Moment) -> anyhow::Result<PathBuf> {
     let python = root.join("target/tools/maturin/bin/python");
     let version_of_tool =
@@ -159,7 +161,8 @@ fn wheel(root: &Path, folder: &Path, when: &Moment) -> anyhow::Result<PathBuf> {
     Ok(beside)
 }
 
-/// Lays out what maturin packs: the files of packaging/wheel, and the licences, which have to lie beside them.
+/// Lays out the folder that maturin starts from, and returns it: the files of packaging/wheel, with the licences beside
+/// them. The path to the program's manifest is made absolute, since the copy lies elsewhere.
 fn wheel_project(root: &Path, folder: &Path) -> anyhow::Result<PathBuf> {
     let project = folder.join("wheel-project");
     let licences = project.join("licences");

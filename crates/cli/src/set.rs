@@ -2,7 +2,7 @@
 
 use std::io::Write as _;
 
-use impasto_scene::load::{edited_text, parse};
+use impasto_scene::load::{edited_text, parse, text_of};
 use impasto_scene::whole_file;
 
 use crate::args::SetArguments;
@@ -22,9 +22,8 @@ pub(crate) fn run(arguments: &SetArguments) -> Result<(), Failure> {
             None => Err(Failure::Usage(format!("{text}: write it as PATH=VALUE, such as strokes.scale=1.5"))),
         })
         .collect::<Result<_, _>>()?;
-    let text = std::fs::read_to_string(path).map_err(|error| Failure::of_file(path, error))?;
-    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
-    let edited = edited_text(path, text, &values)?;
+    let text = text_of(path)?;
+    let edited = edited_text(path, &text, &values)?;
     if edited != text {
         whole_file::write(path, edited.as_bytes()).map_err(|error| Failure::of_file(path, error))?;
     }

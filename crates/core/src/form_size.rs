@@ -28,8 +28,15 @@ const FIRST_RADIUS: f32 = 2.5;
 /// numbers from 1 on that a float holds in its exponent and the first bit of its mantissa.
 const RADII: usize = 24;
 
-/// The sizes are smoothed over samples within this radius, in spacings.
+/// The sizes are smoothed over samples within this radius, in spacings: 26 of them on a plane.
 const SMOOTHING_RADIUS: f32 = 2.7;
+
+/// Where sheets lie so close together that more samples than this are within that radius, the radius is smaller. So a
+/// size is found as quickly in a heap of triangles as on a plane.
+const MOST_NEIGHBOURS: usize = 128;
+
+/// How many samples are asked how far their neighbours are.
+const ASKED: usize = 64;
 
 /// The size of the form all over a surface, measured at samples of it.
 ///
@@ -83,7 +90,7 @@ impl FormSize {
                 },
             )
             .collect();
-        let smoothing_radius = SMOOTHING_RADIUS * spacing;
+        let smoothing_radius = (SMOOTHING_RADIUS * spacing).min(radius_of_neighbours(&samples));
         let buckets = samples.len().next_power_of_two();
         let bucket = |sample: &Sample| bucket_of(cell_of(sample.position, smoothing_radius), buckets);
         samples.sort_by_cached_key(bucket);
@@ -143,6 +150,23 @@ impl FormSize {
         });
         (0..all.len()).filter(move |&index| !all[..index].contains(&all[index])).map(move |index| all[index])
     }
+}
+
+/// The radius within which samples have [`MOST_NEIGHBOURS`] others in the mean, more or less; infinite where there are
+/// too few for that.
+fn radius_of_neighbours(samples: &[Sample]) -> f32 {
+    let asked: Vec<Vec3> =
+        samples.iter().step_by(samples.len().div_ceil(ASKED).max(1)).map(|sample| sample.position).collect();
+    let distances_sq =
+        |at: &Vec3| samples.iter().map(|sample| sample.position.distance_squared(*at)).collect::<Vec<_>>();
+    let mut all: Vec<f32> = asked.iter().flat_map(distances_sq).collect();
+    let at = asked.len() * MOST_NEIGHBOURS;
+    if at >= all.len() {
+        return f32::INFINITY;
+    }
+    let (_, distance_sq, _) = all.select_nth_unstable_by(at, f32::total_cmp);
+    // All at one place: any radius finds all of them.
+    if *distance_sq > 0.0 { distance_sq.sqrt() } else { f32::INFINITY }
 }
 
 impl Axes {
@@ -332,6 +356,33 @@ mod tests {
                 assert!((found / plain - 1.0).abs() < 1e-3, "times {scale}: {found} for {plain}");
             }
         }
+    }
+
+    /// In a heap of triangles without order, all that is within a few spacings would be nearly everything.
+    #[test]
+    fn in_a_heap_of_triangles_few_samples_are_near() {
+        let mut mesh = TriangleMesh::default();
+        for triangle in 0..2000u32 {
+            for corner in 0..3 {
+                let at = |axis: u32| hash::unit(hash::combine(triangle, 3 * corner + axis));
+                mesh.positions.push(Vec3::new(at(0), at(1), at(2)));
+            }
+            let [a, b, c] = [0, 1, 2].map(|corner| mesh.positions[3 * triangle as usize + corner]);
+            mesh.normals.extend([(b - a).cross(c - a).normalize(); 3]);
+            mesh.triangles.push([0, 1, 2].map(|corner| 3 * triangle + corner));
+        }
+        let size = FormSize::of(&Surface::new(&mesh, |_| true), 7);
+        let radius_sq = size.smoothing_radius * size.smoothing_radius;
+        let near = |at: &Sample| {
+            size.samples
+                .iter()
+                .filter(|other| other.position.distance_squared(at.position) < radius_sq)
+                .count()
+        };
+        let mean = size.samples.iter().map(near).sum::<usize>() / size.samples.len();
+        assert!(size.samples.len() > 2000 && (100..=160).contains(&mean), "{mean} near");
+        let found = size.at(mesh.positions[0], mesh.normals[0]);
+        assert!((0.001..10.0).contains(&found), "{found}");
     }
 
     #[test]

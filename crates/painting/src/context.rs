@@ -45,6 +45,8 @@ impl Context<'_> {
 #[derive(Clone, Copy)]
 pub(crate) struct ObjectInputs<'a> {
     pub(crate) index: usize,
+    /// How many groups of its mesh are objects, itself included; 1 if it is the whole mesh.
+    pub(crate) groups: usize,
     pub(crate) surface: &'a SurfaceInputs,
     pub(crate) regions: &'a Arc<BodyRegions>,
     /// The rules that may show on the object.

@@ -36,6 +36,8 @@ pub(crate) struct CountInputs {
     left_out: [bool; LAYERS],
     /// The least count of a layer: see [`particle_count::least`].
     least: u32,
+    /// How often its faces may cover the picture: see [`particle_count::deepest`].
+    deepest: f64,
     /// The body layer's count, where the object states it.
     stated: Option<u64>,
     /// The factor, at least 1, by which painted amounts raise the counts.
@@ -49,7 +51,7 @@ pub(crate) struct CountInputs {
 impl PartialEq for CountInputs {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.surface, &other.surface)
-            && (self.left_out, self.least) == (other.left_out, other.least)
+            && (self.left_out, self.least, self.deepest) == (other.left_out, other.least, other.deepest)
             && (self.stated, self.more_wanted, self.paper) == (other.stated, other.more_wanted, other.paper)
             && self.is_by_view == other.is_by_view
             && self.layers == other.layers
@@ -91,6 +93,7 @@ impl CountInputs {
             fits: context.rules.iter().map(|rule| rule.strokes.fit).collect(),
             left_out,
             least: particle_count::least(context.scene.objects.len()),
+            deepest: particle_count::deepest(object.groups),
             stated: context.scene.objects[object.index].particles,
             more_wanted: object.amounts.more_wanted(),
             paper: context.paper,
@@ -113,8 +116,12 @@ impl CountInputs {
         let body = &self.surface;
         let positions_at = |shape: &BodyShape| (!body.is_at_rest(shape)).then(|| body.positions_at(shape));
         let wanted_per_px = self.wanted_per_px(surface.mesh(), parts);
-        let Found { needed, is_cut } =
-            particle_count::find::<LAYERS>(surface, &self.sightings, positions_at, wanted_per_px);
+        let Found { needed, is_cut } = particle_count::find::<LAYERS>(
+            surface,
+            (&self.sightings, self.deepest),
+            positions_at,
+            wanted_per_px,
+        );
         let found = needed.map(|needed| particle_count::bounded(needed, self.least));
         let is_stated = |kind: usize| self.stated.filter(|_| kind == LayerKind::Body as usize);
         let counts = std::array::from_fn(|kind| match is_stated(kind) {

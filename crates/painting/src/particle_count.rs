@@ -1,9 +1,12 @@
 //! How many particles an object needs where the scene does not state it.
 
+use std::collections::{HashMap, HashSet};
+
 use glam::{DAffine3, DVec2, DVec3, Vec3};
 use impasto_core::sampling::Surface;
 use impasto_core::screen_map::{area_px, facing};
 use impasto_core::{ScreenMap, TriangleMesh};
+use impasto_scene::document::{Object, Scene};
 use rayon::prelude::*;
 
 use crate::body_shape::BodyShape;
@@ -31,8 +34,27 @@ pub(crate) fn least(objects: usize) -> u32 {
 const MARGIN: f64 = 1.1;
 
 /// Faces that cover the picture more often than this, one behind the other, give their object no more particles: nearly
-/// all of them are hidden, as in a heap of thousands of large triangles.
-const DEEPEST: f64 = 32.0;
+/// all of them are hidden, as in a heap of thousands of large triangles. Groups of one mesh that are objects of their own
+/// share this depth, but each may be `LEAST_DEEP`.
+const DEEPEST: f64 = 16.0;
+const LEAST_DEEP: f64 = 4.0;
+
+/// For each object, how many groups of its mesh are objects, itself included; 1 where it is the whole mesh.
+pub(crate) fn groups_of_meshes(scene: &Scene) -> Vec<usize> {
+    let mut groups: HashMap<&str, HashSet<&str>> = HashMap::new();
+    for object in &scene.objects {
+        if let Some(group) = &object.group {
+            groups.entry(&object.mesh).or_default().insert(group);
+        }
+    }
+    let of = |object: &Object| object.group.as_ref().map_or(1, |_| groups[object.mesh.as_str()].len());
+    scene.objects.iter().map(of).collect()
+}
+
+/// How often the faces of one of so many groups of a mesh may cover the picture and still give it particles.
+pub(crate) fn deepest(groups: usize) -> f64 {
+    (DEEPEST / groups.max(1) as f64).max(LEAST_DEEP)
+}
 
 /// At most this many faces are examined.
 const FACES: usize = 20_000;
@@ -80,10 +102,10 @@ pub(crate) struct Found<const LAYERS: usize> {
 /// How many particles each layer needs on the whole surface. They are enough that, in every view, nine tenths of the
 /// object's area in the picture have all the strokes that are wanted there. `wanted_per_px` gives the strokes per
 /// pixel wanted on a triangle, from its index, a point of it and its normal. `positions_at` gives the vertices'
-/// positions in a shape, or `None` at rest.
+/// positions in a shape, or `None` at rest. Faces that cover the picture more than `deepest` times count no more.
 pub(crate) fn find<const LAYERS: usize>(
     surface: &Surface<'_>,
-    sightings: &[Sighting],
+    (sightings, deepest): (&[Sighting], f64),
     positions_at: impl Fn(&BodyShape) -> Option<Vec<Vec3>> + Sync,
     wanted_per_px: impl Fn(usize, DVec3, DVec3) -> [f32; LAYERS],
 ) -> Found<LAYERS> {
@@ -115,7 +137,7 @@ pub(crate) fn find<const LAYERS: usize>(
     let mesh = surface.mesh();
     let needed_in = |sighting: &Sighting| {
         let moved = positions_at(&sighting.shape);
-        needed_per_area((&faces, stride), sighting, |face| match &moved {
+        needed_per_area((&faces, deepest / stride as f64), sighting, |face| match &moved {
             Some(positions) => face.moved(mesh, positions),
             None => (face.center, face.normal),
         })
@@ -198,9 +220,10 @@ fn middles([a, b, c]: [DVec3; 3], cuts: usize) -> impl Iterator<Item = DVec3> {
     })
 }
 
-/// Particles needed per unit of surface in one view, by layer. `faces` holds one in `stride` of all faces.
+/// Particles needed per unit of surface in one view, by layer. Faces that cover the picture more than `deepest` times
+/// count no more.
 fn needed_per_area<const LAYERS: usize>(
-    (faces, stride): (&[CountedFace<LAYERS>], usize),
+    (faces, deepest): (&[CountedFace<LAYERS>], f64),
     sighting: &Sighting,
     placed: impl Fn(&CountedFace<LAYERS>) -> (DVec3, DVec3),
 ) -> [f64; LAYERS] {
@@ -227,8 +250,8 @@ fn needed_per_area<const LAYERS: usize>(
             }),
         );
         let total: f64 = needed.iter().map(|&(_, shown)| shown).sum();
-        let deepest = DEEPEST * 4.0 * sighting.half_size_px.element_product() / stride as f64;
-        reached(&mut needed, 0.9 * total).unwrap_or(0.0) * (deepest / total).min(1.0)
+        let most = deepest * 4.0 * sighting.half_size_px.element_product();
+        reached(&mut needed, 0.9 * total).unwrap_or(0.0) * (most / total).min(1.0)
     })
 }
 
@@ -293,7 +316,8 @@ mod tests {
         let counted = |cells: u32| {
             let mesh = floor(10.0, cells);
             let surface = Surface::new(&mesh, |_| true);
-            find(&surface, std::slice::from_ref(&sighting), |_| None, |_, _, _| [0.001]).needed[0]
+            find(&surface, (std::slice::from_ref(&sighting), deepest(1)), |_| None, |_, _, _| [0.001]).needed
+                [0]
         };
         let (rough, fine) = (counted(1), counted(100));
         assert!((rough / fine - 1.0).abs() < 0.2, "{rough} particles, but {fine} on the grid");
@@ -310,7 +334,7 @@ mod tests {
             let map = ScreenMap::new(view, DAffine3::IDENTITY, PixelLens::Perspective { focal_px: 300.0 });
             let (half_size_px, shape) = (DVec2::new(320.0, 180.0), BodyShape::default());
             let sighting = Sighting { map, half_size_px, near: 0.1, shape };
-            find(&surface, &[sighting], |_| None, |_, _, _| [0.01]).needed[0]
+            find(&surface, (&[sighting], deepest(1)), |_| None, |_, _, _| [0.01]).needed[0]
         };
         let [above, below] = [4.0, -4.0].map(counted);
         assert!(above > 300.0 && (above / below - 1.0).abs() < 0.05, "{above} from above, {below} below");
@@ -335,11 +359,32 @@ mod tests {
                     .extend(one.triangles.iter().map(|of| of.map(|corner| corner + level * corners)));
             }
             let surface = Surface::new(&mesh, |_| true);
-            find(&surface, std::slice::from_ref(&sighting), |_| None, |_, _, _| [0.001]).needed[0]
+            find(&surface, (std::slice::from_ref(&sighting), deepest(1)), |_| None, |_, _, _| [0.001]).needed
+                [0]
         };
         let [one, some, many, more] = [1, 8, 64, 128].map(counted);
         assert!((some / one / 8.0 - 1.0).abs() < 0.1, "8 floors need {some}, one needs {one}");
-        assert!(many < 48.0 * one && more < 1.2 * many, "1 floor needs {one}, 64 {many}, 128 {more}");
+        assert!(many < 24.0 * one && more < 1.2 * many, "1 floor needs {one}, 64 {many}, 128 {more}");
+    }
+
+    #[test]
+    fn groups_of_one_mesh_share_the_depth() {
+        let object = |mesh: &str, group: Option<&str>| Object {
+            mesh: mesh.to_owned(),
+            group: group.map(str::to_owned),
+            ..Object::named("a")
+        };
+        let objects = vec![
+            object("tree.obj", Some("leaves")),
+            object("tree.obj", Some("bark")),
+            // Another one of the same tree.
+            object("tree.obj", Some("leaves")),
+            object("tree.obj", None),
+            object("ball.obj", Some("skin")),
+        ];
+        let scene = Scene { objects, ..Scene::default() };
+        assert_eq!(groups_of_meshes(&scene), [2, 2, 2, 1, 1]);
+        assert_eq!([1, 2, 3, 100].map(deepest), [DEEPEST, DEEPEST / 2.0, DEEPEST / 3.0, LEAST_DEEP]);
     }
 
     #[test]

@@ -28,6 +28,7 @@ use crate::object_cache::ObjectCache;
 use crate::order::PaintingOrder;
 use crate::ordering::OrderInputs;
 use crate::painting::{Painting, PreparedBody};
+use crate::particle_count;
 use crate::parts::Cap;
 use crate::references::{BodyReferences, SceneReferences};
 use crate::regions::{self, BodyGuide, BodyRegions};
@@ -129,9 +130,11 @@ impl Preparer {
         }
         let used: Vec<Arc<Vec<u16>>> = regions.iter().map(|regions| Arc::new(regions.all())).collect();
         let caps: Vec<Vec<Cap>> = bodies.iter().map(|body| body.caps.clone()).collect();
+        let groups = particle_count::groups_of_meshes(scene);
         let objects: Vec<ObjectInputs<'_>> = (0..caches.len())
             .map(|index| ObjectInputs {
                 index,
+                groups: groups[index],
                 surface: &inputs[index],
                 regions: &regions[index],
                 used: &used[index],

@@ -114,11 +114,18 @@ pub fn load_mesh(path: &Path, folders: &AssetFolders) -> Result<(MeshFile, Vec<P
     Ok((Arc::unwrap_or_clone(mesh), warnings))
 }
 
-fn load_scene(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
+/// The text of a scene file, without byte order mark. It is not parsed.
+///
+/// # Errors
+/// The file cannot be read, is too long, or is not UTF-8.
+pub fn text_of(path: &Path) -> Result<String, Report> {
     let alone = |problem| Report(vec![problem]);
     let bytes = source::read(path).map_err(alone)?;
-    let text = source::decode(path, &bytes).map_err(alone)?;
-    let parsed = parse::parse(path, text)?;
+    source::decode(path, &bytes).map(str::to_owned).map_err(alone)
+}
+
+fn load_scene(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
+    let parsed = parse::parse(path, &text_of(path)?)?;
     finish(path, parsed, options, None)
 }
 
@@ -376,7 +383,7 @@ fn read_mesh(
 ) -> MeshRead {
     if built_in_mesh::is_built_in(name) {
         let unknown = || {
-            let message = format!("there is no mesh {name:?} in the house");
+            let message = format!("Impasto has no mesh {name:?} of its own");
             Report(vec![error_in(
                 scene,
                 None,
@@ -416,16 +423,17 @@ fn read_texture(scene: &Path, name: &str, folders: &AssetFolders) -> PictureRead
     let request = AssetRequest { name, beside: scene, root: folder_of(scene), max_bytes };
     match crate::texture::read(folders, &request) {
         Ok(decoded) => Ok((decoded.texture, decoded.warnings)),
-        Err(problem) => Err(Problem { severity: problem.severity.max(Severity::Error), ..problem }),
+        Err(problem) => Err(Problem {
+            severity: problem.severity.max(Severity::Error),
+            mend: problem.mend.replace("it is left out; ", ""),
+            ..problem
+        }),
     }
 }
 
 /// Reads a picture that is a brush. One that cannot be used, or holds no mark, is an error.
 fn read_brush(scene: &Path, name: &str, folders: &AssetFolders) -> PictureRead {
-    let (texture, warnings) = read_texture(scene, name, folders).map_err(|problem| {
-        let mend = problem.mend.replace("it is left out; ", "");
-        Problem { mend, ..problem }
-    })?;
+    let (texture, warnings) = read_texture(scene, name, folders)?;
     if impasto_core::brush::has_mark(texture.size_px, &texture.rgba8) {
         return Ok((texture, warnings));
     }

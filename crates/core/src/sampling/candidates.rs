@@ -1,4 +1,5 @@
-//! An endless, even, random sequence of places on a surface: the candidates from which dart throwing chooses particles.
+//! A sequence of random places on a surface, spread evenly by area: the candidates from which dart throwing chooses
+//! particles.
 
 use std::ops::Range;
 
@@ -9,9 +10,9 @@ use super::dart_grid::Dart;
 use super::throw::Throw;
 use super::{Particle, Surface};
 
-/// `count` random particles, spread evenly by area: all candidates of dart throwing, none refused. A greater count
-/// keeps the particles of a smaller one. The result depends on the mesh, the count and the seed alone. An empty surface
-/// gives no particles.
+/// The first `count` candidates of dart throwing as particles, none refused: random, and spread evenly by area. A greater
+/// count begins with the particles of a smaller one. The result depends on the surface, the count and the seed alone. A
+/// surface without faces gives no particles.
 pub fn scattered(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Particle> {
     if surface.faces.is_empty() {
         return Vec::new();
@@ -39,8 +40,8 @@ pub fn scattered(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Particle
 /// The sequence: its `i`th place depends on the surface, the seed and `i` alone.
 pub(super) struct Candidates<'a> {
     surface: &'a Surface<'a>,
-    /// The total area is cut into equal steps, as many as there are faces, but at most [`MOST_STEPS`]. This is the
-    /// face in which each step begins, and at the end the last face.
+    /// The total area is cut into equal steps, as many as there are faces, but at most [`MOST_STEPS`]. For each
+    /// step this holds the face in which it begins; one more entry, at the end, holds the last face.
     guide: Vec<u32>,
     seed: u32,
 }
@@ -51,20 +52,20 @@ impl<'a> Candidates<'a> {
         Self { surface, guide: guide_table(&surface.area_up_to), seed }
     }
 
-    /// The next [`LANES`] candidates from `first` on, side by side.
+    /// The [`LANES`] candidates from `first` on, one in each lane of a block.
     #[inline]
     fn block_from(&self, first: u32) -> Block {
         self.block(&std::array::from_fn(|lane| first.wrapping_add(lane as u32)))
     }
 
-    /// The candidates with these numbers, side by side.
+    /// The candidates with these numbers, one in each lane of a block.
     #[inline]
     fn block(&self, numbers: &[u32; LANES]) -> Block {
         let (steps, total) = (self.guide.len() - 1, self.surface.area());
         Block::new((self.seed, numbers), (steps, total), |area, step| self.face(area, step) as u32)
     }
 
-    /// Where a candidate lies: its face, and the weights of the face's second and third corner.
+    /// Where a candidate lies: its face, and the weights of the face's second and third corners.
     fn place(&self, number: u32) -> (usize, [f32; 2]) {
         let throw = Throw::new(self.seed, number);
         let face = self.face(throw.area(self.surface.area()), throw.step(self.guide.len() - 1));
@@ -72,7 +73,8 @@ impl<'a> Candidates<'a> {
     }
 
     /// The face in which a candidate lies. `area` is the candidate's place when the areas of all faces are laid end to
-    /// end. `step` narrows the search: it is the step of `guide` in which `area` lies, or the one before.
+    /// end. `step` narrows the search to the faces between two entries of `guide`: `area` lies in that step or, by rounding,
+    /// just behind it.
     #[inline(always)]
     fn face(&self, area: f64, step: i32) -> usize {
         let Self { surface, guide, .. } = self;
@@ -90,7 +92,7 @@ impl<'a> Candidates<'a> {
         face.min(surface.faces.len() - 1)
     }
 
-    /// The face and position of a candidate. Most candidates are refused by these alone.
+    /// The face and position of a candidate: enough to refuse most candidates.
     pub(super) fn dart(&self, number: u32) -> Dart {
         let (face, place) = self.place(number);
         Dart { position: self.surface.position(face, place), face: face as u32, number }
@@ -121,14 +123,14 @@ impl<'a> Candidates<'a> {
         particles
     }
 
-    /// A candidate as a particle, with its normal.
+    /// The candidate with this number as a particle.
     pub(super) fn particle(&self, number: u32) -> Particle {
         let (face, place) = self.place(number);
         self.surface.particle(face, place)
     }
 }
 
-/// More steps than this would not find a face sooner; step numbers fit into an `i32`.
+/// The most steps of a guide table: more would hardly find a face sooner.
 const MOST_STEPS: usize = 1 << 24;
 
 fn guide_table(area_up_to: &[f64]) -> Vec<u32> {

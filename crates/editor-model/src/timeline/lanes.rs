@@ -16,14 +16,14 @@ pub struct LaneKey {
     pub ease: Ease,
 }
 
-/// The keys of one thing, in the order of frames.
+/// The keys of one thing, in the order of their frames.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lane {
     /// The owner of the keys.
     pub of: KeyOf,
     /// Whether the keys cannot be changed.
     pub locked: bool,
-    /// Whether the scene's shot moves this, so that there are no keys.
+    /// Whether the owner is moved by the scene's shot. Then it has no keys of its own.
     pub of_shot: bool,
     /// The keys.
     pub keys: Vec<LaneKey>,
@@ -40,15 +40,16 @@ impl Lane {
         self.keys.iter().any(|key| key.frame == frame)
     }
 
-    /// The last key at or before a frame: its ease holds there. `None` before the first key and from the last key on.
+    /// The key whose ease leads through a frame: the last one at or before it. `None` before the first key and from the
+    /// last key on, where nothing moves.
     pub fn left_of(&self, frame: f64) -> Option<LaneKey> {
         let right = self.keys.partition_point(|key| key.frame <= frame);
         (right > 0 && right < self.keys.len()).then(|| self.keys[right - 1])
     }
 }
 
-/// A lane for the camera and one for each object, in the order of the file. Then one each for lights, the background
-/// and strokes, but only for those with keys.
+/// A lane for the camera, then one for each object, in the order of the file. Then, only where there are keys, one for
+/// each light, one for the background, one for the scene's strokes, and one for the strokes of each region.
 pub fn lanes(scene: &Scene) -> Vec<Lane> {
     let camera = Lane { of_shot: scene.has_camera_of_shot(), ..Lane::new(KeyOf::Camera, &scene.camera.keys) };
     let objects = scene.objects.iter().map(|object| Lane {
@@ -90,8 +91,8 @@ pub fn next_ease(ease: Ease) -> Option<Ease> {
     })
 }
 
-/// The eases to choose from, in the order of menus, for a key whose ease is `now`. The last one is a curve: the key's
-/// own if it has one, else the usual one.
+/// The eases to choose from, in the order of the menu. The last one is a curve: `now`, the ease that a key has already,
+/// if that is a curve, else the usual one.
 pub fn eases(now: Option<Ease>) -> [Ease; 7] {
     let curve = now.filter(|now| matches!(now, Ease::Curve(..))).unwrap_or(Ease::USUAL_CURVE);
     [Ease::Smooth, Ease::Linear, Ease::Step, Ease::In, Ease::Out, Ease::Bounce, curve]

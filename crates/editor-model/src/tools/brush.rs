@@ -1,4 +1,4 @@
-//! The brush tools (Comb, Smooth, Smear, Erase, Amount, region brush): a ring that is dragged over a surface.
+//! The brush tools (Comb, Smooth or Smear, Erase, Amount, region brush): a ring that is dragged over a surface.
 
 use glam::DVec2;
 use impasto_scene::document::{Amount, Dab, Falloff, Guide, GuideMode, Region, Selector};
@@ -23,7 +23,8 @@ use crate::session::{RegionDoes, Tool};
 #[derive(Clone, Debug, Default)]
 pub(super) struct Brush {
     heading: Heading,
-    /// Whether strokes are previewed as a comb would lay them: from the first quick movement until the pointer rests.
+    /// Whether the preview of a comb may show: from the first quick movement until the pointer rests or a button is
+    /// pressed.
     previews_comb: bool,
     stroke: Option<Stroke>,
 }
@@ -51,11 +52,11 @@ enum Act {
     TakeAway,
     /// The region brush: makes a new region.
     AddNew,
-    /// Paints more of an amount.
+    /// Paints dabs that raise an amount.
     Raise,
-    /// Paints less of an amount.
+    /// Paints dabs that lower an amount.
     Lower,
-    /// Takes dabs of an amount away.
+    /// Erases dabs of an amount.
     EraseAmount,
 }
 
@@ -86,7 +87,8 @@ impl Brush {
             ToolEvent::Release { pressure } => {
                 let stroke = self.stroke.take().map(|on| Stroke { path: on.path.lifted(pressure), ..on });
                 let commit = stroke.as_ref().and_then(|on| on.command(around));
-                // A command selects its region. A stroke without a command still selects the region that it was on.
+                // The command selects its region once it is applied. A drag that gives no command selects the region that it was
+                // in, if any.
                 let on = stroke.filter(|on| on.on.region.is_some() && commit.is_none());
                 let select = on.map(|on| Item::Region(on.on.name));
                 ToolOutput { commit, select, ..ToolOutput::saying(words(tool, around)) }
@@ -103,13 +105,15 @@ impl Brush {
         }
     }
 
-    /// What shows while no button is pressed: the ring, the needle and the preview of a comb.
+    /// What shows while no drag is under way: rings, the needle, the preview of a comb, the label, and the words of the
+    /// status line.
     fn aim(&mut self, tool: Tool, at_px: DVec2, at_secs: f64, around: &Surroundings) -> ToolOutput {
         self.heading.follow(at_px, at_secs);
         let radius_px = around.options.radius_px;
         let hit = around.hit(at_px);
         let mut output = match around.paintable(hit.as_ref()) {
-            // The refusal is put into words only where something is hit; elsewhere the hollow ring says enough.
+            // Over a surface that cannot be painted, the status line says why; a drag would be refused, not the hovering. Over
+            // nothing, the hollow ring says enough.
             Err(refusal) if hit.is_some() => ToolOutput { refusal: None, ..ToolOutput::refusing(refusal) },
             _ => ToolOutput::saying(words(tool, around)),
         };
@@ -140,7 +144,8 @@ impl Brush {
         output
     }
 
-    /// The comb that a press would begin here; `None` if a press would begin none, or previews are off.
+    /// The comb that a drag from here would begin. `None` if the tool is another one, previews are off or not due, or this
+    /// place cannot be combed.
     fn comb_preview(&self, tool: Tool, hit: &Hit, around: &Surroundings) -> Option<CombPreview> {
         let options = around.options;
         let wanted = tool == Tool::Comb && options.foresee && self.previews_comb;
@@ -259,12 +264,12 @@ impl Act {
         matches!(self, Self::Add | Self::TakeAway | Self::AddNew)
     }
 
-    /// Whether each dab has its own radius and strength. Otherwise the whole gesture has one radius and one strength.
+    /// Whether a drag leaves dabs, each with a radius of its own. Otherwise the whole drag has one radius.
     fn leaves_dabs(self) -> bool {
         self.is_for_regions() || matches!(self, Self::Raise | Self::Lower)
     }
 
-    /// Whether it paints or erases an amount. If so, no direction matters.
+    /// Whether it paints or erases an amount. If so, no needle shows.
     fn is_for_amounts(self) -> bool {
         matches!(self, Self::Raise | Self::Lower | Self::EraseAmount)
     }
@@ -310,8 +315,8 @@ impl Act {
         }
     }
 
-    /// A function that finds the surface under a pixel, if the drag may go there. A drag stays on the object of its
-    /// press. All brushes but the region brush also stay in the region of the press.
+    /// A function that finds the surface under a pixel, if the drag may go there. A drag stays on the object
+    /// where it began, and unless it changes regions, also in the region where it began.
     fn picks<'a>(
         self,
         on: &'a Paintable,
@@ -396,8 +401,8 @@ impl Stroke {
         guides
     }
 
-    /// The points at which the brush touches the surface along a path, `share` of its radius apart, then their mirror
-    /// images.
+    /// The points at which the brush touches the surface along a path, spaced by `share` times the brush's radius. Then
+    /// their mirror images, where a surface is near these.
     fn touched(&self, path: &SurfacePath, share: f64, around: &Surroundings) -> Vec<PathPoint> {
         let mut touched = match self.does.leaves_dabs() {
             true => path.stamps_of(share, &|point| Felt::at(point, around.options).radius),
@@ -434,7 +439,7 @@ impl Stroke {
         (guides != region.guides).then(erase)
     }
 
-    /// The dabs of an amount that a drag leaves.
+    /// The command for the dabs of a drag that raises or lowers an amount; `None` if they would change nothing.
     fn raised(&self, path: &SurfacePath, around: &Surroundings) -> Option<Command> {
         let options = around.options;
         let raises = self.does == Act::Raise;

@@ -1,5 +1,5 @@
-//! The status line, at the bottom of the window: what the mouse would do now, work in the background, a few numbers,
-//! and how many problems there are.
+//! The status line, at the bottom of the window: what is going on, what the mouse and the keys would do now, work in the
+//! background, a few numbers, and how many problems there are.
 
 use egui::{Panel, RichText, Role, WidgetInfo, accesskit};
 
@@ -23,7 +23,7 @@ pub fn status_line(ui: &mut egui::Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask
             let mut free = ui.max_rect().shrink2(egui::vec2(10.0, 0.0));
             let right = within(ui, free, row_from_right(), |ui| {
                 ui.spacing_mut().item_spacing.x = 14.0;
-                // The problems are at the very end, where they do not move as numbers come and go.
+                // First the problems, at the right end of the line, where they do not move as numbers come and go.
                 super::problems::chip(ui, shown, asks);
                 for words in numbers(&shown.numbers) {
                     note(ui, &words);
@@ -61,7 +61,7 @@ fn note(ui: &mut egui::Ui, words: &str) {
     ui.label(RichText::new(words).font(type_face::small()).color(Tokens::of(ui).weak));
 }
 
-/// The numbers as words, the rightmost first.
+/// The driver's name, and the numbers as words; the rightmost first.
 fn numbers(numbers: &Numbers<'_>) -> Vec<String> {
     let mut words = Vec::new();
     if !numbers.driver.is_empty() {
@@ -87,7 +87,8 @@ pub(super) fn grouped(count: usize) -> String {
     text
 }
 
-/// Splits a status text into pieces of `[Key] words` and of plain words, which two spaces separate.
+/// Splits a status text into pieces, each `[Key] words` or plain words. A piece ends at two spaces, or where the next
+/// `[Key]` begins.
 fn parts(mut text: &str) -> Vec<Part<'_>> {
     let mut parts = Vec::new();
     loop {

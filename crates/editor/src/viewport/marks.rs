@@ -16,27 +16,27 @@ pub struct Marks<'a> {
     pub grid: bool,
     /// Regions in their colours.
     pub regions: &'a [RegionTint],
-    /// A tint that shows where the tool's amount is painted.
+    /// A tint where the amount that the tool paints is above or below 1.
     pub amounts: Option<&'a AmountTint>,
     /// The outline of the selected object.
     pub selected: Option<&'a Outline>,
     /// Outlines of the selected object at the keys before and after this frame.
     pub ghosts: &'a [Outline],
-    /// Direction lines.
+    /// Lines along the strokes' directions on the surfaces.
     pub direction_lines: &'a [DirectionMark],
-    /// Points where strokes have no direction, and what decides whether they are visible.
+    /// Points where strokes have no direction, and the [`Sight`] that tells which of these points are visible.
     pub singular: Option<(&'a [SingularPoint], Sight<'a>)>,
-    /// Guides of the selected region, the selected touch, and the line of the tool.
+    /// Curves: the guides of the selected region, the line of the selected touch, and the line that the tool draws.
     pub guides: &'a [GuideCurve],
-    /// A preview of strokes as the comb would turn them, and its opacity (0..=1).
+    /// A preview of a comb: the strokes that it would turn, the comb itself, and the preview's opacity (0..=1).
     pub comb_preview: Option<(&'a [CombPreviewStroke], Comb, f32)>,
-    /// Rings of the tool and of its mirror images.
+    /// The tool's own ring, then those of its mirror images.
     pub rings: &'a [Ring],
-    /// The direction at the centre of the ring.
+    /// A needle that shows the direction at the centre of the tool's own ring.
     pub needle: Option<Needle>,
-    /// Radius of the ring, points.
+    /// Radius of the tool's own ring, in points: the needle and the label keep clear of it.
     pub radius_px: f64,
-    /// The label beside the ring.
+    /// The label beside the tool's own ring; it is not drawn where there is no ring.
     pub tag: Option<&'a str>,
     /// The motion path of the selected object.
     pub path: Option<&'a MotionPath>,
@@ -51,7 +51,7 @@ pub struct Marks<'a> {
 }
 
 impl Marks<'_> {
-    /// Draws all.
+    /// Draws all marks; later ones cover earlier ones.
     pub fn draw(&self, sheet: &Sheet<'_>) {
         if self.grid {
             overlay::floor_grid(sheet);

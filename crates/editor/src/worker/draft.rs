@@ -1,17 +1,17 @@
 //! Chooses the size of drafts: as large as can be drawn fast enough for a smooth drag.
 
-/// All drafts of a job together should take no longer than this, seconds: fifteen a second, with some time left to
-/// prepare.
+/// All drafts of one job together should take at most this many seconds. At fifteen jobs a second, that leaves about 12
+/// ms of each for preparing.
 const BUDGET_S: f64 = 0.055;
-/// The sides of a draft are a whole number of twentieths of the exact picture's: with so few sizes, render targets are
-/// seldom made anew.
+/// The width and height of a draft are so many twentieths of the exact picture's, rounded to pixels. With so few sizes,
+/// render targets seldom have to be made again.
 const STEPS: u32 = 20;
-/// The smallest draft: a share of 0.35.
+/// The smallest draft, in these steps: 0.35 of each side.
 const LEAST: u32 = 7;
-/// The first draft: a share of 0.5.
+/// The first draft, in these steps: half of each side.
 const FIRST: u32 = 10;
 
-/// Chooses the size of the next draft by what the last one took.
+/// Chooses the size of the next drafts from how long the drafts of the last job took.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct DraftSize {
     steps: u32,
@@ -24,7 +24,7 @@ impl Default for DraftSize {
 }
 
 impl DraftSize {
-    /// The size of a draft of a picture of this size, at least one pixel.
+    /// The size of a draft for a picture of `size_px`: at least one pixel a side, and no larger than the picture.
     pub(super) fn of(&self, size_px: [u32; 2]) -> [u32; 2] {
         size_px.map(|side| ((f64::from(side) * self.share()).round() as u32).clamp(1, side.max(1)))
     }
@@ -53,7 +53,8 @@ impl DraftSize {
 mod tests {
     use super::*;
 
-    /// The shares of 40 drafts, with a driver that takes a fixed time plus a time in proportion to the pixels.
+    /// The share after each of 40 drafts, where a draft takes `fixed_s`, plus a time in proportion to its pixels: `whole_s`
+    /// at full size.
     fn settled(whole_s: f64, fixed_s: f64) -> Vec<f64> {
         let mut size = DraftSize::default();
         (0..40)

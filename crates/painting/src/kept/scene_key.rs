@@ -205,7 +205,8 @@ fn of_shape(shape: &BodyShape, surface: &BodySurface, key: &mut KeyHasher) {
 
 fn of_object(object: &ObjectInputs<'_>, key: &mut KeyHasher) {
     // The finished surface is hashed, not its inputs; the amounts are in the scene, which is hashed.
-    let ObjectInputs { index, surface: _, regions, used, guides, amounts: _, references, caps } = *object;
+    let ObjectInputs { index, groups: _, surface: _, regions, used, guides, amounts: _, references, caps } =
+        *object;
     key.numbers(&[index as u64]);
     regions.feed_key(key);
     key.numbers(used);

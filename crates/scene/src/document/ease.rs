@@ -16,11 +16,12 @@ pub enum Ease {
     In,
     /// Starts fast, and comes to rest.
     Out,
-    /// Falls to the next key and bounces back from it three times, ever lower, as a ball.
+    /// Falls to the next key like a ball, and bounces back from it three times, lower each time.
     Bounce,
-    /// A cubic Bézier curve from (0, 0) to (1, 1) with these two handles, as `cubic-bezier` in CSS: `x` is the time,
-    /// from 0 to 1, and `y` is how far the value has come, from -2 to 3. Where the curve goes below 0 or above 1,
-    /// places and turns overshoot, while sizes, colours and strengths stop at their limits.
+    /// A cubic Bézier curve from (0, 0) to (1, 1) with these two handles, like `cubic-bezier` in CSS: `x` is the share of
+    /// the time that has passed, and `y` how far the value has come. A handle's `x` is from 0 to 1, its `y` from -2 to 3.
+    /// Where the curve goes below 0 or above 1, places and rotations overshoot, while sizes, colours and strengths stop
+    /// at their limits.
     Curve([f64; 2], [f64; 2]),
 }
 
@@ -28,8 +29,8 @@ impl Ease {
     /// The curve that is offered for a key that has none of its own yet: `ease` of CSS.
     pub const USUAL_CURVE: Self = Self::Curve([0.25, 0.1], [0.25, 1.0]);
 
-    /// How far the value has come: 0 at the key, 1 at the next one. `time` is how much of the time between them has
-    /// passed, 0..=1. Exactly 0 up to time 0, and 1 from time 1 on. Only [`Ease::Curve`] leaves the range from 0 to 1.
+    /// How far the value has come: 0 at the key, 1 at the next one. `time` is the share of the time between them
+    /// that has passed. The result is exactly 0 up to time 0, and exactly 1 from time 1 on. Only [`Ease::Curve`] leaves the range from 0 to 1.
     pub fn share(self, time: f64) -> f64 {
         if time <= 0.0 {
             return 0.0;
@@ -51,10 +52,10 @@ impl Ease {
         }
     }
 
-    /// The least and the greatest value that [`Ease::share`] takes.
+    /// The least and the greatest value that [`Ease::share`] can return.
     pub fn reach(self) -> [f64; 2] {
         let Self::Curve([_, first], [_, second]) = self else { return [0.0, 1.0] };
-        // A third of the derivative of `bezier` by its parameter s: a·s² + b·s + c.
+        // The curve turns where its slope is zero. A third of the slope of `bezier` at `part` = s is a·s² + b·s + c.
         let (a, b, c) = (1.0 + 3.0 * (first - second), 2.0 * (second - 2.0 * first), first);
         let root = (b * b - 4.0 * a * c).max(0.0).sqrt();
         let turns =
@@ -79,8 +80,8 @@ impl Ease {
     }
 }
 
-/// A ball that falls, and bounces to a quarter, a sixteenth and a 64th of its height. All parabolas have one curvature,
-/// so the bounces take 1, 1/2 and 1/4 of the time of the first fall (R. Penner, *Motion, Tweening and Easing*, 2002).
+/// How far a ball has fallen: 0 where it is let go, 1 on the floor. It bounces to 1/4, 1/16 and 1/64 of its first height.
+/// Gravity stays the same, so the bounces take 1, 1/2 and 1/4 of the time of the first fall (R. Penner, *Motion, Tweening and Easing*, 2002).
 fn bounced(time: f64) -> f64 {
     // Time in units of the first fall; the whole takes 1 + 1 + 1/2 + 1/4 of them.
     let falls = 2.75 * time;
@@ -93,20 +94,21 @@ fn bounced(time: f64) -> f64 {
     (1.0 - height + (falls - middle) * (falls - middle)).min(1.0)
 }
 
-/// One coordinate of a cubic Bézier curve from 0 to 1, with these coordinates of its handles.
+/// One coordinate of a cubic Bézier curve at the parameter `part`. It is 0 and 1 at the curve's ends, and `first` and
+/// `second` at its handles.
 fn bezier(part: f64, first: f64, second: f64) -> f64 {
     let rest = 1.0 - part;
     part * (3.0 * rest * (rest * first + part * second) + part * part)
 }
 
-/// The derivative of [`bezier`] by `part`.
+/// The derivative of [`bezier`] with respect to `part`.
 fn bezier_slope(part: f64, first: f64, second: f64) -> f64 {
     let rest = 1.0 - part;
     3.0 * (rest * rest * first + 2.0 * rest * part * (second - first) + part * part * (1.0 - second))
 }
 
-/// The parameter of the curve at which its `x` equals `time`, by Newton's method; where a step leaves the bracket, by
-/// bisection.
+/// The parameter of the curve at which its `x` equals `time`. Newton's method finds it between two bounds, `low` and
+/// `high`, which close in on it.
 fn part_at(time: f64, first_x: f64, second_x: f64) -> f64 {
     const MOST_STEPS: usize = 80;
     let (mut low, mut high, mut part) = (0.0, 1.0, time);
@@ -121,7 +123,7 @@ fn part_at(time: f64, first_x: f64, second_x: f64) -> f64 {
             high = part
         }
         let newton = part - off / bezier_slope(part, first_x, second_x);
-        // Newton's method mostly converges in far fewer than 12 steps; where it has not, bisection goes on.
+        // Where a step would leave the bounds, or 12 steps have not been enough, the bounds are halved instead.
         let next = if step < 12 && newton > low && newton < high { newton } else { 0.5 * (low + high) };
         if next == part {
             break;

@@ -431,7 +431,7 @@ fn what_goes_into(field: &str) -> Option<&'static str> {
         "light" => "Scene or Eye",
         "tones" => "four tones from dark to light, as in (0.15, 0.45, 0.7, 0.95)",
         "solver" => "Tangent, Horn or HornExact",
-        "ease" => "Step, Linear or Smooth",
+        "ease" => "Step, Linear, Smooth, In, Out, Bounce or Curve((0.25, 0.1), (0.25, 1))",
         "kind" => "Sun, Point, Spot or Ambient",
         "up" => "Y, Z, X, NegX, NegY or NegZ",
         "on" => {

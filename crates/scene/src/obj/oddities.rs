@@ -112,12 +112,13 @@ impl Oddities {
         }
         if self.unknown.count > 0 {
             let words: Vec<&str> = self.unknown_words.iter().map(String::as_str).collect();
-            let message = format!(
-                "{} lines begin with words that OBJ does not know ({})",
-                self.unknown.count,
-                words.join(", ")
-            );
-            findings.warning(self.unknown.first, message, "they are ignored");
+            let words = words.join(", ");
+            let message = match self.unknown.count {
+                1 => format!("this line begins with a word that OBJ does not know ({words})"),
+                count => format!("{count} lines begin with words that OBJ does not know ({words})"),
+            };
+            let mend = if self.unknown.count == 1 { "it is ignored" } else { "they are ignored" };
+            findings.warning(self.unknown.first, message, mend);
         }
     }
 }

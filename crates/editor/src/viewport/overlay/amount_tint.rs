@@ -1,4 +1,4 @@
-//! Draws a tint where an amount is painted: warm for factors above 1, cool for factors below 1.
+//! Draws a tint where an amount is painted. The amount is a factor: warm where it is above 1, cool where it is below.
 
 use egui::{Color32, Mesh, Rect, Shape};
 
@@ -9,17 +9,17 @@ use crate::viewport::surface_map::{Face, FacePlace, SurfaceMap};
 /// Steps of colour for factors above 1, and as many for factors below 1.
 const LEVELS: f32 = 12.0;
 
-/// The colour is fullest at the factor 2^`FULL_LOG2`, and at the reciprocal of that.
+/// The colour is fullest from the factor 2^`FULL_LOG2` up, and from the reciprocal of that down.
 const FULL_LOG2: f32 = 2.0;
 
 /// Opacity of the fullest colour.
 const FILL: f32 = 0.72;
 
-/// How much of an amount is painted on the visible surfaces, as coloured cells.
+/// The tint of the visible surfaces, in cells of a grid.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AmountTint {
-    /// Runs of cells side by side: their level, from −1 (least) to 1 (most), then row, first column, and the column
-    /// after the last.
+    /// Runs of neighbouring cells with the same tint: its strength, from −1 (fullest cool) to 1 (fullest warm), then the
+    /// row, the first column, and the column after the last. Cells without a tint are in no run.
     runs: Vec<(f32, [usize; 3])>,
     cells_per_point: f64,
 }
@@ -50,7 +50,7 @@ fn level(factor: f32) -> i32 {
     ((factor.max(1e-6).log2() / FULL_LOG2).clamp(-1.0, 1.0) * LEVELS).round() as i32
 }
 
-/// Draws what is painted.
+/// Draws the tint over the picture.
 pub fn amount_tint(sheet: &Sheet<'_>, tint: &AmountTint) {
     let side = 1.0 / tint.cells_per_point as f32;
     let mut mesh = Mesh::default();

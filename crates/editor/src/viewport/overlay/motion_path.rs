@@ -1,4 +1,4 @@
-//! Draws the path of the selected object, with its keys.
+//! Draws the motion path of the selected object, with its keys.
 
 use egui::{Pos2, Shape, Stroke, Vec2, vec2};
 use glam::DVec3;
@@ -9,15 +9,15 @@ use crate::theme::type_face;
 
 /// If two neighbouring keys are closer than this, in points, all keys are drawn smaller.
 const CROWDED: f32 = 16.0;
-/// The space that a number needs, points.
+/// The space that a number needs, in points.
 const NUMBER: Vec2 = vec2(28.0, 16.0);
 
 /// The motion path of an object.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MotionPath {
-    /// Places of its origin along the path, world space.
+    /// Where the object's origin is along the path, in world space.
     pub places: Vec<DVec3>,
-    /// Its keys: frame and place.
+    /// The object's keys: the frame of each, and its place in world space.
     pub keys: Vec<(f64, DVec3)>,
 }
 
@@ -26,7 +26,8 @@ pub fn motion_path(sheet: &Sheet<'_>, path: &MotionPath) {
     let points: Vec<Option<Pos2>> = path.places.iter().map(|&place| sheet.project(place)).collect();
     for run in points.split(Option::is_none).filter(|run| run.len() > 1) {
         let run: Vec<Pos2> = run.iter().flatten().copied().collect();
-        // Where the path passes the eye, its points are so far away that dots all the way there would hold up the window.
+        // A path that passes close to the eye leads far out of the window. Dots all the way would freeze it, so only what
+        // is in sight gets dots.
         for run in ink::runs_in_sight(sheet.painter, &run) {
             sheet.painter.extend(Shape::dotted_line(&run, ink::black(0.6), 6.0, 1.9));
             sheet.painter.extend(Shape::dotted_line(&run, OVER_PAINT.key, 6.0, 1.3));
