@@ -125,7 +125,8 @@ impl Ended {
         if self.told.lines().any(|line| line.len() > LONGEST_LINE && !line.starts_with('{')) {
             faults.push("printed a line without an end".to_owned());
         }
-        if self.is_refused() && !names_of(folder).iter().any(|name| self.told.contains(name)) {
+        let names_a_file = names_of(folder).iter().any(|name| self.told.contains(name));
+        if self.is_refused() && !self.lacks_memory() && !names_a_file {
             faults.push("refused, but named no file".to_owned());
         }
         faults

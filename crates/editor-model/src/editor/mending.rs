@@ -138,6 +138,7 @@ mod tests {
 
     use super::*;
     use crate::command::{Command, SceneEdit};
+    use crate::selection::{Item, Selection};
 
     const SCENE: &str = "(version: 1, camera: (keys: [(frame: 0, eye: (0, 1, 4), target: (0, 0, 0))]), \
         objects: [(name: \"leaf\", mesh: \"leaf.obj\")])";
@@ -169,8 +170,13 @@ mod tests {
         assert_eq!(editor.take(late), Took::Late);
         assert_eq!((triangles(&editor), editor.document().scene().seed), (1, 7), "the edit stays");
         let again = editor.taking_in(News::Files).expect("edits of the scene do not prevent reading");
-        assert_eq!(editor.take(again()), Took::In(true));
+        // What is selected meanwhile stays selected.
+        let again = again();
+        let leaf = Selection::only(Item::Object("leaf".to_owned()));
+        editor.select(leaf.clone());
+        assert_eq!(editor.take(again), Took::In(true));
         assert_eq!((triangles(&editor), editor.document().scene().seed), (2, 7));
+        assert_eq!(*editor.document().selection(), leaf);
     }
 
     #[test]

@@ -16,6 +16,7 @@ use crate::session::Axes;
 
 mod lights;
 mod menus;
+mod selecting;
 mod time;
 
 const SIZE_PX: DVec2 = DVec2::new(960.0, 540.0);

@@ -23,8 +23,7 @@ use crate::session::{RegionDoes, Tool};
 #[derive(Clone, Debug, Default)]
 pub(super) struct Brush {
     heading: Heading,
-    /// Whether the preview of a comb may show: from the first quick movement until the pointer rests or a button is
-    /// pressed.
+    /// Whether a comb may be previewed: from the first quick movement until the pointer rests or a button is down.
     previews_comb: bool,
     stroke: Option<Stroke>,
 }
@@ -87,8 +86,7 @@ impl Brush {
             ToolEvent::Release { pressure } => {
                 let stroke = self.stroke.take().map(|on| Stroke { path: on.path.lifted(pressure), ..on });
                 let commit = stroke.as_ref().and_then(|on| on.command(around));
-                // The command selects its region once it is applied. A drag that gives no command selects the region that it was
-                // in, if any.
+                // A command selects its region when it is applied. A drag that gives none selects the region it was in.
                 let on = stroke.filter(|on| on.on.region.is_some() && commit.is_none());
                 let select = on.map(|on| Item::Region(on.on.name));
                 ToolOutput { commit, select, ..ToolOutput::saying(words(tool, around)) }
@@ -112,8 +110,7 @@ impl Brush {
         let radius_px = around.options.radius_px;
         let hit = around.hit(at_px);
         let mut output = match around.paintable(hit.as_ref()) {
-            // Over a surface that cannot be painted, the status line says why; a drag would be refused, not the hovering. Over
-            // nothing, the hollow ring says enough.
+            // Where nothing can be painted, the status line says why; over nothing at all, the hollow ring says enough.
             Err(refusal) if hit.is_some() => ToolOutput { refusal: None, ..ToolOutput::refusing(refusal) },
             _ => ToolOutput::saying(words(tool, around)),
         };

@@ -107,3 +107,29 @@ fn a_copy_of_what_a_shot_brings_stands_and_moves_as_it_does() {
         document.undo();
     }
 }
+
+/// Where an object stands in the world, in the pose of the reference.
+fn pose(scene: &Scene, name: &str) -> glam::DAffine3 {
+    let index = scene.objects.iter().position(|object| object.name == name).expect("it is there");
+    poses_at(scene, 0.0)[index]
+}
+
+#[test]
+fn an_object_stays_where_it_is_when_it_is_put_under_another_or_taken_off() {
+    let mut document = cubes();
+    let parent = |parent: Option<&str>| {
+        let (object, parent) = ("still".to_owned(), parent.map(str::to_owned));
+        Command::Edit(Edit::SetParent { object, parent })
+    };
+    let before = pose(document.scene(), "still");
+    assert!(!pose(document.scene(), "turning").abs_diff_eq(glam::DAffine3::IDENTITY, 1e-3));
+    document.apply(&parent(Some("turning"))).expect("it goes under it");
+    assert!(pose(document.scene(), "still").abs_diff_eq(before, 1e-9));
+    let has_parent = |document: &Document| {
+        document.scene().objects.iter().any(|object| object.parent.as_deref() == Some("turning"))
+    };
+    assert!(has_parent(&document));
+    document.apply(&parent(None)).expect("it comes off");
+    assert!(!has_parent(&document));
+    assert!(pose(document.scene(), "still").abs_diff_eq(before, 1e-9));
+}
