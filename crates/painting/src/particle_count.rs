@@ -370,9 +370,8 @@ mod tests {
     #[test]
     fn groups_of_one_mesh_share_the_depth() {
         let object = |mesh: &str, group: Option<&str>| Object {
-            mesh: mesh.to_owned(),
             group: group.map(str::to_owned),
-            ..Object::named("a")
+            ..Object::new("a", mesh)
         };
         let objects = vec![
             object("tree.obj", Some("leaves")),
@@ -382,7 +381,7 @@ mod tests {
             object("tree.obj", None),
             object("ball.obj", Some("skin")),
         ];
-        let scene = Scene { objects, ..Scene::default() };
+        let scene = Scene { objects, ..impasto_scene::new_scene::empty() };
         assert_eq!(groups_of_meshes(&scene), [2, 2, 2, 1, 1]);
         assert_eq!([1, 2, 3, 100].map(deepest), [DEEPEST, DEEPEST / 2.0, DEEPEST / 3.0, LEAST_DEEP]);
     }
