@@ -300,5 +300,5 @@ fn set_writes_one_field_and_leaves_the_text() {
     // A file that is no text is refused as every command refuses it.
     std::fs::write(&scene, b"(version: 1,\n name: \"\xff\")").unwrap();
     let (is_done, words) = set(&["strokes.scale=2"]);
-    assert!(!is_done && words.contains(":2:8: error: this file is not UTF-8 text"), "{words}");
+    assert!(!is_done && words.contains(":2:9: error: this file is not UTF-8 text"), "{words}");
 }

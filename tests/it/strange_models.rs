@@ -55,7 +55,7 @@ fn lines_that_obj_does_not_know_are_told_in_the_right_number() {
     read_with_one_warning(
         &two,
         "",
-        ":6:1: warning: 2 lines begin with words that OBJ does not know (\"foo\", \"bar\")",
+        ":6:1: warning: 2 lines begin with words that OBJ does not know (\"bar\", \"foo\")",
     );
 }
 

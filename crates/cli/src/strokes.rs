@@ -324,4 +324,45 @@ mod tests {
         let half = std::f32::consts::FRAC_1_SQRT_2;
         assert!((x - radius * half).abs() < 1e-3 && (y + radius * (1.0 - half)).abs() < 1e-3, "{x} {y}");
     }
+
+    /// The columns are matched by hand, so each has a value of its own here.
+    #[test]
+    fn a_column_holds_what_the_field_of_that_name_does() {
+        let row = Row {
+            id: 1,
+            object: "an apple",
+            region: "red, or not",
+            layer: "body",
+            x_px: 2.0,
+            y_px: 3.0,
+            depth: 4.0,
+            angle_deg: 5.0,
+            length_px: 6.0,
+            width_px: 7.0,
+            alpha: 8.0,
+            kappa: 9.0,
+            r: 10.0,
+            g: 11.0,
+            b: 12.0,
+            facing: 13.0,
+            rank: 14.0,
+            taper: 15.0,
+            bend_deg: 16.0,
+            bow: 17.0,
+        };
+        let fields = serde_json::to_value(&row).expect("a row is JSON");
+        let text = csv(&[row]).replace("\"red, or not\"", "red; or not");
+        let [names, values] = [0, 1].map(|line| text.lines().nth(line).unwrap_or_default().split(','));
+        let columns: Vec<(&str, String)> =
+            names.zip(values).map(|(name, value)| (name, value.replace(';', ","))).collect();
+        assert_eq!(columns.len(), fields.as_object().map_or(0, serde_json::Map::len));
+        for (name, value) in columns {
+            let field = &fields[name];
+            let same = match field.as_f64() {
+                Some(number) => value.parse() == Ok(number),
+                None => field.as_str() == Some(&value),
+            };
+            assert!(same, "{name}: {value} beside {field}");
+        }
+    }
 }

@@ -223,6 +223,9 @@ fn a_mesh_that_was_changed_is_read_again_without_an_entry() {
     let mut document = folder.open();
     let mesh: &Path = &folder.0.path().join("meshes/leaf.obj");
     assert!(document.files_on_disk().iter().any(|file| file == mesh));
+    // An OBJ file may get materials later; a scene file has none.
+    let materials = |file: &Path| document.files_on_disk().contains(&file.with_extension("mtl"));
+    assert!(materials(mesh) && !materials(&folder.path()));
     fs::write(mesh, QUAD.replace("f 1 2 3 4", "f 1 2 3")).expect("written");
     document.read_files_again().expect("read");
     assert_eq!(document.loaded().meshes["meshes/leaf.obj"].mesh.triangles.len(), 1);

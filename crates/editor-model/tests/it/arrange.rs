@@ -5,7 +5,7 @@ use std::path::Path;
 use glam::DVec3;
 use impasto_editor_model::command::{Arrange, Command, Edit, SceneEdit, Touches};
 use impasto_editor_model::{Document, Item};
-use impasto_scene::document::{Object, Scene, Touch, TouchPoint};
+use impasto_scene::document::{Direction, Object, Scene, Touch, TouchPoint};
 use impasto_scene::load::LoadOptions;
 use impasto_scene::motion::poses_at;
 use impasto_scene::new_scene::Ground;
@@ -132,4 +132,21 @@ fn an_object_stays_where_it_is_when_it_is_put_under_another_or_taken_off() {
     document.apply(&parent(None)).expect("it comes off");
     assert!(!has_parent(&document));
     assert!(pose(document.scene(), "still").abs_diff_eq(before, 1e-9));
+}
+
+#[test]
+fn what_a_region_states_in_an_object_s_space_goes_with_that_object_alone() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/touching_cubes.ron");
+    let toward = |region: &str| (format!("regions.{region}.direction"), "Toward((1, 0.5, 0.2))".to_owned());
+    let overrides = vec![toward("still"), toward("turning")];
+    let options = LoadOptions { overrides, ..LoadOptions::default() };
+    let mut document = Document::open(&path, &options).expect("a shipped scene opens");
+    let stretch = Arrange::Stretch { object: "still".to_owned(), factors: DVec3::new(2.0, 1.0, 0.5) };
+    document.apply(&Command::Arrange(stretch)).expect("it fits");
+    for (name, wanted) in [("still", [2.0, 0.5, 0.1]), ("turning", [1.0, 0.5, 0.2])] {
+        let mut regions = document.scene().regions.iter();
+        let region = regions.find(|region| region.name == name).expect("it is there");
+        let Direction::Toward(at) = region.direction else { panic!("{:?}", region.direction) };
+        assert!(DVec3::from(at).abs_diff_eq(DVec3::from(wanted), 1e-6), "{name}: {at:?}");
+    }
 }

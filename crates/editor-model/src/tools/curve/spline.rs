@@ -45,3 +45,31 @@ pub(super) fn through(
     }
     curve
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec2;
+
+    use super::*;
+
+    /// At its ends a curve goes on straight, so one through evenly spaced points of a line is evenly spaced itself.
+    #[test]
+    fn through_points_of_a_line_it_is_that_line() {
+        let at = |x: f64| PathPoint {
+            at_px: DVec2::ZERO,
+            position: DVec3::new(x, 2.0 * x, 1.0),
+            normal: DVec3::Z,
+            pressure: 1.0,
+        };
+        let mut flat = |position: DVec3, normal: DVec3| PathPoint { position, normal, ..at(0.0) };
+        for points in [vec![at(0.0), at(1.0)], vec![at(0.0), at(1.0), at(2.0)]] {
+            let length = points[0].position.distance(points[points.len() - 1].position);
+            let curve = through(&points, length / 12.0, &mut flat);
+            assert_eq!(curve.len(), 13);
+            for (index, point) in curve.iter().enumerate() {
+                let wanted = at((points.len() - 1) as f64 * index as f64 / 12.0).position;
+                assert!(point.position.abs_diff_eq(wanted, 1e-9), "{index}: {}", point.position);
+            }
+        }
+    }
+}
