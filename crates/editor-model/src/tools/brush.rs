@@ -103,8 +103,7 @@ impl Brush {
         }
     }
 
-    /// What shows while no drag is under way: rings, the needle, the preview of a comb, the label, and the words of the
-    /// status line.
+    /// What shows while no drag is under way: rings, a needle, a preview, a label, and words for the status line.
     fn aim(&mut self, tool: Tool, at_px: DVec2, at_secs: f64, around: &Surroundings) -> ToolOutput {
         self.heading.follow(at_px, at_secs);
         let radius_px = around.options.radius_px;
@@ -141,8 +140,7 @@ impl Brush {
         output
     }
 
-    /// The comb that a drag from here would begin. `None` if the tool is another one, previews are off or not due, or this
-    /// place cannot be combed.
+    /// The comb that a drag from here would begin; `None` if it would begin none, or previews are off or not due.
     fn comb_preview(&self, tool: Tool, hit: &Hit, around: &Surroundings) -> Option<CombPreview> {
         let options = around.options;
         let wanted = tool == Tool::Comb && options.foresee && self.previews_comb;
