@@ -9,6 +9,9 @@ use impasto_core::neighbours::Neighbours;
 use impasto_core::sampling::{Particle, Surface, progressive};
 use impasto_core::screen_map::{PixelLens, ScreenMap};
 use impasto_core::solve::{BakedParticles, SolvedParticles, solve};
+use impasto_painting::FrameOptions;
+use impasto_scene::presets::LayerKind;
+use impasto_tests::scenes::painting_with;
 use impasto_tests::shapes::sphere;
 
 const SIZE_PX: DVec2 = DVec2::new(1280.0, 720.0);
@@ -189,4 +192,41 @@ fn a_neighbour_list_of_another_particle_is_noticed() {
         errors += u32::from(degrees_apart(exact, fault) > 1e-3);
     }
     assert!(errors > 950, "only {errors} of 1000 planted faults show");
+}
+
+/// At the frame of the reference nothing has turned, so a stroke lies as its region states, whichever solver finds the
+/// turn.
+#[test]
+fn at_the_reference_strokes_lie_as_their_region_states() {
+    for solver in ["Tangent", "Horn", "HornExact"] {
+        let painting = painting_with(
+            "touching_cubes",
+            &[
+                ("style.solver", solver),
+                ("regions.still.direction", "Angle(50)"),
+                ("regions.still.strokes.angle_jitter_deg", "0"),
+                ("regions.still.strokes.swing_deg", "0"),
+            ],
+        );
+        let still = painting.scene().regions.iter().position(|region| region.name == "still").unwrap();
+        let frame = painting.at(0.0, &FrameOptions::new([640, 360]));
+        let body = frame.layers.iter().find(|run| run.kind == LayerKind::Body).unwrap();
+        let strokes = body.first as usize..(body.first + body.count) as usize;
+        let mut off: Vec<f64> = strokes
+            .filter(|&index| frame.sources[index].region as usize == still)
+            // Twice the angle, since a line has no beginning.
+            .map(|index| {
+                let angle_rad = f64::from(frame.strokes[index].angle_rad);
+                0.5 * degrees_apart(2.0 * angle_rad, 2.0 * 50f64.to_radians())
+            })
+            .collect();
+        off.sort_by(f64::total_cmp);
+        // Some stray on purpose, and on the sides of the cube strokes lie partly on the surface.
+        assert!(
+            off.len() > 200 && off[off.len() * 3 / 4] < 8.0,
+            "{solver}: {} of {}",
+            off[off.len() * 3 / 4],
+            off.len()
+        );
+    }
 }
