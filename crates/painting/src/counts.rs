@@ -118,7 +118,8 @@ impl CountInputs {
         let wanted_per_px = self.wanted_per_px(surface.mesh(), parts);
         let Found { needed, is_cut } = particle_count::find::<LAYERS>(
             surface,
-            (&self.sightings, self.deepest),
+            &self.sightings,
+            self.deepest,
             positions_at,
             wanted_per_px,
         );

@@ -105,7 +105,8 @@ pub(crate) struct Found<const LAYERS: usize> {
 /// positions in a shape, or `None` at rest. Faces that cover the picture more than `deepest` times count no more.
 pub(crate) fn find<const LAYERS: usize>(
     surface: &Surface<'_>,
-    (sightings, deepest): (&[Sighting], f64),
+    sightings: &[Sighting],
+    deepest: f64,
     positions_at: impl Fn(&BodyShape) -> Option<Vec<Vec3>> + Sync,
     wanted_per_px: impl Fn(usize, DVec3, DVec3) -> [f32; LAYERS],
 ) -> Found<LAYERS> {
@@ -137,7 +138,7 @@ pub(crate) fn find<const LAYERS: usize>(
     let mesh = surface.mesh();
     let needed_in = |sighting: &Sighting| {
         let moved = positions_at(&sighting.shape);
-        needed_per_area((&faces, deepest / stride as f64), sighting, |face| match &moved {
+        needed_per_area(&faces, deepest / stride as f64, sighting, |face| match &moved {
             Some(positions) => face.moved(mesh, positions),
             None => (face.center, face.normal),
         })
@@ -223,7 +224,8 @@ fn middles([a, b, c]: [DVec3; 3], cuts: usize) -> impl Iterator<Item = DVec3> {
 /// Particles needed per unit of surface in one view, by layer. Faces that cover the picture more than `deepest` times
 /// count no more.
 fn needed_per_area<const LAYERS: usize>(
-    (faces, deepest): (&[CountedFace<LAYERS>], f64),
+    faces: &[CountedFace<LAYERS>],
+    deepest: f64,
     sighting: &Sighting,
     placed: impl Fn(&CountedFace<LAYERS>) -> (DVec3, DVec3),
 ) -> [f64; LAYERS] {
@@ -316,8 +318,7 @@ mod tests {
         let counted = |cells: u32| {
             let mesh = floor(10.0, cells);
             let surface = Surface::new(&mesh, |_| true);
-            find(&surface, (std::slice::from_ref(&sighting), deepest(1)), |_| None, |_, _, _| [0.001]).needed
-                [0]
+            find(&surface, std::slice::from_ref(&sighting), deepest(1), |_| None, |_, _, _| [0.001]).needed[0]
         };
         let (rough, fine) = (counted(1), counted(100));
         assert!((rough / fine - 1.0).abs() < 0.2, "{rough} particles, but {fine} on the grid");
@@ -334,7 +335,7 @@ mod tests {
             let map = ScreenMap::new(view, DAffine3::IDENTITY, PixelLens::Perspective { focal_px: 300.0 });
             let (half_size_px, shape) = (DVec2::new(320.0, 180.0), BodyShape::default());
             let sighting = Sighting { map, half_size_px, near: 0.1, shape };
-            find(&surface, (&[sighting], deepest(1)), |_| None, |_, _, _| [0.01]).needed[0]
+            find(&surface, &[sighting], deepest(1), |_| None, |_, _, _| [0.01]).needed[0]
         };
         let [above, below] = [4.0, -4.0].map(counted);
         assert!(above > 300.0 && (above / below - 1.0).abs() < 0.05, "{above} from above, {below} below");
@@ -359,8 +360,7 @@ mod tests {
                     .extend(one.triangles.iter().map(|of| of.map(|corner| corner + level * corners)));
             }
             let surface = Surface::new(&mesh, |_| true);
-            find(&surface, (std::slice::from_ref(&sighting), deepest(1)), |_| None, |_, _, _| [0.001]).needed
-                [0]
+            find(&surface, std::slice::from_ref(&sighting), deepest(1), |_| None, |_, _, _| [0.001]).needed[0]
         };
         let [one, some, many, more] = [1, 8, 64, 128].map(counted);
         assert!((some / one / 8.0 - 1.0).abs() < 0.1, "8 floors need {some}, one needs {one}");

@@ -21,7 +21,7 @@ fn side(chance: &mut Chance, true_px: u32) -> u32 {
     if !chance.is_odd() {
         return true_px;
     }
-    *chance.of(&[&0, &1, &65_535, &100_000, &0x7fff_ffff, &0xffff_ffff])
+    chance.of(&[0, 1, 65_535, 100_000, 0x7fff_ffff, 0xffff_ffff])
 }
 
 fn noise(chance: &mut Chance, count: usize) -> Vec<u8> {
@@ -29,13 +29,13 @@ fn noise(chance: &mut Chance, count: usize) -> Vec<u8> {
 }
 
 fn png(chance: &mut Chance, width: u32, height: u32) -> Vec<u8> {
-    let color = *chance.of(&[
-        &png::ColorType::Rgb,
-        &png::ColorType::Rgba,
-        &png::ColorType::Grayscale,
-        &png::ColorType::GrayscaleAlpha,
+    let color = chance.of(&[
+        png::ColorType::Rgb,
+        png::ColorType::Rgba,
+        png::ColorType::Grayscale,
+        png::ColorType::GrayscaleAlpha,
     ]);
-    let depth = *chance.of(&[&png::BitDepth::Eight, &png::BitDepth::Sixteen]);
+    let depth = chance.of(&[png::BitDepth::Eight, png::BitDepth::Sixteen]);
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(color);
@@ -57,7 +57,7 @@ fn png(chance: &mut Chance, width: u32, height: u32) -> Vec<u8> {
 }
 
 fn bmp(chance: &mut Chance, width: u32, height: u32) -> Vec<u8> {
-    let bits: u16 = *chance.of(&[&24, &32, &8, &1, &16]);
+    let bits: u16 = chance.of(&[24, 32, 8, 1, 16]);
     let row = (width as usize * usize::from(bits)).div_ceil(32) * 4;
     let pixels = noise(chance, row * height as usize);
     let mut bytes = b"BM".to_vec();
@@ -79,8 +79,7 @@ fn bmp(chance: &mut Chance, width: u32, height: u32) -> Vec<u8> {
 }
 
 fn tga(chance: &mut Chance, width: u32, height: u32) -> Vec<u8> {
-    let (kind, bits): (u8, u8) =
-        *chance.of(&[&(2, 24), &(2, 32), &(3, 8), &(10, 24), &(11, 8), &(1, 8), &(9, 16)]);
+    let (kind, bits): (u8, u8) = chance.of(&[(2, 24), (2, 32), (3, 8), (10, 24), (11, 8), (1, 8), (9, 16)]);
     let mut bytes = vec![0, u8::from(kind == 1 || kind == 9), kind, 0, 0];
     bytes.extend((side(chance, 4) as u16).to_le_bytes());
     bytes.extend([24, 0, 0, 0, 0]);

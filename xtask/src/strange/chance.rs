@@ -126,7 +126,8 @@ impl Chance {
         least + (most - least) * self.numbers.f64()
     }
 
-    pub fn of<'a, T: ?Sized>(&mut self, from: &[&'a T]) -> &'a T {
+    /// One of these.
+    pub fn of<T: Copy>(&mut self, from: &[T]) -> T {
         from[self.below(from.len())]
     }
 
@@ -137,8 +138,7 @@ impl Chance {
     /// An odd name; now and then one of up to a million letters.
     pub fn odd_name(&mut self) -> String {
         if self.happens(0.05) {
-            let letter = *self.of(&["a", "é", "\u{1f58c}"]).chars().next().get_or_insert('a');
-            return letter.to_string().repeat(self.count(1_000_000));
+            return self.of(&["a", "é", "\u{1f58c}"]).repeat(self.count(1_000_000));
         }
         self.of(&ODD_NAMES).to_owned()
     }

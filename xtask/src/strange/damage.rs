@@ -33,15 +33,8 @@ pub fn bytes(chance: &mut Chance, mut bytes: Vec<u8>, other: &[u8]) -> Vec<u8> {
             }
             5 if chance.happens(0.2) => bytes.truncate(at),
             _ => {
-                let number = *chance.of(&[
-                    &0u32,
-                    &1,
-                    &0x7fff_ffff,
-                    &0x8000_0000,
-                    &0xffff_ffff,
-                    &0x7fc0_0000,
-                    &0x7f80_0000,
-                ]);
+                let number =
+                    chance.of(&[0u32, 1, 0x7fff_ffff, 0x8000_0000, 0xffff_ffff, 0x7fc0_0000, 0x7f80_0000]);
                 let end = (at + 4).min(bytes.len());
                 bytes[at..end].copy_from_slice(&number.to_le_bytes()[..end - at]);
             }

@@ -69,31 +69,32 @@ pub fn run(root: &Path, own: &[String]) -> anyhow::Result<()> {
     let program = kept.join("impasto");
     std::fs::copy(&built, &program)?;
     println!("seed {}", asked.seed);
-    let (next, sums, start) =
-        (AtomicU64::new(asked.only.unwrap_or(0)), Mutex::new(Sums::default()), Instant::now());
-    let lanes = if asked.only.is_some() { 1 } else { std::thread::available_parallelism()?.get() };
-    let done: anyhow::Result<()> = std::thread::scope(|scope| {
-        let lane = || -> anyhow::Result<()> {
-            loop {
-                let number = next.fetch_add(1, Ordering::Relaxed);
-                let is_over = start.elapsed() > Duration::from_secs(60 * asked.minutes);
-                if asked.only.is_some_and(|only| number > only) || (asked.only.is_none() && is_over) {
-                    return Ok(());
-                }
-                let case = source.case(asked.seed, number);
-                let name = format!("{}_{number}", asked.seed);
-                try_case(&program, &case, (&name, asked.only.is_some()), &kept, &sums)
-                    .with_context(|| format!("case {number}"))?;
+    let trials = Trials { program, kept, keeps_all: asked.only.is_some(), sums: Mutex::default() };
+    let (next, start) = (AtomicU64::new(asked.only.unwrap_or(0)), Instant::now());
+    let is_over = |number: u64| match asked.only {
+        Some(only) => number > only,
+        None => start.elapsed() > Duration::from_secs(60 * asked.minutes),
+    };
+    let lane = || -> anyhow::Result<()> {
+        loop {
+            let number = next.fetch_add(1, Ordering::Relaxed);
+            if is_over(number) {
+                return Ok(());
             }
-        };
+            let name = format!("{}_{number}", asked.seed);
+            let case = source.case(asked.seed, number);
+            trials.run(&case, &name).with_context(|| format!("case {number}"))?;
+        }
+    };
+    let lanes = if asked.only.is_some() { 1 } else { std::thread::available_parallelism()?.get() };
+    std::thread::scope(|scope| {
         let lanes: Vec<_> = (0..lanes).map(|_| scope.spawn(lane)).collect();
         lanes.into_iter().try_for_each(|lane| lane.join().unwrap_or_else(|_| bail!("a lane panicked")))
-    });
-    done?;
-    let sums = sums.into_inner().unwrap_or_default();
+    })?;
+    let sums = trials.sums.into_inner().unwrap_or_default();
     sums.print();
     if !sums.faults.is_empty() {
-        bail!("some files made it fall over; they are in {}: make each a test", kept.display());
+        bail!("some files made it fall over; they are in {}: make each a test", trials.kept.display());
     }
     Ok(())
 }
@@ -116,40 +117,48 @@ fn asked(own: &[String]) -> anyhow::Result<Asked> {
     Ok(asked)
 }
 
-/// Writes a case's files into a folder of its own, runs commands on them, and notes how they end.
-fn try_case(
-    program: &Path,
-    case: &Case,
-    (name, is_asked_for): (&str, bool),
-    kept: &Path,
-    sums: &Mutex<Sums>,
-) -> anyhow::Result<()> {
-    let outer = tempfile::tempdir()?;
-    let folder = outer.path().join(FILES);
-    std::fs::create_dir(&folder)?;
-    for (file, bytes) in &case.files {
-        std::fs::write(folder.join(file), bytes)?;
+/// What all trials share.
+struct Trials {
+    program: PathBuf,
+    /// The folder for the files of cases that fell over.
+    kept: PathBuf,
+    /// Whether the files of each case are kept.
+    keeps_all: bool,
+    sums: Mutex<Sums>,
+}
+
+impl Trials {
+    /// Writes a case's files into a folder of its own, runs commands on them, and notes how they end.
+    fn run(&self, case: &Case, name: &str) -> anyhow::Result<()> {
+        let outer = tempfile::tempdir()?;
+        let folder = outer.path().join(FILES);
+        std::fs::create_dir(&folder)?;
+        for (file, bytes) in &case.files {
+            std::fs::write(folder.join(file), bytes)?;
+        }
+        let mut ended = Vec::new();
+        for words in &case.commands {
+            let words: Vec<&str> = words.iter().map(String::as_str).collect();
+            ended.push(trial::run(&self.program, &folder, &words)?);
+        }
+        let faults = faults(case, &ended, outer.path(), &folder);
+        let mut sums = self.sums.lock().map_err(|_| anyhow::anyhow!("a lane panicked"))?;
+        sums.add(case, &ended, name);
+        let mut is_kept = self.keeps_all;
+        for fault in faults {
+            println!("{name} {}: {fault}", case.kind);
+            // Faults that differ only in a number are of one kind.
+            let kind = format!("{}: {fault}", case.kind).replace(|letter: char| letter.is_ascii_digit(), "#");
+            let count = sums.faults.entry(kind).or_default();
+            *count += 1;
+            is_kept |= *count <= KEPT_OF_A_KIND;
+        }
+        if is_kept {
+            let reports: String = ended.iter().map(Ended::report).collect();
+            keep(&folder, &self.kept.join(name), &reports)?;
+        }
+        Ok(())
     }
-    let mut ended = Vec::new();
-    for words in &case.commands {
-        let words: Vec<&str> = words.iter().map(String::as_str).collect();
-        ended.push(trial::run(program, &folder, &words)?);
-    }
-    let faults = faults(case, &ended, outer.path(), &folder);
-    let mut sums = sums.lock().map_err(|_| anyhow::anyhow!("a lane panicked"))?;
-    sums.add(case, &ended, name);
-    let mut is_kept = is_asked_for;
-    for fault in faults {
-        let count = sums.faults.entry(format!("{}: {fault}", case.kind)).or_default();
-        *count += 1;
-        is_kept |= *count <= KEPT_OF_A_KIND;
-        println!("{name} {}: {fault}", case.kind);
-    }
-    if is_kept {
-        let reports: String = ended.iter().map(Ended::report).collect();
-        keep(&folder, &kept.join(name), &reports)?;
-    }
-    Ok(())
 }
 
 /// What is wrong with a case: with each command, and with all of them together.

@@ -80,7 +80,7 @@ fn line_of(text: &mut String, words: &[&str]) {
 /// Writes texture coordinates and normals, and says how many of each.
 fn attributes(chance: &mut Chance, body: &Body, text: &mut String) -> (usize, usize) {
     let uvs = if chance.happens(0.5) { chance.count(body.points.len()) } else { 0 };
-    let spread = *chance.of(&[&1.0, &1e-6, &1e4, &0.0]);
+    let spread = chance.of(&[1.0, 1e-6, 1e4, 0.0]);
     for _ in 0..uvs {
         let (u, v) = (chance.between(0.0, spread), chance.between(0.0, spread));
         let _ = writeln!(text, "vt {} {}", chance.number(u), chance.number(v));
@@ -108,12 +108,12 @@ fn direction(chance: &mut Chance) -> [f64; 3] {
 
 /// Makes it large or tiny, flat along an axis, and moves it far away, each now and then.
 fn place(chance: &mut Chance, body: &mut Body) {
-    let size = *chance.of(&[&1.0, &1.0, &1.0, &100.0, &1e4, &1e-3, &1e-6, &1e6]);
+    let size = chance.of(&[1.0, 1.0, 1.0, 100.0, 1e4, 1e-3, 1e-6, 1e6]);
     let mut stretch = [size; 3];
     if chance.happens(0.2) {
-        stretch[chance.below(3)] *= *chance.of(&[&0.0, &1e-6, &1e-3, &1e3]);
+        stretch[chance.below(3)] *= chance.of(&[0.0, 1e-6, 1e-3, 1e3]);
     }
-    let far = *chance.of(&[&0.0, &0.0, &0.0, &1.0, &1e3, &1e5, &1e7]);
+    let far = chance.of(&[0.0, 0.0, 0.0, 1.0, 1e3, 1e5, 1e7]);
     let offset = direction(chance).map(|part| part * far * size);
     for point in &mut body.points {
         for axis in 0..3 {
@@ -175,7 +175,7 @@ fn wide_face(chance: &mut Chance) -> Body {
 /// A ball, smooth or with spikes.
 fn ball(chance: &mut Chance) -> Body {
     let rings = chance.count(80).max(2);
-    let spikes = *chance.of(&[&0.0, &0.05, &1.0, &30.0]);
+    let spikes = chance.of(&[0.0, 0.05, 1.0, 30.0]);
     let mut points = Vec::new();
     for ring in 0..=rings {
         let tilt = std::f64::consts::PI * ring as f64 / rings as f64;
@@ -203,7 +203,7 @@ fn quads(rows: usize, across: usize, joined: usize) -> Vec<Vec<usize>> {
 /// A field of quads, level, rolling or torn.
 fn grid(chance: &mut Chance) -> Body {
     let side = chance.count(120).max(2);
-    let height = *chance.of(&[&0.0, &0.02, &0.3, &20.0]);
+    let height = chance.of(&[0.0, 0.02, 0.3, 20.0]);
     let mut points = Vec::new();
     for row in 0..side {
         for column in 0..side {
@@ -221,7 +221,7 @@ fn slivers(chance: &mut Chance) -> Body {
     let mut body = Body::default();
     for _ in 0..chance.count(MOST) {
         let (from, to) = (anywhere(chance), anywhere(chance));
-        let width = *chance.of(&[&1e-3, &1e-6, &1e-9, &0.0]);
+        let width = chance.of(&[1e-3, 1e-6, 1e-9, 0.0]);
         let first = body.points.len();
         body.points.extend([from, to, [0, 1, 2].map(|axis| to[axis] + width * f64::from(axis == 1))]);
         body.faces.push(vec![first, first + 1, first + 2]);
@@ -240,7 +240,7 @@ fn fins(chance: &mut Chance) -> Body {
 /// Cubes within cubes, some inside out.
 fn shells(chance: &mut Chance) -> Body {
     let mut body = Body::default();
-    let step = *chance.of(&[&1e-7, &1e-3, &0.02]);
+    let step = chance.of(&[1e-7, 1e-3, 0.02]);
     for shell in 0..chance.count(300) {
         let (half, first) = (1.0 + step * shell as f64, body.points.len());
         for corner in 0..8 {
@@ -260,7 +260,7 @@ fn shells(chance: &mut Chance) -> Body {
 /// A tube along a knot, thick or as thin as a hair, closed with half a twist now and then.
 fn tube(chance: &mut Chance) -> Body {
     let (steps, sides) = (chance.count(600).max(3), chance.count(24).max(2));
-    let thickness = *chance.of(&[&0.3, &0.02, &1e-4]);
+    let thickness = chance.of(&[0.3, 0.02, 1e-4]);
     let (knots, twists) = (chance.below(7) as f64, chance.below(4) as f64 * 0.5);
     let mut points = Vec::new();
     for step in 0..=steps {
@@ -282,7 +282,7 @@ fn tube(chance: &mut Chance) -> Body {
 /// Two small clouds of triangles far from each other.
 fn clusters(chance: &mut Chance) -> Body {
     let mut body = soup(chance);
-    let gap = *chance.of(&[&10.0, &1e4, &1e8]);
+    let gap = chance.of(&[10.0, 1e4, 1e8]);
     for point in body.points.iter_mut().skip(chance.below(9)) {
         point[0] += gap;
     }
@@ -323,7 +323,7 @@ pub fn mtl(chance: &mut Chance) -> Vec<u8> {
                 line_of(&mut text, &[" ", options, &chance.name(&["t.png", "none.png"])]);
                 continue;
             }
-            for _ in 0..chance.of(&[&1, &3, &3, &3, &4]).to_owned() {
+            for _ in 0..chance.of(&[1, 3, 3, 3, 4]) {
                 let usual = chance.between(0.0, 1.0);
                 let _ = write!(text, " {}", chance.number(usual));
             }

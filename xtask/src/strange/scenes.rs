@@ -104,9 +104,9 @@ impl Writer<'_> {
         }
         let takes = row.takes.split(',').next().unwrap_or_default();
         match takes {
-            "a number" => self.number(chance, range_of(table, row), false),
-            "a whole number" => self.number(chance, range_of(table, row), true),
-            "a number or `(x" if chance.happens(0.5) => self.number(chance, range_of(table, row), false),
+            "a number" => self.number(chance, usual_range(table, row), false),
+            "a whole number" => self.number(chance, usual_range(table, row), true),
+            "a number or `(x" if chance.happens(0.5) => self.number(chance, usual_range(table, row), false),
             "text" | "a brush" => self.word(chance, table, &row.name),
             "a colour" => self.color(chance),
             "`true` or `false`" => {
@@ -125,7 +125,7 @@ impl Writer<'_> {
             }
             _ if row.takes.contains('(') => {
                 let inside = row.takes.split(['(', ')']).nth(1).unwrap_or_default();
-                let range = range_of(table, row);
+                let range = usual_range(table, row);
                 self.vector(chance, inside.matches(',').count() + 1, range);
             }
             _ => {
@@ -321,7 +321,7 @@ impl Writer<'_> {
 
 /// What a field's numbers are drawn from as a rule, so that a scene is sound and small: what the page says, or what
 /// goes well together.
-fn range_of(table: &str, row: &Row) -> [f64; 2] {
+fn usual_range(table: &str, row: &Row) -> [f64; 2] {
     match (table, &*row.name) {
         (_, "version") => [1.0, 1.0],
         (_, "particles") => [0.0, 3000.0],

@@ -71,7 +71,7 @@ pub fn whole(chance: &mut Chance, root: &Value, bytes: &[u8]) -> Vec<u8> {
         if !chance.is_odd() {
             return (true_length as u32).to_le_bytes();
         }
-        chance.of(&[&0u32, &1, &12, &0x7fff_ffff, &0xffff_fffc]).to_le_bytes()
+        chance.of(&[0u32, 1, 12, 0x7fff_ffff, 0xffff_fffc]).to_le_bytes()
     };
     let mut file = b"glTF\x02\0\0\0".to_vec();
     file.extend(length(28 + text.len() + bytes.len()));

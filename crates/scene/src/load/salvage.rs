@@ -20,7 +20,7 @@ use super::parse::{
     self, blank_out, blank_range, enclosing_path, enclosing_struct_path, explain, field_before,
 };
 use super::source::{self, error_in};
-use super::{FieldLocator, LoadOptions};
+use super::{FieldLocator, LoadOptions, text_of};
 use crate::check::{self, Finding};
 use crate::document::Scene;
 use crate::limits;
@@ -67,10 +67,7 @@ pub struct Loss {
 /// There is nothing to open: the file is missing or is not text, its version is newer, or it exceeds a limit of this
 /// build.
 pub fn salvage(path: &Path, options: &LoadOptions) -> Result<Salvaged, Report> {
-    let alone = |problem| Report(vec![problem]);
-    let bytes = source::read(path).map_err(alone)?;
-    let text = source::decode(path, &bytes).map_err(alone)?;
-    salvage_text(path, text, options)
+    salvage_text(path, &text_of(path)?, options)
 }
 
 /// As [`salvage`], but reads the scene from `text`. Messages name `path`, and the scene's files are found from there.

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::parse::{options, parse_with};
-use super::read_brush;
-use super::source::{self, error_in};
+use super::source::error_in;
+use super::{read_brush, text_of};
 use crate::assets::AssetFolders;
 use crate::check;
 use crate::document::Scene;
@@ -72,9 +72,7 @@ pub fn parse(path: &Path, text: &str) -> Result<StrokesFile, Report> {
 ///
 /// All problems of the file, or of its pictures.
 pub fn load(path: &Path) -> Result<StrokesFile, Report> {
-    let alone = |problem| Report(vec![problem]);
-    let bytes = source::read(path).map_err(alone)?;
-    let preset = parse(path, source::decode(path, &bytes).map_err(alone)?)?;
+    let preset = parse(path, &text_of(path)?)?;
     let scene = in_scene(&preset);
     let unusable = check::brush_pictures(&scene)
         .into_iter()

@@ -1,7 +1,6 @@
 //! Tests of what is selected, shown and hidden, and of what the pointer leaves behind.
 
 use super::*;
-use crate::command::{KeyOf, Time};
 
 fn objects(editor: &Editor) -> Vec<String> {
     editor.document().scene().objects.iter().map(|object| object.name.clone()).collect()
@@ -46,25 +45,4 @@ fn show_all_shows_what_is_hidden_and_makes_no_entry_where_nothing_is() {
     assert!(editor.run(&Command::Edit(Edit::SetHidden(items, true))));
     act(&mut editor, Action::ShowAll);
     assert!(editor.document().scene().objects.iter().all(|object| !object.hidden));
-}
-
-#[test]
-fn keying_one_of_two_loose_poses_leaves_the_other_loose() {
-    let mut editor = with_apple();
-    let names = objects(&editor);
-    editor.select(names.iter().map(|name| Item::Object(name.clone())).collect());
-    assert!(editor.run(&Command::Time(Time::SetRange(0, 119))));
-    act(&mut editor, Action::Animate);
-    editor.session.frame = 60.0;
-    editor.session.auto_key = false;
-    editor.tick(0.0);
-    let at = middle_of_the_apple(&editor);
-    event(&mut editor, PointerKind::Move, at, HERE);
-    for pressed in [Key::Letter('G'), Key::Letter('X'), Key::NumPadPoint, Key::Digit(5), Key::Enter] {
-        key(&mut editor, pressed);
-    }
-    assert!(names.iter().all(|name| editor.time().is_loose(name)), "{names:?}");
-    let of = KeyOf::Object(names[0].clone());
-    assert!(editor.run(&Command::Time(Time::SetKey(of, 60.0))));
-    assert!(!editor.time().is_loose(&names[0]) && editor.time().is_loose(&names[1]));
 }

@@ -82,6 +82,20 @@ fn without_auto_key_a_pose_stays_at_its_frame_until_it_is_keyed() {
 }
 
 #[test]
+fn keying_one_of_two_loose_poses_leaves_the_other_loose() {
+    let (mut editor, apple) = animating(60.0);
+    editor.session.auto_key = false;
+    let objects = editor.document().scene().objects.iter();
+    let names: Vec<String> = objects.map(|object| object.name.clone()).collect();
+    editor.select(names.iter().map(|name| Item::Object(name.clone())).collect());
+    move_by_half(&mut editor);
+    assert!(names.len() > 1 && names.iter().all(|name| editor.time().is_loose(name)), "{names:?}");
+    assert!(editor.run(&Command::Time(Time::SetKey(KeyOf::Object(apple.clone()), 60.0))));
+    let loose: Vec<&String> = names.iter().filter(|name| editor.time().is_loose(name)).collect();
+    assert!(loose.len() == names.len() - 1 && !loose.contains(&&apple), "{loose:?}");
+}
+
+#[test]
 fn an_unkeyed_pose_that_was_left_can_be_brought_back() {
     let (mut editor, name) = animating(60.0);
     editor.session.auto_key = false;
