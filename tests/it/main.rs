@@ -23,6 +23,7 @@ mod far_scenes;
 mod farm;
 mod goldens;
 mod guides;
+mod heaps;
 mod highlights;
 mod horn;
 mod hostile_directions;

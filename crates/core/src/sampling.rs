@@ -21,7 +21,7 @@ use crate::shells::{Side, sides};
 use dart_grid::Dart;
 
 pub use candidates::scattered;
-pub use cells::{Cell, Cells, Needed};
+pub use cells::{Cell, CellPiece, Cells, Needed};
 pub use levels::ProgressiveState;
 pub use packed::PackedParticle;
 pub use paper::{PolygonParticle, per_polygon};

@@ -116,7 +116,7 @@ impl CountInputs {
         let body = &self.surface;
         let positions_at = |shape: &BodyShape| (!body.is_at_rest(shape)).then(|| body.positions_at(shape));
         let wanted_per_px = self.wanted_per_px(surface.mesh(), parts);
-        let Found { needed, is_cut } = particle_count::find::<LAYERS>(
+        let Found { needed, is_cut, deepness } = particle_count::find::<LAYERS>(
             surface,
             &self.sightings,
             self.deepest,
@@ -140,7 +140,14 @@ impl CountInputs {
             let is_fixed = is_stated(kind).is_some() || self.left_out[kind] || !self.is_by_view;
             !is_fixed && (is_cut || needed[kind] * f64::from(self.more_wanted) > LEAST_ON_WHOLE)
         });
-        Counted { counts, may_depend_on_views, more_wanted: f64::from(self.more_wanted) }
+        Counted { counts, may_depend_on_views, more_wanted: f64::from(self.more_wanted), deepness }
+    }
+
+    /// Whether nothing shows through a triangle: no texture cuts holes into it.
+    pub(crate) fn is_solid(&self, triangle: usize) -> bool {
+        let BodySurface { mesh, materials, .. } = &*self.surface;
+        let material = mesh.material_of_triangle.get(triangle).and_then(|&of| materials.get(of as usize));
+        material.is_none_or(|material| material.cutoff.is_none())
     }
 
     /// Whether both are of one surface.
@@ -194,6 +201,8 @@ pub(crate) struct Counted {
     pub(crate) may_depend_on_views: [bool; LAYERS],
     /// The factor, at least 1, by which painted amounts raise the counts.
     pub(crate) more_wanted: f64,
+    /// See [`Found::deepness`].
+    pub(crate) deepness: f64,
 }
 
 /// How many particles a coat is to have, and where.

@@ -21,7 +21,7 @@ pub use write::ToKeep;
 
 /// The version of the layout of kept bytes. Raise it when what is kept, or its order, changes. (When the way it is
 /// *made* changes, nothing needs to be done: the hash of the sources is part of every key.)
-pub const FORMAT: u32 = 3;
+pub const FORMAT: u32 = 4;
 
 /// The key under which a prepared painting is kept: a hash of all that it is made from, and of the program itself.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]

@@ -97,6 +97,9 @@ pub(crate) struct Found<const LAYERS: usize> {
     pub(crate) needed: [f64; LAYERS],
     /// Whether views see large faces in part, or very unevenly: then a spot that is small beside the face may need more.
     pub(crate) is_cut: bool,
+    /// How often, in the mean, faces that face the eye cover the part of the picture where the object is; the greatest
+    /// of all views.
+    pub(crate) deepness: f64,
 }
 
 /// How many particles each layer needs on the whole surface. They are enough that, in every view, nine tenths of the
@@ -134,7 +137,9 @@ pub(crate) fn find<const LAYERS: usize>(
             })
         })
         .collect();
-    let most = |a: [f64; LAYERS], b: [f64; LAYERS]| std::array::from_fn(|layer| a[layer].max(b[layer]));
+    let most = |a: ([f64; LAYERS], f64), b: ([f64; LAYERS], f64)| {
+        (std::array::from_fn(|layer| a.0[layer].max(b.0[layer])), a.1.max(b.1))
+    };
     let mesh = surface.mesh();
     let needed_in = |sighting: &Sighting| {
         let moved = positions_at(&sighting.shape);
@@ -143,13 +148,15 @@ pub(crate) fn find<const LAYERS: usize>(
             None => (face.center, face.normal),
         })
     };
-    let needed_per_area = sightings.par_iter().map(needed_in).reduce(|| [0.0; LAYERS], most);
+    let (needed_per_area, deepness) =
+        sightings.par_iter().map(needed_in).reduce(|| ([0.0; LAYERS], 0.0), most);
     // A quarter more, since the highest ranks are only half present at just the number wanted.
     Found {
         needed: needed_per_area.map(|needed| needed * surface.area() * 1.25),
         is_cut: faces
             .windows(2)
             .any(|pair| (pair[0].triangle, pair[0].flipped) == (pair[1].triangle, pair[1].flipped)),
+        deepness: deepness * stride as f64,
     }
 }
 
@@ -221,40 +228,50 @@ fn middles([a, b, c]: [DVec3; 3], cuts: usize) -> impl Iterator<Item = DVec3> {
     })
 }
 
-/// Particles needed per unit of surface in one view, by layer. Faces that cover the picture more than `deepest` times
-/// count no more.
+/// Particles needed per unit of surface in one view, by layer, and how often faces cover the box round them.
+/// Faces that cover the picture more than `deepest` times count no more.
 fn needed_per_area<const LAYERS: usize>(
     faces: &[CountedFace<LAYERS>],
     deepest: f64,
     sighting: &Sighting,
     placed: impl Fn(&CountedFace<LAYERS>) -> (DVec3, DVec3),
-) -> [f64; LAYERS] {
+) -> ([f64; LAYERS], f64) {
+    let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
     let seen: Vec<(&CountedFace<LAYERS>, f64)> = faces
         .iter()
         .filter_map(|face| {
             let (center, normal) = placed(face);
-            let inside = sighting.map.project(center).abs().cmplt(sighting.half_size_px * MARGIN).all();
+            let px = sighting.map.project(center);
+            let inside = px.abs().cmplt(sighting.half_size_px * MARGIN).all();
             if sighting.map.depth(center) <= sighting.near || !inside {
                 return None;
             }
             let jacobian = sighting.map.jacobian(center);
             let px_per_area = area_px(jacobian, normal);
             let faces_the_eye = px_per_area.is_finite() && facing(jacobian, normal) > 0.0;
+            if faces_the_eye {
+                (low, high) = (low.min(px), high.max(px));
+            }
             faces_the_eye.then_some((face, px_per_area))
         })
         .collect();
+    let shown = |(face, px_per_area): &(&CountedFace<LAYERS>, f64)| px_per_area * face.area;
+    // Half of the largest face may reach beyond the box round the middles, on either side.
+    let largest_px = seen.iter().map(shown).fold(0.0, f64::max).sqrt();
+    let box_px = ((high - low).max(DVec2::ZERO) + largest_px).element_product();
+    let deepness = seen.iter().map(shown).sum::<f64>() / box_px.max(f64::MIN_POSITIVE);
     let mut needed: Vec<(f64, f64)> = Vec::with_capacity(seen.len());
-    std::array::from_fn(|layer| {
-        needed.clear();
-        needed.extend(
-            seen.iter().map(|(face, px_per_area)| {
+    let needed_by_layer =
+        std::array::from_fn(|layer| {
+            needed.clear();
+            needed.extend(seen.iter().map(|(face, px_per_area)| {
                 (px_per_area * face.wanted_per_px[layer], px_per_area * face.area)
-            }),
-        );
-        let total: f64 = needed.iter().map(|&(_, shown)| shown).sum();
-        let most = deepest * 4.0 * sighting.half_size_px.element_product();
-        reached(&mut needed, 0.9 * total).unwrap_or(0.0) * (most / total).min(1.0)
-    })
+            }));
+            let total: f64 = needed.iter().map(|&(_, shown)| shown).sum();
+            let most = deepest * 4.0 * sighting.half_size_px.element_product();
+            reached(&mut needed, 0.9 * total).unwrap_or(0.0) * (most / total).min(1.0)
+        });
+    (needed_by_layer, deepness)
 }
 
 /// Weighted quantile: the least value such that the weights of all values up to it add up to `target`.

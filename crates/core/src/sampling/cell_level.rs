@@ -37,11 +37,15 @@ impl<'a> ActiveCells<'a> {
     /// Drops the cells that need no particle from this ordinal on, and splits those that have many tries.
     fn refine(&mut self, surface: &Surface<'_>, (tries, ordinal): (f64, f32)) {
         let needed = self.needed;
+        let is_whole = |cell: &Cell, index: u32| {
+            cell.share * tries <= MOST_TRIES
+                && needed.is_none_or(|needed| !needed.is_strict || needed.first_part[index as usize] == 0)
+        };
         let is_needed = |index: u32| needed.is_none_or(|needed| needed.of_cell[index as usize] > ordinal);
         let (few, mut many): (Vec<_>, Vec<_>) = std::mem::take(&mut self.cells)
             .into_iter()
             .filter(|(_, index)| is_needed(*index))
-            .partition(|(cell, _)| cell.share * tries <= MOST_TRIES);
+            .partition(|(cell, index)| is_whole(cell, *index));
         self.cells = few;
         while let Some((cell, index)) = many.pop() {
             let parts = cell.split(surface);
@@ -51,7 +55,7 @@ impl<'a> ActiveCells<'a> {
             }
             for (part, number) in parts.into_iter().zip(0..) {
                 let index = needed.map_or(0, |needed| needed.part(index, number));
-                match part.share * tries <= MOST_TRIES {
+                match is_whole(&part, index) {
                     _ if !is_needed(index) => {}
                     true => self.cells.push((part, index)),
                     false => many.push((part, index)),

@@ -41,6 +41,15 @@ pub struct Cell {
     pub share: f64,
 }
 
+/// A triangle of a cell.
+#[derive(Clone, Copy, Debug)]
+pub struct CellPiece {
+    /// Its corners, model units.
+    pub corners: [DVec3; 3],
+    /// Unit normals of its visible side: the flat one, and the smooth ones at the corners of the mesh's triangle.
+    pub normals: [DVec3; 4],
+}
+
 /// What a cell consists of.
 #[derive(Clone, Debug)]
 enum Extent {
@@ -163,12 +172,9 @@ impl Cell {
         let Extent::Part { face, .. } = extent else { unreachable!("whole faces are no part") };
         let triangle = surface.faces[face as usize].triangle as usize;
         let [a, b, c] = surface.mesh.corners(triangle).map(Vec3::as_dvec3);
-        let at = |weights: [f32; 2]| {
-            let [v, w] = extent.weights(weights).map(f64::from);
-            a + (b - a) * v + (c - a) * w
-        };
+        let at = |weights: [f32; 2]| extent.at([a, b, c], weights);
         let center = at([1.0 / 3.0; 2]);
-        let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(at);
+        let corners = CORNERS.map(at);
         let radius = corners.map(|corner| corner.distance(center)).into_iter().fold(0.0, f64::max);
         let share = self.share / (f64::from(cuts) * f64::from(cuts));
         Self { extent, center, radius, thickness: 0.0, share, ..self.clone() }
@@ -215,6 +221,22 @@ impl Cell {
         faces.map(|face| surface.faces[face as usize].triangle as usize)
     }
 
+    /// The triangles that it consists of, with the normals of their visible sides.
+    pub fn pieces<'a>(&'a self, surface: &'a Surface<'_>) -> impl Iterator<Item = CellPiece> + 'a {
+        let (faces, side) = match &self.extent {
+            Extent::Faces { faces, side } => (faces.clone(), *side),
+            Extent::Part { face, .. } => (*face..*face + 1, None),
+        };
+        let faces = surface.faces[faces.start as usize..faces.end as usize].iter();
+        faces.filter(move |face| side.is_none_or(|side| face.flipped == side)).map(|&face| {
+            let corners = surface.mesh.corners(face.triangle as usize).map(Vec3::as_dvec3);
+            CellPiece {
+                corners: CORNERS.map(|weights| self.extent.at(corners, weights)),
+                normals: normals(surface, face),
+            }
+        })
+    }
+
     /// A point of the cell, from three numbers in 0..1 that are spread evenly: its face, and the weights of the face's
     /// second and third corner.
     #[inline]
@@ -238,7 +260,16 @@ impl Cell {
     }
 }
 
+/// The weights of a triangle's second and third corner, at its corners.
+const CORNERS: [[f32; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+
 impl Extent {
+    /// A point of the part, from the corners of its face.
+    fn at(&self, [a, b, c]: [DVec3; 3], weights: [f32; 2]) -> DVec3 {
+        let [v, w] = self.weights(weights).map(f64::from);
+        a + (b - a) * v + (c - a) * w
+    }
+
     /// Weights on the face, from those on the part itself.
     #[inline]
     fn weights(&self, [v, w]: [f32; 2]) -> [f32; 2] {
@@ -304,6 +335,9 @@ pub struct Needed {
     /// The index of the first of the smaller cells that a cell consists of (see [`Cell::split`]); 0 where these need
     /// what the cell needs.
     pub first_part: Arc<Vec<u32>>,
+    /// Whether no particles are made in smaller cells that need none, however small they are. Else such a cell may get
+    /// those of its neighbours while it has few, which is faster.
+    pub is_strict: bool,
 }
 
 impl Needed {

@@ -164,7 +164,7 @@ fn where_it_is_needed_the_order_is_that_of_the_whole() {
     first_part[0] = needs.len() as u32;
     needs.extend([needs[0]; 4]);
     first_part.resize(needs.len(), 0);
-    let needed = Needed { of_cell: needs, first_part: Arc::new(first_part) };
+    let needed = Needed { of_cell: needs, first_part: Arc::new(first_part), is_strict: false };
     let sparse = ProgressiveOrder::where_needed(&surface, 5, &needed);
     let mut whole = ProgressiveOrder::default();
     whole.grow(&surface, 5, 100_000);

@@ -162,7 +162,7 @@ struct ObjectArrays<'a> {
 impl<'a> ObjectArrays<'a> {
     fn next(arrays: &mut Arrays<'a>, surface: &'a BodySurface) -> Result<Self, Unfit> {
         let [counts, may_depend, has] = arrays.next::<[u64; LAYERS]>()?.numbers()?;
-        let [more_wanted] = arrays.next::<u64>()?.numbers()?;
+        let [[more_wanted, deepness]] = arrays.next::<[u64; 2]>()?.numbers()?;
         let mut coats = Vec::new();
         for has in has {
             coats.push(match has {
@@ -179,6 +179,7 @@ impl<'a> ObjectArrays<'a> {
             counts: whole,
             may_depend_on_views: may_depend.map(|may| may != 0),
             more_wanted: f64::from_bits(more_wanted),
+            deepness: f64::from_bits(deepness),
         };
         Ok(Self { counted, coats })
     }

@@ -49,9 +49,9 @@ impl Painting {
         for (object, body) in self.bodies.iter().enumerate() {
             let coats = LayerKind::ALL.map(|kind| self.coat(object, kind));
             let has = coats.map(|coat| u64::from(coat.is_some()));
-            let Counted { counts, may_depend_on_views, more_wanted } = body.counts.counted;
+            let Counted { counts, may_depend_on_views, more_wanted, deepness } = body.counts.counted;
             arrays.push_made(&[counts.map(|count| count as u64), may_depend_on_views.map(u64::from), has]);
-            arrays.push_made(&[more_wanted.to_bits()]);
+            arrays.push_made(&[[more_wanted, deepness].map(f64::to_bits)]);
             coats.into_iter().flatten().for_each(|coat| push_coat(coat, &mut arrays));
         }
         let [numbers, firsts] = self.order.to_keep();

@@ -71,9 +71,9 @@ struct Ears<'a> {
     before: Vec<usize>,
     after: Vec<usize>,
     is_reflex: Vec<bool>,
-    /// Corners that do not turn left, sorted by x: only these can rule out an ear. Those that have become convex are
-    /// skipped.
-    reflex_by_x: Vec<usize>,
+    /// Corners that do not turn left: only these can rule out an ear. Those that have become convex are taken out when
+    /// they are met.
+    reflex: Grid,
     tests_left: &'a mut u64,
 }
 
@@ -83,12 +83,12 @@ impl<'a> Ears<'a> {
         let before = (0..count).map(|at| (at + count - 1) % count).collect();
         let after = (0..count).map(|at| (at + 1) % count).collect();
         let is_reflex = vec![false; count];
-        let mut ears = Self { points, before, after, is_reflex, reflex_by_x: Vec::new(), tests_left };
+        let mut ears = Self { points, before, after, is_reflex, reflex: Grid::default(), tests_left };
         for at in 0..count {
             ears.is_reflex[at] = ears.turn_at(at) <= 0.0;
         }
-        ears.reflex_by_x = (0..count).filter(|&at| ears.is_reflex[at]).collect();
-        ears.reflex_by_x.sort_by(|&a, &b| points[a].x.total_cmp(&points[b].x));
+        let reflex: Vec<usize> = (0..count).filter(|&at| ears.is_reflex[at]).collect();
+        ears.reflex = Grid::new(points, &reflex);
         ears
     }
 
@@ -102,23 +102,19 @@ impl<'a> Ears<'a> {
             return false;
         }
         let [a, b, c] = [self.before[at], at, self.after[at]].map(|corner| self.points[corner]);
-        let (low, high) = (a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x));
-        let first = self.reflex_by_x.partition_point(|&corner| self.points[corner].x < low);
-        for &corner in &self.reflex_by_x[first..] {
+        let is_reflex = &self.is_reflex;
+        let rules_out = |corner: usize| {
             let point = self.points[corner];
-            if point.x > high {
-                break;
-            }
-            *self.tests_left = self.tests_left.saturating_sub(1);
             // Other corners at the same place as one of the triangle's own come from bridges to holes: they do not
             // count.
             let is_own = point == a || point == b || point == c;
-            if self.is_reflex[corner]
-                && !is_own
-                && turn(a, b, point) >= 0.0
-                && turn(b, c, point) >= 0.0
-                && turn(c, a, point) >= 0.0
-            {
+            !is_own && turn(a, b, point) >= 0.0 && turn(b, c, point) >= 0.0 && turn(c, a, point) >= 0.0
+        };
+        for cell in self.reflex.cells_over(a.min(b).min(c), a.max(b).max(c)) {
+            let corners = &mut self.reflex.cells[cell];
+            *self.tests_left = self.tests_left.saturating_sub(1 + corners.len() as u64);
+            corners.retain(|&corner| is_reflex[corner]);
+            if corners.iter().any(|&corner| rules_out(corner)) {
                 return false;
             }
         }
@@ -158,5 +154,51 @@ impl<'a> Ears<'a> {
         }
         cut.triangles.push([self.before[start], start, self.after[start]]);
         cut
+    }
+}
+
+/// Corners of a polygon, sorted into square cells.
+#[derive(Default)]
+struct Grid {
+    cells: Vec<Vec<usize>>,
+    low: DVec2,
+    cell_size: f64,
+    columns: usize,
+    rows: usize,
+}
+
+impl Grid {
+    /// About one corner a cell.
+    fn new(points: &[DVec2], corners: &[usize]) -> Self {
+        let of_corners = || corners.iter().map(|&corner| points[corner]);
+        let low = of_corners().fold(DVec2::INFINITY, DVec2::min);
+        let size = of_corners().fold(DVec2::NEG_INFINITY, DVec2::max) - low;
+        let along = |size: f64, cell_size: f64| (size / cell_size) as usize + 1;
+        // As many cells as corners, whatever the shape of the box: at most so many along its longer side.
+        let cell_size =
+            (size.x * size.y / corners.len() as f64).sqrt().max(size.max_element() / corners.len() as f64);
+        let mut grid = Self { cells: Vec::new(), low, cell_size, columns: 1, rows: 1 };
+        if cell_size > 0.0 && cell_size.is_finite() {
+            (grid.columns, grid.rows) = (along(size.x, cell_size), along(size.y, cell_size));
+        }
+        grid.cells = vec![Vec::new(); grid.columns * grid.rows];
+        for &corner in corners {
+            let [column, row] = grid.place(points[corner]);
+            grid.cells[row * grid.columns + column].push(corner);
+        }
+        grid
+    }
+
+    /// Column and row of the cell at a point; of the nearest cell for a point beside the grid.
+    fn place(&self, point: DVec2) -> [usize; 2] {
+        let at = (point - self.low) / self.cell_size;
+        // What is no number becomes 0.
+        [(at.x as usize).min(self.columns - 1), (at.y as usize).min(self.rows - 1)]
+    }
+
+    /// The cells that a box touches.
+    fn cells_over(&self, low: DVec2, high: DVec2) -> impl Iterator<Item = usize> + use<> {
+        let ([left, bottom], [right, top], columns) = (self.place(low), self.place(high), self.columns);
+        (bottom..=top).flat_map(move |row| (left..=right).map(move |column| row * columns + column))
     }
 }

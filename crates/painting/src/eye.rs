@@ -1,0 +1,215 @@
+//! A view of a body, which tells how densely it may see a part of the surface.
+
+use glam::{DVec2, DVec3, DVec4};
+use impasto_core::ScreenMap;
+use impasto_core::sampling::Cell;
+
+use crate::own_depths::OwnDepths;
+use crate::particle_count::Sighting;
+use crate::presence_bound::LEAST_COUNTED_FADE;
+
+/// A cell's parts are alike while its radius is at most this share of its distance.
+const EVEN: f64 = 0.1;
+
+/// A cell that is not all inside the view is cut while its radius is more than this share of half the picture.
+const LARGE: f64 = 0.25;
+
+/// Sides of a space in model space; each with the length of its first three numbers.
+type Planes = [(DVec4, f64); 5];
+
+/// Whether all of a sphere lies on the near side of all planes.
+fn is_inside(planes: &Planes, center: DVec3, radius: f64) -> bool {
+    planes.iter().all(|(plane, length)| plane.dot(center.extend(1.0)) < -length * radius)
+}
+
+/// Whether all of a sphere lies beyond one of the planes.
+fn is_beyond(planes: &Planes, center: DVec3, radius: f64) -> bool {
+    planes.iter().any(|(plane, length)| plane.dot(center.extend(1.0)) > length * radius)
+}
+
+/// A view of a body, ready to ask how densely it sees a cell.
+pub(crate) struct Eye {
+    map: ScreenMap,
+    /// Where these are positive, nothing is seen.
+    planes: Planes,
+    /// The same for the picture alone.
+    picture: Planes,
+    half_px: DVec2,
+    near: f64,
+    row_w_length: f64,
+    most_offset: f64,
+    /// What the body hides of itself, where that counts.
+    pub(crate) own: Option<OwnDepths>,
+}
+
+impl Eye {
+    /// A view with particles to this margin (see [`NeededInputs`](crate::needed::NeededInputs)), for strokes that reach so far from their particles,
+    /// pixels, and are lifted so far, model units.
+    pub(crate) fn new(sighting: &Sighting, margin: f64, [reach_px, most_offset]: [f64; 2]) -> Self {
+        let map = &sighting.map;
+        let planes = |margin: f64, reach_px: f64| {
+            let half_px = sighting.half_size_px * margin + DVec2::splat(reach_px);
+            let side = |row: DVec4, half_px: f64| row - map.row_w * half_px;
+            let sides = [
+                side(map.row_x, half_px.x),
+                side(-map.row_x, half_px.x),
+                side(map.row_y, half_px.y),
+                side(-map.row_y, half_px.y),
+                DVec4::W * sighting.near - map.row_depth,
+            ];
+            sides.map(|plane| (plane, plane.truncate().length()))
+        };
+        Self {
+            planes: planes(margin, 2.0 * reach_px),
+            picture: planes(1.0, 0.0),
+            half_px: sighting.half_size_px,
+            near: sighting.near,
+            row_w_length: map.row_w.truncate().length(),
+            map: *map,
+            most_offset,
+            own: None,
+        }
+    }
+
+    /// Whether a cell may be in the picture.
+    pub(crate) fn has_in_picture(&self, cell: &Cell) -> bool {
+        !is_beyond(&self.picture, cell.center, cell.radius + self.most_offset)
+    }
+
+    /// An upper bound on the pixels that a unit of a cell's surface fills in this view, divided by the fade of strokes near
+    /// an outline; 0 where the view does not see the cell. And whether its parts may differ much: it is large beside its
+    /// depth, or a large part of the picture and not all inside.
+    pub(crate) fn most_per_area(&self, cell: &Cell) -> (f64, bool) {
+        let radius = cell.radius + self.most_offset;
+        if is_beyond(&self.planes, cell.center, radius) {
+            return (0.0, false);
+        }
+        let center = cell.center.extend(1.0);
+        let map = &self.map;
+        let is_perspective = self.row_w_length > 0.0;
+        let w = map.row_w.dot(center);
+        if is_perspective && w - self.row_w_length * radius <= self.near {
+            return (f64::INFINITY, true);
+        }
+        let [along_x, along_y] = map.jacobian(cell.center);
+        let to_eye = along_x.cross(along_y);
+        let px_per_area = to_eye.length();
+        // How much nearer, and in how different a direction, the cell's nearest point may be.
+        let radius_per_depth = self.row_w_length * radius / w;
+        let nearer = (1.0 + radius_per_depth) / (1.0 - radius_per_depth).powi(3);
+        let thickness = (cell.thickness + self.most_offset) / cell.radius * radius_per_depth;
+        // The distance to the cell's plane, over the least or the greatest distance to one of its points.
+        let above = cell.normal.dot(to_eye) / px_per_area + thickness;
+        let facing =
+            above / if above > 0.0 { 1.0 - radius_per_depth } else { 1.0 + radius_per_depth } + cell.spread;
+        if facing <= 0.0 {
+            return (0.0, false);
+        }
+        let most = px_per_area * nearer * most_over_fade(facing.min(1.0), map.uneven.is_some());
+        // Where it is not a number, the cell is seen along its own plane.
+        let is_large = cell.radius * px_per_area.sqrt() > LARGE * self.half_px.min_element();
+        let is_uneven = radius_per_depth > EVEN || is_large && !is_inside(&self.planes, cell.center, radius);
+        (if most.is_nan() { f64::INFINITY } else { most }, is_uneven)
+    }
+}
+
+/// The greatest `f / fade(f)` for `f` up to this facing: strokes that face the eye less are more, to make up for those
+/// that fade.
+fn most_over_fade(facing: f64, uneven: bool) -> f64 {
+    let least = f64::from(LEAST_COUNTED_FADE);
+    // In a body that is stretched, the facing in the world is another one.
+    if uneven {
+        return facing / least;
+    }
+    // It grows until the fade is more than the least that counts, then falls, and follows the facing from 0.2 on.
+    facing.max((facing / least).min(MOST_GRAZING))
+}
+
+/// The greatest `f / fade(f)` for `f` below 0.2.
+const MOST_GRAZING: f64 = 0.243;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{DAffine3, Vec3};
+    use impasto_core::sampling::{self, Cells, Surface};
+    use impasto_core::screen_map::{PixelLens, area_px};
+    use impasto_core::{TriangleMesh, presence};
+
+    use crate::body_shape::BodyShape;
+
+    #[test]
+    fn grazing_strokes_need_no_more_than_is_kept_for_them() {
+        for step in 1..=1000 {
+            let facing = f64::from(step) / 1000.0;
+            let fade = f64::from(presence::of_facing(facing as f32).max(LEAST_COUNTED_FADE));
+            assert!(facing / fade <= most_over_fade(facing, false) * 1.000_001, "at {facing}");
+            assert!(most_over_fade(facing, false) <= most_over_fade(facing, true));
+        }
+    }
+
+    /// A bumpy field, from near and from afar, from above and along it, through either lens.
+    #[test]
+    fn no_place_needs_more_than_its_cell() {
+        let mut mesh = TriangleMesh::default();
+        for index in 0..60u32 * 60 {
+            let [x, z] = [index % 60, index / 60].map(|number| number as f32 * 0.2 - 6.0);
+            let height = |x: f32, z: f32| (1.3 * x).sin() * (1.1 * z + 0.4).cos();
+            let slope =
+                [height(x + 0.01, z) - height(x - 0.01, z), height(x, z + 0.01) - height(x, z - 0.01)];
+            mesh.positions.push(Vec3::new(x, height(x, z), z));
+            mesh.normals.push(Vec3::new(-slope[0], 0.02, -slope[1]).normalize());
+        }
+        for cell in 0..59u32 * 59 {
+            let a = cell / 59 * 60 + cell % 59;
+            mesh.triangles.extend([[a, a + 60, a + 1], [a + 1, a + 60, a + 61]]);
+        }
+        let surface = Surface::new(&mesh, |_| true);
+        let cells: Vec<Cell> = Cells::new(&surface).into_iter().collect();
+        let particles = sampling::scattered(&surface, 20_000, 4);
+        let of_triangle: Vec<Vec<usize>> = {
+            let mut of_triangle = vec![Vec::new(); mesh.triangles.len()];
+            for (index, cell) in cells.iter().enumerate() {
+                cell.triangles(&surface).for_each(|triangle| of_triangle[triangle].push(index));
+            }
+            of_triangle
+        };
+        let mut seen = 0;
+        for (eye, target, lens) in [
+            ([0.0, 2.0, 9.0], [0.0, 0.0, 0.0], PixelLens::Perspective { focal_px: 500.0 }),
+            ([0.3, 1.1, 0.2], [3.0, 1.0, -2.0], PixelLens::Perspective { focal_px: 300.0 }),
+            ([1.0, -4.0, 2.0], [0.0, 0.0, 0.0], PixelLens::Perspective { focal_px: 400.0 }),
+            ([4.0, 3.0, 4.0], [0.0, 0.0, 0.0], PixelLens::Orthographic { px_per_unit: 50.0 }),
+        ] {
+            let view = glam::dcamera::rh::view::look_at_mat4(eye.into(), target.into(), DVec3::Y);
+            for pose in [DAffine3::IDENTITY, DAffine3::from_scale(DVec3::new(1.5, 0.7, 1.0))] {
+                let map = ScreenMap::new(view, pose, lens);
+                let sighting = Sighting {
+                    map,
+                    half_size_px: DVec2::new(320.0, 180.0),
+                    near: 0.05,
+                    shape: BodyShape::default(),
+                };
+                let of_sighting = Eye::new(&sighting, 1.0, [0.0; 2]);
+                for particle in &particles {
+                    let (at, normal) = (particle.position.as_dvec3(), particle.normal.as_dvec3());
+                    let px = map.project(at).abs();
+                    let jacobian = map.jacobian(at);
+                    let facing = map.facing(jacobian, normal) as f32;
+                    if map.depth(at) <= 0.05 || !px.cmplt(sighting.half_size_px).all() || facing <= 0.0 {
+                        continue;
+                    }
+                    seen += 1;
+                    let fade = f64::from(presence::of_facing(facing).max(LEAST_COUNTED_FADE));
+                    let needed = area_px(jacobian, normal) / fade;
+                    let most = of_triangle[particle.triangle as usize]
+                        .iter()
+                        .map(|&cell| of_sighting.most_per_area(&cells[cell]).0)
+                        .fold(0.0, f64::max);
+                    assert!(needed <= most * 1.000_1, "{needed} of {most}, {lens:?}, {pose:?}");
+                }
+            }
+        }
+        assert!(seen > 10_000, "{seen}");
+    }
+}
