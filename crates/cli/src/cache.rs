@@ -31,7 +31,7 @@ pub(crate) struct CacheArguments {
 #[derive(Clone)]
 pub(crate) struct Cache {
     folder: KeptFolder,
-    /// The most memory that a file of the folder may take, bytes; `None` for any.
+    /// How much memory this process may take, bytes: a larger file of the folder is not read. `None` if any may.
     memory_bytes: Option<u64>,
     verbose: bool,
     /// Whether a warning was given: one is enough.

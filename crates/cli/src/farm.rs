@@ -1,4 +1,5 @@
-//! `impasto farm` and `impasto pack`: a shot for many machines.
+//! `impasto farm` writes a job for a render farm; `impasto pack` gathers all files of a scene, or checks that they are as they
+//! were packed.
 
 use std::ffi::OsString;
 use std::io::Write as _;
@@ -117,7 +118,8 @@ fn job(arguments: &FarmArguments, own: &[&str]) -> Result<Job, Failure> {
             return Err(Failure::Usage(words.to_owned()));
         }
     }
-    // The file of a single frame has a number in its name too: on a farm it is usually one of many.
+    // Counted as two at least, so that the file's name gets a number even if the job is a single frame: usually other
+    // frames of the shot are rendered, too.
     let pattern = Pattern::parse(&arguments.output, list.count().max(2));
     let text = |path: &Path| {
         let words = || Failure::Usage(format!("{}: the name is not UTF-8", path.display()));
@@ -184,7 +186,7 @@ pub(crate) fn pack(arguments: &PackArguments) -> Result<(), Failure> {
         Some(output) => {
             let loaded = read(scene, asset_dirs, *quiet)?;
             not_an_input(output, &loaded.inputs())?;
-            // `pack::pack` refuses a folder that exists, with a message that fits.
+            // A folder that exists is left for `pack::pack` to refuse: its message asks for a new folder.
             if !output.is_dir() {
                 ready_folder(output)?;
             }

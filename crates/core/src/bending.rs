@@ -5,6 +5,9 @@
 //! bound ─▶ + Σ weight · target ─▶ Σ weight · joint ─┬─▶ (noise) ─▶ vertices
 //!                    or, instead, points of a cache ┘               └─▶ Gradients: F at each vertex ─▶ carry
 //! ```
+//!
+//! F is the deformation gradient: it takes a step on the surface at rest to the same step on the bent one. Where there is a
+//! point cache, its points replace targets and joints. The cache and the noise are applied by the `painting` crate.
 
 mod bonds;
 mod carry;
@@ -39,7 +42,8 @@ pub struct Bend {
     pub skin: Option<SkinWeights>,
     /// The pose in which the mesh is at rest.
     pub rest: BendPose,
-    /// Whether normals turn as the surface round them does, because the file does not say how targets change them.
+    /// Whether the file does not say how targets change normals. Then the normals that [`Bend::at`] gives are not used:
+    /// [`Gradients::normals`] finds them from how the bent surface turns.
     pub turns_normals: bool,
 }
 
@@ -162,7 +166,7 @@ impl SkinWeights {
             let [x, y, z] = blend.map(|[a, b, c, _]| Vec3::new(a, b, c));
             let moved = Vec3::new(x.dot(*position), y.dot(*position), z.dot(*position));
             *position = moved + Vec3::new(blend[0][3], blend[1][3], blend[2][3]);
-            // The rows of the cofactor matrix are the cross products of the rows.
+            // The rows of the cofactor matrix are the cross products of the blended matrix's rows.
             *normal = Vec3::new(y.cross(z).dot(*normal), z.cross(x).dot(*normal), x.cross(y).dot(*normal));
         }
     }

@@ -1,8 +1,9 @@
-//! Watches the drawing of a picture: after each pass, notes how long it took, and asks the caller whether to stop.
+//! Watches the drawing of a picture: after each pass, or part of one, notes how long it took, and asks whether the picture is
+//! still wanted.
 
 use crate::gl::{Gpu, Halt};
 
-/// Times passes, and asks the caller whether to stop.
+/// Times passes, and asks whether to stop.
 pub(crate) struct Watch<'a> {
     gpu: Gpu,
     stop: Option<&'a mut dyn FnMut() -> bool>,
@@ -14,7 +15,7 @@ impl<'a> Watch<'a> {
         Self { gpu: gpu.clone(), stop }
     }
 
-    /// Whether the caller may stop.
+    /// Whether there is a `stop` to call. If so, long passes are drawn in parts, so that it is called often.
     pub(crate) fn may_stop(&self) -> bool {
         self.stop.is_some()
     }
@@ -22,7 +23,7 @@ impl<'a> Watch<'a> {
     /// To be called after each pass, with its name.
     ///
     /// # Errors
-    /// [`Halt::GivenUp`] when the caller stops.
+    /// [`Halt::GivenUp`] when `stop` returns true.
     pub(crate) fn passed(&mut self, pass: &'static str) -> Result<(), Halt> {
         self.gpu.lap(pass);
         match &mut self.stop {

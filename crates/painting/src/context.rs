@@ -20,11 +20,12 @@ use crate::view::PictureView;
 pub(crate) struct Context<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) rules: &'a Arc<Vec<RegionRule>>,
-    /// Views over the whole timeline, each with the objects' poses. The number of particles needed follows from them.
+    /// A sample of the views, each with the objects' poses: that of the reference, and a few spread evenly over the
+    /// timeline. How many particles an object needs is found from them first.
     pub(crate) views: &'a [(PictureView, Vec<DAffine3>)],
     /// For each of these views, the objects' shapes.
     pub(crate) shapes: &'a [Vec<BodyShape>],
-    /// All views, for what is made only where it is seen.
+    /// Every view that the painting will be seen from: large surfaces have particles only where one of these needs them.
     pub(crate) seen: &'a Seen<'a>,
     pub(crate) solver: Solver,
     /// Whether strokes are painted by the source paper's own rule.
@@ -34,7 +35,8 @@ pub(crate) struct Context<'a> {
 }
 
 impl Context<'_> {
-    /// The seed of all random numbers of a coat. The body layer uses the object's own seed.
+    /// The seed of the random numbers of a coat (one layer of one object), made from the scene's seed and the names of
+    /// object and layer. For the body layer, the name of the layer is left out.
     pub(crate) fn name_hash(&self, object: usize, kind: LayerKind) -> u32 {
         let of_object = hash::combine(self.scene.seed, hash::of_name(&self.scene.objects[object].name));
         if kind == LayerKind::Body { of_object } else { hash::combine(of_object, hash::of_name(kind.name())) }
@@ -45,7 +47,8 @@ impl Context<'_> {
 #[derive(Clone, Copy)]
 pub(crate) struct ObjectInputs<'a> {
     pub(crate) index: usize,
-    /// How many groups of its mesh are objects, itself included; 1 if it is the whole mesh.
+    /// An object may be one group of a mesh: then, how many groups of this mesh are objects, this one included. 1 if the
+    /// object is the whole mesh.
     pub(crate) groups: usize,
     pub(crate) surface: &'a SurfaceInputs,
     pub(crate) regions: &'a Arc<BodyRegions>,

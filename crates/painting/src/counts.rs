@@ -146,7 +146,8 @@ impl CountInputs {
     /// Whether nothing shows through a triangle: no texture cuts holes into it.
     pub(crate) fn is_solid(&self, triangle: usize) -> bool {
         let BodySurface { mesh, materials, .. } = &*self.surface;
-        let material = mesh.material_of_triangle.get(triangle).and_then(|&of| materials.get(of as usize));
+        let number = mesh.material_of_triangle.get(triangle).copied().unwrap_or(0);
+        let material = materials.get(number as usize);
         material.is_none_or(|material| material.cutoff.is_none())
     }
 

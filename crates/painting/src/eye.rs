@@ -43,7 +43,7 @@ pub(crate) struct Eye {
 }
 
 impl Eye {
-    /// A view with particles to this margin (see [`NeededInputs`](crate::needed::NeededInputs)), for strokes that reach so far from their particles,
+    /// A view with particles to this margin (see [`crate::needed::NeededInputs`]), for strokes that reach so far from their particles,
     /// pixels, and are lifted so far, model units.
     pub(crate) fn new(sighting: &Sighting, margin: f64, [reach_px, most_offset]: [f64; 2]) -> Self {
         let map = &sighting.map;

@@ -99,13 +99,13 @@ impl NeededInputs {
             .iter()
             .map(|sighting| Eye::new(sighting, self.margin, [self.reach_px, self.most_offset]))
             .collect();
-        let is_heap = counted.deepness >= HEAP;
-        if is_heap {
+        let own = (counted.deepness >= HEAP).then(|| {
             let is_solid = |triangle: usize| self.counted.is_solid(triangle);
-            let own = OwnDepths::of_all(surface, sightings, is_solid, (self.margin, self.most_offset));
-            let own = own.into_iter().flatten();
-            eyes.iter_mut().zip(own).for_each(|(eye, own)| eye.own = Some(own));
-        }
+            OwnDepths::of_all(surface, sightings, is_solid, (self.margin, self.most_offset))
+        });
+        let own = own.flatten();
+        let is_heap = own.is_some();
+        eyes.iter_mut().zip(own.into_iter().flatten()).for_each(|(eye, own)| eye.own = Some(own));
         let all_eyes: Vec<usize> = (0..eyes.len()).collect();
         let wanted_per_px = self.counted.wanted_per_px(surface.mesh(), parts);
         let seen = |cell: &Cell| {
@@ -195,7 +195,7 @@ impl SeenCell {
     /// Whether its parts differ much and it needs many particles: `needed` for each pixel that a unit of surface fills,
     /// but no more than belong to an order of the length `most`.
     fn is_to_cut(&self, [needed, most]: [f64; 2]) -> bool {
-        self.is_uneven && (needed * self.px_per_area).min(most) * self.cell.share >= FEW
+        self.is_uneven && needed > 0.0 && (needed * self.px_per_area).min(most) * self.cell.share >= FEW
     }
 
     /// Cuts the cell while it is to be cut, at most so deep and into so many parts.

@@ -12,18 +12,22 @@ use crate::particle_count::Sighting;
 /// One depth is known for a square of so many pixels.
 const CELL_PX: f64 = 4.0;
 
-/// At most so many faces are looked at, for all views together.
+/// With more faces times views, or more squares in the grids of all views, nothing is found.
 const MOST_FACES: usize = 16_000_000;
+const MOST_SQUARES: usize = 32_000_000;
 
-/// At most so many depths are found in one view. Of more faces only some hide what lies behind them.
-const MOST_DEPTHS: f64 = 4e6;
+/// About so many squares of faces are looked at in all views together, and at most so many in one. Where there are more,
+/// only some of the faces are taken: the others hide nothing.
+const MOST_TESTS: f64 = 1e8;
+const MOST_TESTS_IN_VIEW: f64 = 4e6;
 
 /// Round its middle, up to this distance, the resolve shader asks whether a stroke is hidden by its own body. This is
 /// the distance for small strokes: where faces lie so close behind each other, few large ones can be seen.
 const ASKED_PX: f64 = 8.7;
 
-/// How far behind the nearest surface a stroke begins to be hidden: this many pixels, as a length at its depth, and more
-/// where its face is slanted. As in the resolve shader.
+/// How far behind the nearest surface the resolve shader begins to hide a stroke, in a picture of the scene's own size:
+/// this many pixels, as a length at its depth, and more where its face is slanted. At three times as far it is hidden
+/// wholly. What strokes would show in between is given up on purpose: in a heap, those of other faces lie over it.
 const HIDDEN_PX: f64 = 2.5;
 const HIDDEN_SLANTED_PX: f64 = 3.5;
 const LEAST_SLANT: f64 = 0.2;
@@ -46,7 +50,7 @@ pub(crate) enum Covered {
     Nowhere,
     /// Some of it may be hidden.
     InPart,
-    /// A stroke that lies on it is hidden, or nearly.
+    /// It faces away, or strokes on it are hidden or begin to be.
     Wholly,
 }
 
@@ -76,27 +80,34 @@ struct Shown {
 }
 
 impl OwnDepths {
-    /// The depths in every view, of the triangles that let nothing through; `None` where that would be too much work.
+    /// The depths in every view, of the triangles that let nothing through. `None` where that would be too much work,
+    /// where no triangle hides anything, and where a pose stretches the body.
     pub(crate) fn of_all(
         surface: &Surface<'_>,
         sightings: &[Sighting],
         is_solid: impl Fn(usize) -> bool + Sync,
         (margin, most_offset): (f64, f64),
     ) -> Option<Vec<Self>> {
-        let is_little = surface.faces().count().saturating_mul(sightings.len()) <= MOST_FACES;
-        let of = |sighting: &Sighting| Self::new(surface, sighting, &is_solid, (margin, most_offset));
-        is_little.then(|| sightings.par_iter().map(of).collect())
+        let squares =
+            |sighting: &Sighting| grid_size(sighting, margin).into_iter().fold(1, usize::saturating_mul);
+        let is_little = surface.faces().count().saturating_mul(sightings.len()) <= MOST_FACES
+            && sightings.iter().map(squares).fold(0, usize::saturating_add) <= MOST_SQUARES;
+        let hides = surface.faces().any(|(triangle, ..)| is_solid(triangle as usize))
+            && sightings.iter().all(|sighting| sighting.map.uneven.is_none());
+        let most_tests = (MOST_TESTS / sightings.len().max(1) as f64).min(MOST_TESTS_IN_VIEW);
+        let of =
+            |sighting: &Sighting| Self::new(surface, sighting, &is_solid, [margin, most_offset, most_tests]);
+        (is_little && hides).then(|| sightings.par_iter().map(of).collect())
     }
 
     fn new(
         surface: &Surface<'_>,
         sighting: &Sighting,
         is_solid: impl Fn(usize) -> bool,
-        (margin, most_offset): (f64, f64),
+        [margin, most_offset, most_tests]: [f64; 3],
     ) -> Self {
         let half_px = sighting.half_size_px * margin;
-        let size = (half_px * 2.0 / CELL_PX).ceil().max(DVec2::ONE);
-        let size = [size.x as usize, size.y as usize];
+        let size = grid_size(sighting, margin);
         let mut depths = vec![f32::INFINITY; size[0] * size[1]];
         let shown = |(triangle, flipped, _): (u32, bool, f64)| {
             let corners = surface.mesh().corners(triangle as usize).map(|at| at.as_dvec3());
@@ -105,7 +116,7 @@ impl OwnDepths {
         let squares = |shown: &Shown| squares(shown.bounds(), -half_px, size);
         let work = |shown: &Shown| squares(shown).map_or(0.0, |[x, y]| (x.len() * y.len()) as f64);
         let all: f64 = surface.faces().filter_map(shown).map(|shown| work(&shown)).sum();
-        let step = (all / MOST_DEPTHS).ceil().max(1.0) as usize;
+        let step = (all / most_tests).ceil().max(1.0) as usize;
         for shown in surface.faces().step_by(step | 1).filter_map(shown) {
             let Some([columns, rows]) = squares(&shown) else { continue };
             for row in rows {
@@ -146,7 +157,7 @@ impl OwnDepths {
             let jacobian = map.jacobian(corner);
             normals.map(|normal| map.facing(jacobian, normal))
         });
-        if facings.as_flattened().iter().all(|&facing| facing <= 0.0) {
+        if self.lift == 0.0 && facings.as_flattened().iter().all(|&facing| facing <= 0.0) {
             return Covered::Wholly;
         }
         let slant = facings.as_flattened().iter().fold(1.0, |least: f64, facing| least.min(facing.abs()));
@@ -154,8 +165,10 @@ impl OwnDepths {
         let [along_x, along_y] = map.jacobian(corners[0]);
         let unit = map.row_depth.truncate().length() / along_x.cross(along_y).length().sqrt();
         let slack = unit * (HIDDEN_PX + HIDDEN_SLANTED_PX / slant) + self.lift;
-        let low = px[0].min(px[1]).min(px[2]) - ASKED_PX;
-        let high = px[0].max(px[1]).max(px[2]) + ASKED_PX;
+        // A stroke that is lifted off its face may show beside what hides the face.
+        let reach_px = ASKED_PX + self.lift / unit;
+        let low = px[0].min(px[1]).min(px[2]) - reach_px;
+        let high = px[0].max(px[1]).max(px[2]) + reach_px;
         if nearest - slack > self.greatest_over(low, high) {
             return Covered::Wholly;
         }
@@ -242,6 +255,12 @@ impl Shown {
     }
 }
 
+/// How many columns and rows of squares a view has, with particles to this margin.
+fn grid_size(sighting: &Sighting, margin: f64) -> [usize; 2] {
+    let size = (sighting.half_size_px * margin * 2.0 / CELL_PX).ceil().max(DVec2::ONE);
+    [size.x as usize, size.y as usize]
+}
+
 /// The columns and rows of squares whose middles may lie within a box; `None` where there are none.
 fn squares([low, high]: [DVec2; 2], low_px: DVec2, size: [usize; 2]) -> Option<[Range<usize>; 2]> {
     let [low, high] = [low, high].map(|at| (at - low_px) / CELL_PX - 0.5);
@@ -288,7 +307,7 @@ mod tests {
     /// The share of each square's upper side that is hidden wholly, and all of what the lower sides show.
     fn hidden(mesh: &TriangleMesh, sighting: &Sighting, is_solid: bool) -> (Vec<f64>, f64) {
         let surface = Surface::new(mesh, |_| true);
-        let own = OwnDepths::new(&surface, sighting, |_| is_solid, (1.5, 0.0));
+        let own = OwnDepths::new(&surface, sighting, |_| is_solid, [1.5, 0.0, 4e6]);
         let (mut hidden, mut below) = (vec![0.0; mesh.triangles.len() / 2], 0.0);
         let mut cells: Vec<(Cell, u32)> = Cells::new(&surface).into_iter().map(|cell| (cell, 0)).collect();
         while let Some((cell, cuts)) = cells.pop() {
@@ -342,7 +361,7 @@ mod tests {
         };
         let surface = Surface::new(&mesh, |_| true);
         let sighting = from_above(PixelLens::Orthographic { px_per_unit: 80.0 });
-        let own = OwnDepths::new(&surface, &sighting, |_| true, (1.5, 0.0));
+        let own = OwnDepths::new(&surface, &sighting, |_| true, [1.5, 0.0, 4e6]);
         for [left, right] in [[-60.0, -50.0], [-40.0, 2.0], [-10.0, -10.0], [5.0, 21.0], [40.0, 47.0]] {
             let found = own.greatest_over(DVec2::new(left, -3.0), DVec2::new(right, 4.0));
             let at_right = 5.5 + 0.5 * right / 80.0;

@@ -18,7 +18,8 @@ const CHUNK: usize = 4096;
 /// them at once lets the processor fetch them in parallel.
 const BATCH: usize = 32;
 
-/// A vertex: its position and the columns of F. It fills a line of the processor's cache.
+/// A vertex of the bent surface: its position, and the columns of F, the matrix that takes steps on the surface at rest to
+/// steps now. It fills a line of the processor's cache.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 struct Vertex([f32; 16]);
@@ -40,8 +41,9 @@ pub struct SortedParticles(Vec<SortedParticle>);
 #[derive(Clone, Copy, Debug)]
 struct SortedParticle {
     place: PackedParticle,
+    /// Its index before sorting, and its bit in what [`Carrier::within`] returns.
     number: u32,
-    /// In the progressive order.
+    /// Its place in the progressive order: the last ones are hidden where the surface looks small.
     ordinal: f32,
     /// At rest.
     normal: Vec3,
@@ -49,7 +51,7 @@ struct SortedParticle {
 }
 
 impl SortedParticles {
-    /// Sorts particles; `ordinals` is as in [`ParticleView::within`], `height` is how far each is lifted off the surface.
+    /// Sorts particles; `ordinals` is as in [`ParticleView::within`], `height` is how far each stands off the surface.
     pub fn new(
         places: &[PackedParticle],
         placed: &PlacedParticles,
@@ -122,8 +124,9 @@ impl Carrier {
         CarriedPlace { position: DVec3::new(x, y, z), gradient: DMat3::from_cols_array(&gradient) }
     }
 
-    /// A particle that was baked at rest, carried to where it is now, as [`Carrier::carry`] does: its position, normal and the columns of
-    /// its lift. `at_rest` are its normal and the columns of its lift at rest.
+    /// Carries one particle as [`Carrier::carry`] does. Returns its position, its normal and the two columns of its lift
+    /// matrix N' (see [`crate::lift`]) now. `at_rest` has the normal and these columns at rest; `height` is how far it
+    /// stands off the surface.
     pub fn particle(
         &self,
         mesh: &TriangleMesh,
@@ -151,9 +154,10 @@ impl Carrier {
         words.into_iter().map(AtomicU64::into_inner).collect()
     }
 
-    /// Carries particles that were baked at rest to where they are now; their lifts become N'' = F N'. **The length of
-    /// a carried normal is the area of the surface now over its area at rest**, so projected areas are per unit of
-    /// surface at rest. `height` is how far a particle is lifted off the surface.
+    /// Carries particles that were baked at rest to where they are now. Their lift matrices N' (see [`crate::lift`])
+    /// become F N'. **The length of a carried normal is the area of the surface now over its area at rest**: so it
+    /// projects to the pixels that a unit of surface at rest fills, however much the surface is stretched. `height` is
+    /// how far a particle stands off the surface.
     pub fn carry(
         &self,
         mesh: &TriangleMesh,
@@ -270,7 +274,7 @@ impl Wide for Culling<'_> {
     }
 }
 
-/// A place lifted off the surface along its normal.
+/// A place that stands off the surface, along its normal.
 #[inline(always)]
 fn lifted(position: Vec3, normal: Vec3, height: f32) -> Vec3 {
     if height == 0.0 { position } else { position + normal.normalize_or_zero() * height }

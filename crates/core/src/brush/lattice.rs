@@ -25,8 +25,8 @@ impl Between {
     }
 }
 
-/// How far outside 0..1 the noise goes on, since marks are evaluated a little beyond their edges. Farther out it is
-/// constant.
+/// How far outside 0..1 the noise goes on, since marks are evaluated a little beyond their edges. From there on,
+/// or a little farther out, it is constant.
 const MARGIN: f32 = 0.25;
 
 impl Lattice {
@@ -46,12 +46,12 @@ impl Lattice {
         self.between(self.column(u), self.row(across))
     }
 
-    /// The lattice columns round u; all texels of a column of the mark share them.
+    /// The two lattice columns on either side of `u`. Texels with the same `u` can share the result.
     pub(super) fn column(&self, u: f32) -> Between {
         Between::of((u + MARGIN).max(0.0) * self.cycles[0], self.columns)
     }
 
-    /// The lattice rows round `across`.
+    /// The two lattice rows on either side of `across`.
     pub(super) fn row(&self, across: f32) -> Between {
         Between::of((across + MARGIN).max(0.0) * self.cycles[1], self.values.len() / self.columns)
     }

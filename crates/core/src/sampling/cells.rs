@@ -335,8 +335,8 @@ pub struct Needed {
     /// The index of the first of the smaller cells that a cell consists of (see [`Cell::split`]); 0 where these need
     /// what the cell needs.
     pub first_part: Arc<Vec<u32>>,
-    /// Whether no particles are made in smaller cells that need none, however small they are. Else such a cell may get
-    /// those of its neighbours while it has few, which is faster.
+    /// Whether the smaller cells are told apart from the first level on. Then none that needs no particle gets any, but
+    /// those that do are not the ones of the whole order. Else cells with few particles stay whole, which is faster.
     pub is_strict: bool,
 }
 

@@ -65,7 +65,8 @@ impl ProgressiveOrder {
     }
 
     /// A new order that has particles where they are needed, and those whose ordinals are their indices everywhere.
-    /// But for the borders of what is needed, its particles and their ordinals are those of the whole order.
+    /// But for the borders of what is needed, its particles and their ordinals are those of the whole order, unless
+    /// `needed` is strict.
     pub fn where_needed(surface: &Surface<'_>, seed: u32, needed: &Needed) -> Self {
         let mut order = Self::default();
         order.grow(surface, seed, LEAST_COUNTED);

@@ -316,6 +316,51 @@ fn a_panic_is_told_and_the_next_job_is_drawn() {
     until(&worker, is_exact);
 }
 
+/// Edits come in bursts, as in a drag, from another camera, of another seed, length of strokes or light each time.
+#[test]
+fn after_a_thousand_edits_the_last_is_shown_and_few_are_kept() {
+    let loaded = scene();
+    let worker = worker();
+    let (mut edits, mut shown, mut told) = (Vec::new(), 0, Vec::new());
+    for serial in 1..=1000u64 {
+        let mut edited = LoadedScene::clone(&loaded);
+        let random = impasto_core::hash::combine(11, serial as u32);
+        match random % 4 {
+            0 => edited.scene.seed = random,
+            1 => edited.scene.strokes.length_px = Some(f64::from(8 + random % 30)),
+            2 => {
+                edited.scene.lights.iter_mut().for_each(|light| light.intensity = f64::from(random % 7) / 3.0)
+            }
+            _ => {
+                edited.scene.camera.keys.iter_mut().for_each(|key| key.eye[0] += f64::from(random % 9) / 10.0)
+            }
+        }
+        let edited = Arc::new(edited);
+        edits.push(Arc::downgrade(&edited));
+        let is_last_of_burst = serial - shown
+            >= u64::from(1 + impasto_core::hash::combine(12, shown as u32) % 240)
+            || serial == 1000;
+        let view = ViewJob { moving: !is_last_of_burst, ..view(&edited, f64::from(random % 20)) };
+        worker.0.show(Job { loaded: edited, serial, views: vec![view] });
+        if is_last_of_burst {
+            shown = serial;
+            told = until(&worker, |report| match report {
+                Report::Picture(picture) => picture.serial == serial && (picture.exact || serial < 1000),
+                _ => false,
+            });
+        }
+    }
+    let picture = *pictures(&told).last().unwrap();
+    let last = edits.last().unwrap().upgrade().unwrap();
+    assert_eq!(bytes(picture), rendered(&last, &view(&last, picture.view.frame), None));
+    let kept = edits.iter().filter(|edit| edit.upgrade().is_some()).count();
+    assert!(kept <= 3, "{kept} scenes are still kept");
+    drop(worker);
+    drop(told);
+    drop(last);
+    assert!(edits.iter().all(|edit| edit.upgrade().is_none()), "a scene outlives the worker");
+}
+
 #[test]
 fn closing_in_the_midst_of_work_ends_the_thread() {
     let loaded = scene();

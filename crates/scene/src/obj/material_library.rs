@@ -117,6 +117,7 @@ impl<'a> MaterialLibrary<'a> {
             if !seen.insert(&library.name) {
                 continue;
             }
+            // The rest of the line is one name with spaces, or several names: it is tried as one first.
             let whole = self.open(&library.name);
             let is_list = library.words.len() > 1;
             if is_list && matches!(whole, Err(AssetError::Missing { .. } | AssetError::Refused { .. })) {
@@ -227,7 +228,8 @@ impl<'a> MaterialLibrary<'a> {
             }
             Err(mut problem) => {
                 self.unfound += 1;
-                // A problem inside the picture itself has no line.
+                // If the picture cannot be opened, the problem is a line of the MTL file. Else it is in the picture, which
+                // has no lines.
                 if problem.path == *beside {
                     problem.place = place;
                 }

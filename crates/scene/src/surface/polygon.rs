@@ -71,8 +71,8 @@ struct Ears<'a> {
     before: Vec<usize>,
     after: Vec<usize>,
     is_reflex: Vec<bool>,
-    /// Corners that do not turn left: only these can rule out an ear. Those that have become convex are taken out when
-    /// they are met.
+    /// Corners that do not turn left: only these can rule out an ear. Those that have become convex are skipped, and
+    /// taken out where they are many.
     reflex: Grid,
     tests_left: &'a mut u64,
 }
@@ -110,12 +110,22 @@ impl<'a> Ears<'a> {
             let is_own = point == a || point == b || point == c;
             !is_own && turn(a, b, point) >= 0.0 && turn(b, c, point) >= 0.0 && turn(c, a, point) >= 0.0
         };
-        for cell in self.reflex.cells_over(a.min(b).min(c), a.max(b).max(c)) {
+        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+        for cell in self.reflex.cells_over(low, high) {
             let corners = &mut self.reflex.cells[cell];
-            *self.tests_left = self.tests_left.saturating_sub(1 + corners.len() as u64);
-            corners.retain(|&corner| is_reflex[corner]);
-            if corners.iter().any(|&corner| rules_out(corner)) {
-                return false;
+            let from = corners.partition_point(|&corner| self.points[corner].x < low.x);
+            let to = corners.partition_point(|&corner| self.points[corner].x <= high.x);
+            *self.tests_left = self.tests_left.saturating_sub(1 + (to - from) as u64);
+            let mut convex = 0;
+            for &corner in &corners[from..to] {
+                match is_reflex[corner] {
+                    true if rules_out(corner) => return false,
+                    true => {}
+                    false => convex += 1,
+                }
+            }
+            if 2 * convex > corners.len() {
+                corners.retain(|&corner| is_reflex[corner]);
             }
         }
         true
@@ -157,7 +167,7 @@ impl<'a> Ears<'a> {
     }
 }
 
-/// Corners of a polygon, sorted into square cells.
+/// Corners of a polygon in square cells; those of a cell are sorted by x.
 #[derive(Default)]
 struct Grid {
     cells: Vec<Vec<usize>>,
@@ -168,13 +178,13 @@ struct Grid {
 }
 
 impl Grid {
-    /// About one corner a cell.
+    /// With at most about three times as many cells as corners.
     fn new(points: &[DVec2], corners: &[usize]) -> Self {
         let of_corners = || corners.iter().map(|&corner| points[corner]);
         let low = of_corners().fold(DVec2::INFINITY, DVec2::min);
         let size = of_corners().fold(DVec2::NEG_INFINITY, DVec2::max) - low;
         let along = |size: f64, cell_size: f64| (size / cell_size) as usize + 1;
-        // As many cells as corners, whatever the shape of the box: at most so many along its longer side.
+        // Where the box is nearly a line, its area says nothing: then its length decides.
         let cell_size =
             (size.x * size.y / corners.len() as f64).sqrt().max(size.max_element() / corners.len() as f64);
         let mut grid = Self { cells: Vec::new(), low, cell_size, columns: 1, rows: 1 };
@@ -186,6 +196,8 @@ impl Grid {
             let [column, row] = grid.place(points[corner]);
             grid.cells[row * grid.columns + column].push(corner);
         }
+        let by_x = |a: &usize, b: &usize| points[*a].x.total_cmp(&points[*b].x);
+        grid.cells.iter_mut().for_each(|corners| corners.sort_by(by_x));
         grid
     }
 
@@ -200,5 +212,56 @@ impl Grid {
     fn cells_over(&self, low: DVec2, high: DVec2) -> impl Iterator<Item = usize> + use<> {
         let ([left, bottom], [right, top], columns) = (self.place(low), self.place(high), self.columns);
         (bottom..=top).flat_map(move |row| (left..=right).map(move |column| row * columns + column))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A round polygon with waves on it, where long ears pass many corners; the same with one corner far off; a comb; and
+    /// all of them wound the other way.
+    #[test]
+    fn large_polygons_are_cut_whole_with_few_tests_for_each_corner() {
+        let count = 20_000;
+        let corners_of_comb = 500;
+        let wavy = |at: usize| {
+            let angle = at as f64 / f64::from(count) * std::f64::consts::TAU;
+            let radius = 1.0 + 0.1 * (37.0 * angle).sin() + 0.01 * (1777.0 * angle).sin();
+            DVec3::new(radius * angle.cos(), radius * angle.sin(), 0.0)
+        };
+        let comb = |at: usize| match at {
+            0 => DVec3::new(0.0, -1.0, 0.0),
+            1 => DVec3::new(f64::from(corners_of_comb), -1.0, 0.0),
+            _ => DVec3::new(f64::from(corners_of_comb) - at as f64, (at % 2) as f64, 0.0),
+        };
+        let far = |at: usize| if at == 5 { DVec3::new(1e6, 1.0, 0.0) } else { wavy(at) };
+        let polygons: [Vec<DVec3>; 3] = [
+            (0..count as usize).map(wavy).collect(),
+            (0..count as usize).map(far).collect(),
+            (0..corners_of_comb as usize).map(comb).collect(),
+        ];
+        for polygon in polygons {
+            for turned in [false, true] {
+                let mut polygon = polygon.clone();
+                if turned {
+                    polygon.reverse();
+                }
+                let mut tests_left = MAX_TESTS;
+                let cut = cut(&polygon, &mut tests_left);
+                assert!(!cut.is_rough && cut.triangles.len() == polygon.len() - 2);
+                let normal = newell(&polygon).normalize();
+                let area_of = |&[a, b, c]: &[usize; 3]| {
+                    (polygon[b] - polygon[a]).cross(polygon[c] - polygon[a]).dot(normal)
+                };
+                // No triangle is turned over, and together they fill the polygon: so none lies outside.
+                let areas: Vec<f64> = cut.triangles.iter().map(area_of).collect();
+                let whole = newell(&polygon).length();
+                assert!(areas.iter().all(|&area| area >= -1e-12 * whole), "a triangle is turned over");
+                assert!((areas.iter().sum::<f64>() / whole - 1.0).abs() < 1e-9);
+                let tests = MAX_TESTS - tests_left;
+                assert!(tests < 300 * polygon.len() as u64, "{tests} tests");
+            }
+        }
     }
 }
