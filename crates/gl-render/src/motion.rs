@@ -12,7 +12,7 @@ use crate::meshes::DrawnBody;
 use crate::reference::ReferencePass;
 use crate::shader_files::{REFERENCE, SHARED};
 
-/// How the surfaces of one picture have moved in another, top row first.
+/// For each pixel of one picture: where the surface point that it shows is in another picture. Top row first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MotionPixels {
     /// Width and height in pixels.
@@ -20,7 +20,8 @@ pub struct MotionPixels {
     /// From a pixel's centre to where the same surface point projects in the other picture: columns to the right, rows
     /// **down**. 0 where no body shows, or where the point is behind the other camera's eye.
     pub offset_px: Vec<[f32; 2]>,
-    /// Depth of that point along the other camera's gaze, world units; 0 where no body shows, or behind its eye.
+    /// Depth of that point along the other camera's gaze, world units; 0 where no body shows, or where the point is behind the
+    /// other camera's eye.
     pub depth_then: Vec<f32>,
     /// Index of the body plus 1; 0 where nothing is.
     pub body_id: Vec<u32>,
@@ -47,8 +48,8 @@ impl MotionPass {
         self.program.ready_all()
     }
 
-    /// Draws the bodies of `now`, and finds where they are in `then`. Both frames have their bodies in the same order.
-    /// A body that `then` lacks counts as not moved.
+    /// Draws the bodies of `now`, and finds where they are in `then`. Bodies are matched by
+    /// index, so both frames must have them in the same order. If `then` has fewer, the rest count as not moved.
     pub(crate) fn draw(
         &mut self,
         reference: &mut ReferencePass,

@@ -1,5 +1,5 @@
-//! What a view does not see of a body because the body itself hides it: most of a heap of faces. Strokes that lie there
-//! cannot show, so no particles are made there.
+//! Finds what a view does not see of a body because the body itself hides it. Of a heap of faces, that is most. Strokes
+//! there cannot show, so no particles are made there.
 
 use std::ops::Range;
 
@@ -12,22 +12,24 @@ use crate::particle_count::Sighting;
 /// One depth is known for a square of so many pixels.
 const CELL_PX: f64 = 4.0;
 
-/// With more faces times views, or more squares in the grids of all views, nothing is found.
+/// Limits on the work: with more faces times views, or more squares in the grids of all views, the depths are not looked
+/// for.
 const MOST_FACES: usize = 16_000_000;
 const MOST_SQUARES: usize = 32_000_000;
 
-/// About so many squares of faces are looked at in all views together, and at most so many in one. Where there are more,
-/// only some of the faces are taken: the others hide nothing.
+/// How many times a face is tested against a square, about: in all views together, and in one view. Where more would be
+/// needed, only every n-th face is taken. The others hide nothing.
 const MOST_TESTS: f64 = 1e8;
 const MOST_TESTS_IN_VIEW: f64 = 4e6;
 
-/// Round its middle, up to this distance, the resolve shader asks whether a stroke is hidden by its own body. This is
-/// the distance for small strokes: where faces lie so close behind each other, few large ones can be seen.
+/// The resolve shader tests whether a stroke's own body hides it, at places up to this distance from the stroke's middle.
+/// The distance is that for small strokes: in a heap, few large strokes can be seen.
 const ASKED_PX: f64 = 8.7;
 
-/// How far behind the nearest surface the resolve shader begins to hide a stroke, in a picture of the scene's own size:
-/// this many pixels, as a length at its depth, and more where its face is slanted. At three times as far it is hidden
-/// wholly. What strokes would show in between is given up on purpose: in a heap, those of other faces lie over it.
+/// The resolve shader begins to hide a small stroke `HIDDEN_PX + HIDDEN_SLANTED_PX / slant` pixels behind the nearest
+/// surface (pixels of the scene's own size, as a length at the stroke's depth). The slant is the cosine between the face
+/// and the eye, at least `LEAST_SLANT`. At three times that depth the stroke is hidden wholly. Strokes that would be hidden
+/// in part count as hidden here, on purpose: in a heap, strokes of other faces lie over them.
 const HIDDEN_PX: f64 = 2.5;
 const HIDDEN_SLANTED_PX: f64 = 3.5;
 const LEAST_SLANT: f64 = 0.2;
@@ -61,7 +63,8 @@ pub(crate) struct OwnDepths {
     lift: f64,
     /// The corner of the first square, pixels.
     low_px: DVec2,
-    /// The greatest depth: of each square first, then of each two by two of them, and so on.
+    /// First the nearest depth at the middle of each square, infinite where no face lies. Then for each two by two entries
+    /// of the level before, the greatest of them, and so on.
     levels: Vec<Level>,
 }
 
@@ -74,7 +77,7 @@ struct Level {
 /// A triangle in the picture.
 struct Shown {
     px: [DVec2; 3],
-    /// The corners' depths, and what these are divided by in perspective.
+    /// The corners' depths, and the divisors of their projection, which are 1 without perspective.
     depths: [f64; 3],
     divisors: [f64; 3],
 }
@@ -184,7 +187,7 @@ impl OwnDepths {
     fn greatest_over(&self, low: DVec2, high: DVec2) -> f64 {
         let [low, high] = [low, high].map(|at| (at - self.low_px) / CELL_PX);
         let [columns, rows] = self.levels[0].size;
-        // Not a number counts as beyond, too.
+        // NaN counts as beyond, too.
         if !(low.min_element() >= 0.0 && high.x < columns as f64 && high.y < rows as f64) {
             return f64::INFINITY;
         }
@@ -255,7 +258,8 @@ impl Shown {
     }
 }
 
-/// How many columns and rows of squares a view has, with particles to this margin.
+/// How many columns and rows of squares a view has. Its particles reach `margin` half sizes of the picture from the
+/// middle.
 fn grid_size(sighting: &Sighting, margin: f64) -> [usize; 2] {
     let size = (sighting.half_size_px * margin * 2.0 / CELL_PX).ceil().max(DVec2::ONE);
     [size.x as usize, size.y as usize]
@@ -331,10 +335,11 @@ mod tests {
         for lens in lenses {
             let (hidden, below) = hidden(&pile(12), &from_above(lens), true);
             assert_eq!(hidden[0], 0.0, "{lens:?}");
-            // 0.1 units are eight pixels: the second sheet may be seen through a stroke of the first.
+            // The second sheet is only eight pixels (0.1 units) behind the first, little more than the six from which
+            // strokes count as hidden: nothing is asked of it.
             for (square, &share) in hidden.iter().enumerate().skip(2) {
                 assert!(share > 0.6, "sheet {square}: {share}, {lens:?}");
-                // From afar, all sheets end at the same pixels; from near, the lower ones end farther in.
+                // In the orthographic view all sheets end at the same pixels; in perspective the lower ones end farther in.
                 let is_seen_beside = matches!(lens, PixelLens::Orthographic { .. }) || square < 4;
                 assert!(!is_seen_beside || share < 0.95, "sheet {square}: {share}, {lens:?}");
             }
@@ -350,7 +355,7 @@ mod tests {
 
     #[test]
     fn of_a_box_the_greatest_depth_is_found() {
-        // A ramp: its depth grows along x, in the picture from 0 to 160 pixels.
+        // A ramp 160 pixels wide: from x = -80 to 80 its depth grows from 5 to 6.
         let mesh = TriangleMesh {
             positions: [[-1.0, 0.0, 1.0], [1.0, -1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 0.0, -1.0]]
                 .map(Vec3::from)
@@ -365,7 +370,8 @@ mod tests {
         for [left, right] in [[-60.0, -50.0], [-40.0, 2.0], [-10.0, -10.0], [5.0, 21.0], [40.0, 47.0]] {
             let found = own.greatest_over(DVec2::new(left, -3.0), DVec2::new(right, 4.0));
             let at_right = 5.5 + 0.5 * right / 80.0;
-            // Squares are known as a whole, and larger boxes by larger squares.
+            // Depths are known only for each square, and for wide boxes for blocks of squares. So the result may be too
+            // small by the slope of one square, or too great by that of two squares and the box.
             let least = at_right - CELL_PX / 160.0;
             let most = at_right + (2.0 * CELL_PX + right - left) / 160.0;
             assert!((least..=most).contains(&found), "{left} to {right}: {found}, not {at_right}");

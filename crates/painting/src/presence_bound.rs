@@ -25,14 +25,16 @@ pub(crate) struct PresenceBound {
     /// How far from its particle a stroke can reach, pixels, with the largest size and shift that chance, boil and
     /// painted amounts give. A stroke that grows as its surface comes nearer (`size_follow`) can reach farther.
     pub(crate) reach_px: f32,
-    /// By part: a stroke can be present only while its particle's ordinal is below this times the projected area of the
-    /// surface there (px² per unit of surface). Infinite where presence does not depend on the ordinal.
+    /// One number for each part of the body. A stroke can be present only if its particle's ordinal (about how many
+    /// particles come before it) is less than this, times the px² that a unit of surface covers there. Infinite where
+    /// presence does not depend on the ordinal.
     pub(crate) most_per_area: Vec<f32>,
 }
 
 impl Painting {
-    /// The bound of each rule, whose strokes at the frame are in `strokes_of_rule`; `None` where it paints nothing on
-    /// this coat. `by_polygon`: the source paper's counts per polygon decide what shows, so no ordinal bounds it.
+    /// One bound for each rule in `strokes_of_rule`, which holds the rules' strokes at the frame; `None` for a rule that
+    /// paints nothing on this coat. With `by_polygon`, the source paper's counts per polygon decide what shows, whatever
+    /// the ordinal, so `most_per_area` is infinite.
     pub(crate) fn presence_bounds(
         &self,
         coat: &Coat,

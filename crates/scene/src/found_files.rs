@@ -7,9 +7,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// The files that were found while a scene was read. Copies share one list.
 #[derive(Clone, Debug, Default)]
 pub struct FoundFiles {
-    /// Maps the path at which each file was found to a place in the scene's folder, as a relative path. If the file is
-    /// moved there, the name in the scene or mesh leads to it without [`AssetFolders`]. `None` if no place in the folder
-    /// will do.
+    /// For each file, by the path at which it was found: where in the scene's folder it would have to lie so that the
+    /// name in the scene or mesh leads to it without further folders. Relative to the scene's folder; `None` if no place
+    /// in it will do.
     places: Arc<Mutex<BTreeMap<PathBuf, Option<PathBuf>>>>,
 }
 
@@ -23,10 +23,12 @@ impl PartialEq for FoundFiles {
 impl Eq for FoundFiles {}
 
 impl FoundFiles {
-    /// Notes a file that the file `beside` names, in a scene of the folder `root`. `name` has `/` between folders.
+    /// Notes the file found at `path`. The file `beside`, of a scene in the folder `root`, calls it `name`, with `/`
+    /// between folders.
     pub(crate) fn note(&self, [beside, root]: [&Path; 2], path: &Path, name: &str) {
         let mut places = self.places.lock().unwrap_or_else(PoisonError::into_inner);
-        // If the naming file is itself in this list, `name` is relative to its place there, not to where it was found.
+        // A naming file that is in the list itself would lie elsewhere, too: `name` counts from the place that the list
+        // has for it. (Of a place, only the folder matters, so any file name will do.)
         let naming = places.get(&without_dots(beside)).cloned().unwrap_or_else(|| {
             let root = std::fs::canonicalize(root).ok()?;
             let folder = beside.parent().filter(|folder| !folder.as_os_str().is_empty());
@@ -37,9 +39,8 @@ impl FoundFiles {
         places.insert(path.to_owned(), place);
     }
 
-    /// Maps the path at which each file was found to a place in the scene's folder, as a relative path. If the file is
-    /// moved there, the name in the scene or mesh leads to it without [`AssetFolders`]. `None` if no place in the folder
-    /// will do.
+    /// A copy of the list. For each file, by the path at which it was found: where in the scene's folder it would have to
+    /// lie so that the name in the scene or mesh leads to it without further folders; `None` if no place will do.
     pub fn places(&self) -> BTreeMap<PathBuf, Option<PathBuf>> {
         self.places.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }

@@ -1,4 +1,4 @@
-//! What a sequence is asked for, and what a painter makes of one of its frames.
+//! The data of a sequence of frames: what is to be rendered, a frame that a painter has drawn, and what may go wrong.
 
 use std::io;
 
@@ -9,7 +9,7 @@ use impasto_gl_render::{Cost, Picture, RenderError, Renderer, ShaderTexts};
 use impasto_painting::{FrameOptions, Painting};
 use impasto_scene::aovs::AovSet;
 
-/// What is made of each frame.
+/// Which outputs are made from each frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Wanted {
     /// Its pixels.
@@ -56,11 +56,11 @@ pub struct Sequence {
     pub scene_name: String,
     /// A hash of all that the frames are made from ([`crate::state`]), noted in each file; empty to note nothing.
     pub state: String,
-    /// The driver that is opened on other threads; the first painter draws with the renderer that it is given.
+    /// The driver that each further painter opens, on its own thread. The first painter draws with the caller's renderer.
     pub driver: Driver,
     /// Shaders that stand in for the program's own; empty to use those.
     pub shaders: ShaderTexts,
-    /// What is made of each frame.
+    /// Which outputs are made from each frame.
     pub wanted: Wanted,
     /// Whether each pass is timed. That slows frames down, and only one painter works.
     pub timed: bool,

@@ -15,8 +15,9 @@ impl Editor {
         &self.time
     }
 
-    /// Advances playback to `now_secs`, on the clock of the pointer's events, and drops loose poses of another frame or
-    /// mode. Must be called first in each pass of the window.
+    /// Advances playback to `now_secs`, which is on the same clock as the pointer's events. Drops the loose poses if the
+    /// current frame is no longer theirs, or the mode is no longer Animate. Must be called first in each pass of the
+    /// window.
     pub fn tick(&mut self, now_secs: f64) {
         self.at_secs = now_secs;
         let (frame, mode) = (self.session.frame, self.session.mode);
@@ -56,7 +57,7 @@ impl Editor {
         self.time.playback.asked().unwrap_or(self.session.frame)
     }
 
-    /// Reports that a picture of this frame is shown. Returns whether it is the next one of the playback.
+    /// Reports that a picture of this frame is shown. Returns whether playback goes on to it.
     pub fn shown_frame(&mut self, frame: f64) -> bool {
         let is_next = self.time.playback.shown(frame, self.at_secs);
         if is_next {

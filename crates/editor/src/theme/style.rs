@@ -27,8 +27,8 @@ pub fn apply(ctx: &Context, theme: Theme, scale: f32) {
 /// The smallest window that the bars and panels are laid out for, points.
 const LEAST_LAYOUT: egui::Vec2 = vec2(800.0, 500.0);
 
-/// The scale to draw with in a window of `window` points at scale 1: the one that was chosen, or a smaller one if the
-/// bars and panels would have no room.
+/// The scale to draw with: the chosen one, or a smaller one (at least 0.5) if the bars and panels would have no room.
+/// `window` is the window's size in points at scale 1.
 pub fn fitting_scale(chosen: f32, window: egui::Vec2) -> f32 {
     let most = (window / LEAST_LAYOUT).min_elem();
     if most.is_finite() && most > 0.0 { chosen.min(most.max(0.5)) } else { chosen }
