@@ -338,7 +338,7 @@ fn after_a_thousand_edits_the_last_is_shown_and_few_are_kept() {
         let edited = Arc::new(edited);
         edits.push(Arc::downgrade(&edited));
         let is_last_of_burst = serial - shown
-            >= u64::from(1 + impasto_core::hash::combine(12, shown as u32) % 240)
+            >= u64::from(1 + impasto_core::hash::combine(12, shown as u32) % 400)
             || serial == 1000;
         let view = ViewJob { moving: !is_last_of_burst, ..view(&edited, f64::from(random % 20)) };
         worker.0.show(Job { loaded: edited, serial, views: vec![view] });
