@@ -145,9 +145,7 @@ impl CountInputs {
 
     /// Whether nothing shows through a triangle: no texture cuts holes into it.
     pub(crate) fn is_solid(&self, triangle: usize) -> bool {
-        let BodySurface { mesh, materials, .. } = &*self.surface;
-        let number = mesh.material_of_triangle.get(triangle).copied().unwrap_or(0);
-        let material = materials.get(number as usize);
+        let material = self.surface.materials.get(self.surface.material_of_triangle(triangle));
         material.is_none_or(|material| material.cutoff.is_none())
     }
 

@@ -5,7 +5,7 @@ use impasto_core::ScreenMap;
 use impasto_core::sampling::Cell;
 
 use crate::own_depths::OwnDepths;
-use crate::particle_count::Sighting;
+use crate::particle_count::{Reach, Sighting};
 use crate::presence_bound::LEAST_COUNTED_FADE;
 
 /// A cell's parts are alike while its radius is at most this share of its distance.
@@ -43,9 +43,8 @@ pub(crate) struct Eye {
 }
 
 impl Eye {
-    /// A view with particles to this margin (see [`crate::needed::NeededInputs`]), for strokes that reach so far from their particles,
-    /// pixels, and are lifted so far, model units.
-    pub(crate) fn new(sighting: &Sighting, margin: f64, [reach_px, most_offset]: [f64; 2]) -> Self {
+    /// A view in which paint may be so far from the picture and from its particles.
+    pub(crate) fn new(sighting: &Sighting, Reach { margin, reach_px, most_offset }: Reach) -> Self {
         let map = &sighting.map;
         let planes = |margin: f64, reach_px: f64| {
             let half_px = sighting.half_size_px * margin + DVec2::splat(reach_px);
@@ -190,7 +189,7 @@ mod tests {
                     near: 0.05,
                     shape: BodyShape::default(),
                 };
-                let of_sighting = Eye::new(&sighting, 1.0, [0.0; 2]);
+                let of_sighting = Eye::new(&sighting, Reach { margin: 1.0, reach_px: 0.0, most_offset: 0.0 });
                 for particle in &particles {
                     let (at, normal) = (particle.position.as_dvec3(), particle.normal.as_dvec3());
                     let px = map.project(at).abs();

@@ -13,7 +13,7 @@ use crate::context::{Context, ObjectInputs};
 use crate::counts::{CoatCount, CountInputs, Counted, LEAST_ON_WHOLE};
 use crate::eye::Eye;
 use crate::own_depths::{Covered, OwnDepths};
-use crate::particle_count::Sighting;
+use crate::particle_count::{Reach, Sighting};
 use crate::parts::BodyParts;
 
 const LAYERS: usize = LayerKind::ALL.len();
@@ -53,20 +53,14 @@ pub(crate) struct NeededInputs {
     pub(crate) counted: Arc<CountInputs>,
     /// Every view of the object; `None` if it must be ready for any view.
     pub(crate) sightings: Option<Vec<Sighting>>,
-    /// How far from the middle of the picture there are particles, in half sizes of the picture.
-    pub(crate) margin: f64,
-    /// How far strokes reach beyond their particles, pixels at the scene's own size.
-    pub(crate) reach_px: f64,
-    /// How far strokes are lifted off the surface, model units.
-    pub(crate) most_offset: f64,
+    pub(crate) reach: Reach,
 }
 
 impl PartialEq for NeededInputs {
     fn eq(&self, other: &Self) -> bool {
         (Arc::ptr_eq(&self.counted, &other.counted) || self.counted == other.counted)
             && self.sightings == other.sightings
-            && (self.margin, self.reach_px) == (other.margin, other.reach_px)
-            && self.most_offset == other.most_offset
+            && self.reach == other.reach
     }
 }
 
@@ -76,9 +70,11 @@ impl NeededInputs {
         Self {
             counted: Arc::clone(counted),
             sightings: context.seen.sightings(object.index),
-            margin: context.seen.margin(),
-            reach_px: counted.most_reach_px(),
-            most_offset: strokes().map(|strokes| f64::from(strokes.offset).abs()).fold(0.0, f64::max),
+            reach: Reach {
+                margin: context.seen.margin(),
+                reach_px: counted.most_reach_px(),
+                most_offset: strokes().map(|strokes| f64::from(strokes.offset).abs()).fold(0.0, f64::max),
+            },
         }
     }
 
@@ -95,13 +91,10 @@ impl NeededInputs {
         if cells.all().len() * sightings.len() > MOST_PAIRS {
             return counts;
         }
-        let mut eyes: Vec<Eye> = sightings
-            .iter()
-            .map(|sighting| Eye::new(sighting, self.margin, [self.reach_px, self.most_offset]))
-            .collect();
+        let mut eyes: Vec<Eye> = sightings.iter().map(|sighting| Eye::new(sighting, self.reach)).collect();
         let own = (counted.deepness >= HEAP).then(|| {
             let is_solid = |triangle: usize| self.counted.is_solid(triangle);
-            OwnDepths::of_all(surface, sightings, is_solid, (self.margin, self.most_offset))
+            OwnDepths::of_all(surface, sightings, is_solid, self.reach)
         });
         let own = own.flatten();
         let is_heap = own.is_some();
@@ -127,12 +120,15 @@ impl NeededInputs {
         };
         let mut seen: Vec<(SeenCell, [f64; LAYERS])> = cells.all().par_iter().map(seen).collect();
         let most_on_whole = if is_heap { MOST_OF_HEAP } else { f64::INFINITY };
-        let is_cut =
-            |(seen, needed): &(SeenCell, [f64; LAYERS])| seen.is_to_cut([most(needed), most_on_whole]);
+        let is_cut = |(seen, needed): &(SeenCell, [f64; LAYERS])| seen.is_to_cut(most(needed), most_on_whole);
         let cuts = MOST_CUTS / seen.iter().filter(|seen| is_cut(seen)).count().max(1);
         let refine = |(seen, needed): &mut (SeenCell, [f64; LAYERS])| {
-            let needed = [most(needed), most_on_whole];
-            seen.refine(surface, &eyes, (needed, MOST_DEPTH, cuts.max(LEAST_CUTS)));
+            let cuts = cuts.max(LEAST_CUTS);
+            seen.refine(
+                surface,
+                &eyes,
+                Cutting { needed: most(needed), most_on_whole, depth: MOST_DEPTH, cuts },
+            );
         };
         seen.par_iter_mut().for_each(refine);
         let tree = SeenTree::new(seen);
@@ -166,6 +162,19 @@ struct SeenCell {
     parts: Vec<Self>,
 }
 
+/// How a cell is to be cut.
+#[derive(Clone, Copy)]
+struct Cutting {
+    /// The most particles that any layer needs for each pixel that a unit of surface fills.
+    needed: f64,
+    /// The length of the longest order that counts.
+    most_on_whole: f64,
+    /// How often a part may be cut again.
+    depth: u32,
+    /// How many cuts are left.
+    cuts: usize,
+}
+
 impl SeenCell {
     fn new(surface: &Surface<'_>, cell: &Cell, eyes: &[Eye], of: &[usize]) -> Self {
         let mut seen = Self {
@@ -193,21 +202,24 @@ impl SeenCell {
     }
 
     /// Whether its parts differ much and it needs many particles: `needed` for each pixel that a unit of surface fills,
-    /// but no more than belong to an order of the length `most`.
-    fn is_to_cut(&self, [needed, most]: [f64; 2]) -> bool {
-        self.is_uneven && needed > 0.0 && (needed * self.px_per_area).min(most) * self.cell.share >= FEW
+    /// but no more than belong to an order of the length `most_on_whole`.
+    fn is_to_cut(&self, needed: f64, most_on_whole: f64) -> bool {
+        self.is_uneven
+            && needed > 0.0
+            && (needed * self.px_per_area).min(most_on_whole) * self.cell.share >= FEW
     }
 
-    /// Cuts the cell while it is to be cut, at most so deep and into so many parts.
-    fn refine(&mut self, surface: &Surface<'_>, eyes: &[Eye], (needed, depth, cuts): ([f64; 2], u32, usize)) {
-        if depth == 0 || cuts == 0 || !self.is_to_cut(needed) {
+    /// Cuts the cell while it is to be cut.
+    fn refine(&mut self, surface: &Surface<'_>, eyes: &[Eye], cutting: Cutting) {
+        let Cutting { needed, most_on_whole, depth, cuts } = cutting;
+        if depth == 0 || cuts == 0 || !self.is_to_cut(needed, most_on_whole) {
             return;
         }
         let parts = self.cell.split(surface);
         self.parts = parts.iter().map(|part| Self::new(surface, part, eyes, &self.eyes)).collect();
-        let sharing = self.parts.iter().filter(|part| part.is_to_cut(needed)).count().max(1);
-        let cuts = (cuts - 1).div_ceil(sharing);
-        self.parts.iter_mut().for_each(|part| part.refine(surface, eyes, (needed, depth - 1, cuts)));
+        let sharing = self.parts.iter().filter(|part| part.is_to_cut(needed, most_on_whole)).count().max(1);
+        let cutting = Cutting { depth: depth - 1, cuts: (cuts - 1).div_ceil(sharing), ..cutting };
+        self.parts.iter_mut().for_each(|part| part.refine(surface, eyes, cutting));
         if !self.parts.is_empty() {
             let most = |of: fn(&Self) -> f64| self.parts.iter().map(of).fold(0.0, f64::max);
             (self.px_per_area, self.px_in_picture) =

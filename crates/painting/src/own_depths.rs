@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use impasto_core::sampling::{Cell, CellPiece, Surface};
 use rayon::prelude::*;
 
-use crate::particle_count::Sighting;
+use crate::particle_count::{Reach, Sighting};
 
 /// One depth is known for a square of so many pixels.
 const CELL_PX: f64 = 4.0;
@@ -89,17 +89,17 @@ impl OwnDepths {
         surface: &Surface<'_>,
         sightings: &[Sighting],
         is_solid: impl Fn(usize) -> bool + Sync,
-        (margin, most_offset): (f64, f64),
+        reach: Reach,
     ) -> Option<Vec<Self>> {
-        let squares =
-            |sighting: &Sighting| grid_size(sighting, margin).into_iter().fold(1, usize::saturating_mul);
+        let squares = |sighting: &Sighting| {
+            grid_size(sighting, reach.margin).into_iter().fold(1, usize::saturating_mul)
+        };
         let is_little = surface.faces().count().saturating_mul(sightings.len()) <= MOST_FACES
             && sightings.iter().map(squares).fold(0, usize::saturating_add) <= MOST_SQUARES;
         let hides = surface.faces().any(|(triangle, ..)| is_solid(triangle as usize))
             && sightings.iter().all(|sighting| sighting.map.uneven.is_none());
         let most_tests = (MOST_TESTS / sightings.len().max(1) as f64).min(MOST_TESTS_IN_VIEW);
-        let of =
-            |sighting: &Sighting| Self::new(surface, sighting, &is_solid, [margin, most_offset, most_tests]);
+        let of = |sighting: &Sighting| Self::new(surface, sighting, &is_solid, reach, most_tests);
         (is_little && hides).then(|| sightings.par_iter().map(of).collect())
     }
 
@@ -107,7 +107,8 @@ impl OwnDepths {
         surface: &Surface<'_>,
         sighting: &Sighting,
         is_solid: impl Fn(usize) -> bool,
-        [margin, most_offset, most_tests]: [f64; 3],
+        Reach { margin, most_offset, .. }: Reach,
+        most_tests: f64,
     ) -> Self {
         let half_px = sighting.half_size_px * margin;
         let size = grid_size(sighting, margin);
@@ -285,6 +286,8 @@ mod tests {
 
     use crate::body_shape::BodyShape;
 
+    const REACH: Reach = Reach { margin: 1.5, reach_px: 20.0, most_offset: 0.0 };
+
     /// Squares that lie 0.1 below each other, each of 2 x 2 units, from y = 0 down.
     fn pile(squares: usize) -> TriangleMesh {
         let mut mesh = TriangleMesh::default();
@@ -311,7 +314,7 @@ mod tests {
     /// The share of each square's upper side that is hidden wholly, and all of what the lower sides show.
     fn hidden(mesh: &TriangleMesh, sighting: &Sighting, is_solid: bool) -> (Vec<f64>, f64) {
         let surface = Surface::new(mesh, |_| true);
-        let own = OwnDepths::new(&surface, sighting, |_| is_solid, [1.5, 0.0, 4e6]);
+        let own = OwnDepths::new(&surface, sighting, |_| is_solid, REACH, 4e6);
         let (mut hidden, mut below) = (vec![0.0; mesh.triangles.len() / 2], 0.0);
         let mut cells: Vec<(Cell, u32)> = Cells::new(&surface).into_iter().map(|cell| (cell, 0)).collect();
         while let Some((cell, cuts)) = cells.pop() {
@@ -353,6 +356,34 @@ mod tests {
         assert_eq!(hidden, [0.0; 12]);
     }
 
+    /// Strokes that stand out by 0.15 units may be seen over the sheet above their own; and nothing is known of a body
+    /// that is stretched.
+    #[test]
+    fn lifted_strokes_and_stretched_bodies_are_told_apart() {
+        let mesh = pile(12);
+        let surface = Surface::new(&mesh, |_| true);
+        let sighting = from_above(PixelLens::Orthographic { px_per_unit: 80.0 });
+        let lifted = Reach { most_offset: 0.15, ..REACH };
+        let hidden_of = |reach: Reach| -> f64 {
+            let own = OwnDepths::of_all(&surface, std::slice::from_ref(&sighting), |_| true, reach).unwrap();
+            let cells = Cells::new(&surface);
+            let hidden =
+                |cell: &&Cell| own[0].covers(&surface, cell) == Covered::Wholly && cell.normal.y > 0.0;
+            cells.all().iter().filter(hidden).map(|cell| cell.share).sum()
+        };
+        let [flat, over] = [REACH, lifted].map(hidden_of);
+        assert!(over < flat - 0.05, "{flat} is hidden of flat strokes, {over} of lifted ones");
+        let view = glam::dcamera::rh::view::look_at_mat4(DVec3::Y * 5.0, DVec3::ZERO, DVec3::NEG_Z);
+        let pose = DAffine3::from_scale(DVec3::new(1.0, 0.2, 1.0));
+        let lens = PixelLens::Orthographic { px_per_unit: 80.0 };
+        let stretched = Sighting { map: ScreenMap::new(view, pose, lens), ..sighting.clone() };
+        assert!(OwnDepths::of_all(&surface, &[stretched], |_| true, REACH).is_none());
+        assert!(
+            OwnDepths::of_all(&surface, std::slice::from_ref(&sighting), |_| false, REACH).is_none(),
+            "all has holes"
+        );
+    }
+
     #[test]
     fn of_a_box_the_greatest_depth_is_found() {
         // A ramp 160 pixels wide: from x = -80 to 80 its depth grows from 5 to 6.
@@ -366,7 +397,7 @@ mod tests {
         };
         let surface = Surface::new(&mesh, |_| true);
         let sighting = from_above(PixelLens::Orthographic { px_per_unit: 80.0 });
-        let own = OwnDepths::new(&surface, &sighting, |_| true, [1.5, 0.0, 4e6]);
+        let own = OwnDepths::new(&surface, &sighting, |_| true, REACH, 4e6);
         for [left, right] in [[-60.0, -50.0], [-40.0, 2.0], [-10.0, -10.0], [5.0, 21.0], [40.0, 47.0]] {
             let found = own.greatest_over(DVec2::new(left, -3.0), DVec2::new(right, 4.0));
             let at_right = 5.5 + 0.5 * right / 80.0;

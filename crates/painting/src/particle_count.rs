@@ -69,6 +69,17 @@ pub(crate) struct Sighting {
     pub(crate) shape: BodyShape,
 }
 
+/// How far round the picture there are particles, and how far from them there may be paint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Reach {
+    /// How far from the middle of the picture there are particles, in half sizes of the picture.
+    pub(crate) margin: f64,
+    /// How far strokes reach beyond their particles, pixels at the scene's own size.
+    pub(crate) reach_px: f64,
+    /// How far strokes are lifted off the surface, model units.
+    pub(crate) most_offset: f64,
+}
+
 /// A face that a view does not see whole, or sees at very different depths, is cut into pieces that are at most this
 /// share of the surface.
 const PIECE: f64 = 1.0 / 2000.0;
@@ -377,7 +388,10 @@ mod tests {
                     .extend(one.triangles.iter().map(|of| of.map(|corner| corner + level * corners)));
             }
             let surface = Surface::new(&mesh, |_| true);
-            find(&surface, std::slice::from_ref(&sighting), deepest(1), |_| None, |_, _, _| [0.001]).needed[0]
+            let found =
+                find(&surface, std::slice::from_ref(&sighting), deepest(1), |_| None, |_, _, _| [0.001]);
+            assert!((found.deepness / f64::from(floors) - 1.0).abs() < 0.3, "{floors}: {}", found.deepness);
+            found.needed[0]
         };
         let [one, some, many, more] = [1, 8, 64, 128].map(counted);
         assert!((some / one / 8.0 - 1.0).abs() < 0.1, "8 floors need {some}, one needs {one}");

@@ -226,7 +226,7 @@ impl BodySurface {
     }
 
     /// Index of the material of a triangle.
-    fn material_of_triangle(&self, triangle: usize) -> usize {
+    pub(crate) fn material_of_triangle(&self, triangle: usize) -> usize {
         self.mesh.material_of_triangle.get(triangle).copied().unwrap_or(0) as usize
     }
 

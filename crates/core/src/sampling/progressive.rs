@@ -20,6 +20,9 @@ const LEAST_FILLED: f64 = 0.5;
 /// At least so many particles are always made on the whole surface, if they are asked for: see [`ProgressiveState`].
 const LEAST_COUNTED: usize = 8192;
 
+/// Places on a surface differ by at least about this share of its greatest coordinate.
+const FINEST: f32 = 0.5 * f32::EPSILON;
+
 /// The most candidates that one task handles. It sorts them by place: the more there are, the better consecutive searches
 /// share the cache.
 const MOST_CHUNK: usize = 1 << 20;
@@ -75,7 +78,9 @@ impl ProgressiveOrder {
         }
         let most = f64::from(needed.most());
         let mut levels = Levels::new(&mut order, surface, seed, Some(needed));
-        while levels.order.state.ordinal_at(levels.order.state.level_end as f64) < most {
+        while levels.order.state.ordinal_at(levels.order.state.level_end as f64) < most
+            && !levels.is_too_fine()
+        {
             levels.throw_by_cells();
         }
         order
@@ -90,6 +95,8 @@ struct Levels<'a> {
     candidates: Candidates<'a>,
     field: DartField,
     grid: DartGrid,
+    /// About the least distance between different places on the surface.
+    finest: f32,
     /// Where particles are needed; `None` everywhere.
     needed: Option<&'a Needed>,
     /// Made when the first level is thrown cell by cell.
@@ -103,6 +110,8 @@ impl<'a> Levels<'a> {
         seed: u32,
         needed: Option<&'a Needed>,
     ) -> Self {
+        let positions = surface.mesh.positions.iter();
+        let greatest = positions.map(|position| position.abs().max_element()).fold(0.0, f32::max);
         let grid = DartGrid::new(&surface.darts(&order.particles), spacing(surface, order.state.level_end));
         Self {
             order,
@@ -111,9 +120,16 @@ impl<'a> Levels<'a> {
             candidates: Candidates::new(surface, seed),
             field: DartField::new(surface),
             grid,
+            finest: FINEST * greatest,
             needed,
             cells: None,
         }
+    }
+
+    /// Whether the next level's spacing is less than what places on the surface differ by: they are f32, and are reckoned
+    /// from f32 weights of the corners.
+    fn is_too_fine(&self) -> bool {
+        spacing(self.surface, next_level_end(self.order.state.level_end)) < self.finest
     }
 
     /// Throws the next level.

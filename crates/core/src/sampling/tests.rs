@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::Vec3;
 
 use super::candidates::Candidates;
+use super::levels::spacing;
 use super::{Cell, Cells, Needed, Particle, ProgressiveOrder, Surface, progressive, scattered};
 use crate::{TriangleMesh, hash};
 
@@ -194,6 +195,29 @@ fn where_it_is_needed_the_order_is_that_of_the_whole() {
         (particle.position.length() > 0.5 || particle.flipped) && *ordinal > 20_000.0
     };
     assert_eq!(sparse.particles.iter().zip(&sparse.ordinals).filter(|&one| far(one)).count(), 0);
+}
+
+/// A triangle of two thousand million units, that is wanted ever more densely towards its near end, as by an eye there.
+/// Its places lie 128 units apart, so a finer order has nothing to add.
+#[test]
+fn an_order_ends_where_places_are_no_longer_told_apart() {
+    let far = 2_147_483_648.0;
+    let mesh = TriangleMesh {
+        positions: vec![Vec3::ZERO, Vec3::X, Vec3::Z * far],
+        normals: vec![Vec3::Y; 3],
+        triangles: vec![[0, 1, 2]],
+        ..TriangleMesh::default()
+    };
+    let surface = Surface::new(&mesh, |_| true);
+    let cells = Cells::new(&surface);
+    let needs = |cell: &Cell| if cell.center.z - cell.radius < 0.0 { 1e7 } else { 10_000.0 };
+    let of_cell: Vec<f32> = cells.all().iter().map(needs).collect();
+    let first_part = Arc::new(vec![0; of_cell.len()]);
+    let needed = Needed { of_cell, first_part, is_strict: false };
+    let order = ProgressiveOrder::where_needed(&surface, 5, &needed);
+    let finest = spacing(&surface, order.state.level_end);
+    assert!((64.0..256.0).contains(&finest), "the last spacing is {finest}");
+    assert!((8192..1_000_000).contains(&order.particles.len()), "{} particles", order.particles.len());
 }
 
 /// Large faces are cut, small ones are put together; all cells together are the surface.
