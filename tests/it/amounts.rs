@@ -101,11 +101,9 @@ fn a_stroke_in_the_middle_of_a_dab_is_as_much_wider_and_those_outside_stay_to_th
                 strokes.keys().filter(|&&particle| share(&painting, particle, at) >= 1.0).count()
             };
             assert_eq!(outside(&before), outside(&after));
-            assert_eq!(
-                f64::from(sides(&after[&middle])[0] / sides(&before[&middle])[0]),
-                by,
-                "the factor in the middle of the dab"
-            );
+            let factor = f64::from(sides(&after[&middle])[0] / sides(&before[&middle])[0]);
+            // As exactly as single precision tells.
+            assert!((factor / by - 1.0).abs() <= f64::from(f32::EPSILON), "{factor} in the middle of the dab");
             factors.sort_by(|a, b| a.0.total_cmp(&b.0));
             assert!(factors.len() > 60 && factors.windows(2).all(|pair| pair[1].1 <= pair[0].1 + 1e-5));
         }
@@ -215,7 +213,6 @@ fn no_view_changes_a_painted_size_and_the_underpainting_stays() {
 
 #[test]
 fn painted_flatness_lets_strokes_follow_the_surface_where_it_is_painted() {
-    let at = Vec3::new(0.0, 0.0, 1.0);
     let from_the_side = camera([2.6, 1.2, 2.8], [0.0; 3]);
     let seen = |painting: &Painting| strokes_of(painting, LayerKind::Body, &from_the_side);
     let of = |amounts, flatness| {
@@ -224,6 +221,9 @@ fn painted_flatness_lets_strokes_follow_the_surface_where_it_is_painted() {
         painted(scene, shapes::sphere(40, 20))
     };
     let (flat, following) = (of(Vec::new(), 1.0), of(Vec::new(), 0.0));
+    // The dab lies on a stroke, so that some stroke is in its middle.
+    let places = seen(&flat).into_keys().map(|particle| flat.particles(0).at(particle as usize).position);
+    let at = places.min_by(|one, other| one.distance(Vec3::Z).total_cmp(&other.distance(Vec3::Z))).unwrap();
     let painting = of(vec![(Amount::Flatness, dab(at, 0.0))], 1.0);
     let (flat, following, now) = (seen(&flat), seen(&following), seen(&painting));
     let (mut near, mut turned) = (0, 0);

@@ -239,13 +239,20 @@ fn a_stretched_body_has_no_fewer_strokes_a_pixel() {
     // The camera is far enough to see all of the stretched sheet, and sees it from straight ahead.
     scene.camera.keys = vec![shapes::camera_key(0.0, [0.0, 0.0, 12.0], [0.0; 3])];
     let target = shapes::moved(&shapes::sheet(32), wide);
-    let painting = prepare(shapes::morphing(scene, [shapes::sheet(32), target])).expect("good");
-    let present = |frame: f64| {
-        let frame = painting.at(frame, &FrameOptions::new(SIZE_PX));
-        let supplied = frame.strokes.iter().filter(|stroke| stroke.supply_ln > 0.0).count();
-        supplied as f64
-    };
-    let (rest, wide) = (present(0.0), present(10.0));
+    let (mut rest, mut wide) = (0.0, 0.0);
+    // How many of the first particles lie on the side that is seen is a matter of chance, so several seeds are counted.
+    for seed in 1..=6 {
+        scene.seed = seed;
+        let morphing = shapes::morphing(scene.clone(), [shapes::sheet(32), target.clone()]);
+        let painting = prepare(morphing).expect("good");
+        let present = |frame: f64| {
+            let frame = painting.at(frame, &FrameOptions::new(SIZE_PX));
+            frame.strokes.iter().filter(|stroke| stroke.supply_ln > 0.0).count() as f64
+        };
+        let counts = [present(0.0), present(10.0)];
+        println!("{counts:?}");
+        (rest, wide) = (rest + counts[0], wide + counts[1]);
+    }
     println!("{rest} strokes at rest, {wide} on three times the area");
     assert!(rest > 100.0 && (wide / rest / 3.0 - 1.0).abs() < 0.015, "{rest} {wide}");
 }

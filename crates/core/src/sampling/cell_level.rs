@@ -13,7 +13,7 @@ use crate::hash;
 
 /// The first tries of a level are accepted a little more often than the last: after the share t of its tries, t +
 /// `FRONT_LOAD` t (1 − t) of its particles are there.
-const FRONT_LOAD: f64 = 0.084;
+const FRONT_LOAD: f64 = 0.147;
 
 /// How many cells a task throws.
 const CELLS: usize = 32;

