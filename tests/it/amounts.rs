@@ -103,7 +103,10 @@ fn a_stroke_in_the_middle_of_a_dab_is_as_much_wider_and_those_outside_stay_to_th
             assert_eq!(outside(&before), outside(&after));
             let factor = f64::from(sides(&after[&middle])[0] / sides(&before[&middle])[0]);
             // As exactly as single precision tells.
-            assert!((factor / by - 1.0).abs() <= f64::from(f32::EPSILON), "{factor} in the middle of the dab");
+            assert!(
+                (factor / by - 1.0).abs() <= f64::from(f32::EPSILON),
+                "{factor} in the middle of the dab"
+            );
             factors.sort_by(|a, b| a.0.total_cmp(&b.0));
             assert!(factors.len() > 60 && factors.windows(2).all(|pair| pair[1].1 <= pair[0].1 + 1e-5));
         }
