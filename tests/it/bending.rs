@@ -254,7 +254,7 @@ fn a_stretched_body_has_no_fewer_strokes_a_pixel() {
         (rest, wide) = (rest + counts[0], wide + counts[1]);
     }
     println!("{rest} strokes at rest, {wide} on three times the area");
-    assert!(rest > 100.0 && (wide / rest / 3.0 - 1.0).abs() < 0.015, "{rest} {wide}");
+    assert!(rest > 600.0 && (wide / rest / 3.0 - 1.0).abs() < 0.015, "{rest} {wide}");
 }
 
 /// The bounds of shadows contain the body in every frame, also between the frames at which its motion is sampled.

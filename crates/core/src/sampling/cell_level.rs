@@ -13,13 +13,13 @@ use crate::hash;
 
 /// The first tries of a level are accepted a little more often than the last: after the share t of its tries, t +
 /// `FRONT_LOAD` t (1 − t) of its particles are there.
-const FRONT_LOAD: f64 = 0.147;
+const FRONT_LOAD: f64 = 0.157;
 
 /// How many cells a task throws.
 const CELLS: usize = 32;
 
 /// A cell with more tries in a level is split.
-const MOST_TRIES: f64 = 16.0;
+const MOST_TRIES: f64 = 48.0;
 
 /// The cells in which the present level is thrown.
 pub(super) struct ActiveCells<'a> {
@@ -101,7 +101,7 @@ impl CellLevel {
         field: &DartField,
         accepted: &Accepted<'_>,
     ) -> Added {
-        let tries = (self.ends[1] - self.ends[0]) as f64 * TRIES as f64;
+        let tries = self.tries();
         active.refine(surface, (tries, self.ordinal(0.0)));
         let of_cells = |cells: &[(Cell, u32)]| {
             let mut clear = Vec::new();
@@ -141,10 +141,15 @@ impl CellLevel {
         }
     }
 
+    /// How many candidates it has on the whole surface.
+    fn tries(&self) -> f64 {
+        (self.ends[1] - self.ends[0]) as f64 * TRIES as f64
+    }
+
     /// Throws the level's candidates in a cell, whether they are needed or not.
     fn throw(&self, surface: &Surface<'_>, cell: &Cell, mut take: impl FnMut(Thrown)) {
         let seed = hash::combine(hash::combine(self.seed, cell.bits), self.ends[0] as u32);
-        let tries = (self.ends[1] - self.ends[0]) as f64 * TRIES as f64 * cell.share;
+        let tries = self.tries() * cell.share;
         // As many as are the cell's share; chance decides about the fraction that is left.
         let count = (tries + f64::from(hash::unit(seed))) as u32;
         for number in 0..count {

@@ -99,7 +99,7 @@ fn the_order_has_never_changed() {
         (
             "squares on each other",
             squares_on_each_other(),
-            [0x518c_f667_54eb_7b9a, 0xa7fe_060d_dd86_8cf8, 0xfcc1_555c_03e1_d58a],
+            [0x518c_f667_54eb_7b9a, 0xa7fe_060d_dd86_8cf8, 0x5928_2379_61e3_a845],
         ),
         (
             "rod and speck",
@@ -145,6 +145,25 @@ fn an_ordinal_counts_the_particles_before_it() {
             assert!((before / ordinal - 1.0).abs() < off, "{name}: {before} before {ordinal}");
         }
     }
+}
+
+/// A pile of squares has little room. A sheet beside it still gets its share, a ninth.
+#[test]
+fn a_sheet_beside_a_pile_keeps_its_share() {
+    let square = |x: f32, y: f32| (Vec3::new(x, y, 0.0), Vec3::Z);
+    let beside = |x: f32, y: f32| (Vec3::new(x + 5.0, y, 0.0), Vec3::Z);
+    let mesh = patches(1, &[&square, &square, &square, &square, &square, &square, &square, &square, &beside]);
+    let surface = Surface::new(&mesh, |_| true);
+    let of_cell = vec![200_000.0; Cells::new(&surface).all().len()];
+    let first_part = Arc::new(vec![0; of_cell.len()]);
+    let needed = Needed { of_cell, first_part, is_strict: false };
+    let order = ProgressiveOrder::where_needed(&surface, 5, &needed);
+    let on_sheet_before = |ordinal: f32| {
+        let all = order.particles.iter().zip(&order.ordinals);
+        all.filter(|&(particle, &of)| of < ordinal && particle.position.x > 2.0).count() as f64
+    };
+    let share = 9.0 * (on_sheet_before(150_000.0) - on_sheet_before(30_000.0)) / 120_000.0;
+    assert!((share - 1.0).abs() < 0.02, "{share} of its share");
 }
 
 #[test]

@@ -213,7 +213,8 @@ impl Texture {
                 }
             }
         }
-        self.gpu.check_memory(&format!("a texture of {:?} {:?}", self.shape, self.format))
+        let [width, height] = self.size_px();
+        self.gpu.check_memory(&format!("a texture of {width} x {height} pixels"))
     }
 
     fn set_filter(&self, filter: Filter, levels: u32) {
