@@ -9,7 +9,7 @@ use crate::parts::{PARTS, Part};
 /// What the command line asks for.
 #[derive(Debug, Default)]
 pub struct Arguments {
-    /// Names of parts; empty for all, or with `quick` for those that [`Part::quick`] marks.
+    /// Names of parts. If empty, all parts run, or with `quick` those that [`Part::quick`] marks.
     named: Vec<String>,
     /// Smaller inputs and fewer rounds: under two minutes.
     pub quick: bool,

@@ -50,7 +50,7 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
     let strain = || Carrier::new(&bent.positions, &gradients.at(&bent.positions));
     let contenders = vec![
         Contender::here("Impasto", "", strain),
-        // In: six edges of three numbers, the matrix M⁻¹ that `Gradients` keeps, and the position. Out: position and F.
+        // In: six edges of three numbers, the matrix M⁻¹ that `Gradients` stores, and position. Out: position and F.
         Streams::new(mesh.positions.len(), 6 * 3 + 9 + 3, 12).contender(),
     ];
     let figures = race(&bench.pace(false), contenders)?;
@@ -102,7 +102,7 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
             let carried = carrier.carry(&mesh, &places, &baked, |_| 0.0);
             solve(&carried, &map, &mut solved);
         }),
-        // Place (3) and what is baked (12) in, what is carried (12) out and in again, and what is solved (5) out.
+        // In: place (3), baked values (12), carried values (12) again. Out: carried values (12), solved values (5).
         Streams::new(places.len(), 3 + 12 + 12, 12 + 5).contender(),
     ];
     let figures = race(&bench.pace(false), contenders)?;
@@ -223,7 +223,7 @@ fn at_rest(baked: &BakedParticles, index: usize) -> [Vec3; 3] {
 fn particles(mesh: &TriangleMesh) -> (Vec<PackedParticle>, BakedParticles) {
     let (mut places, mut baked) = (Vec::new(), BakedParticles::default());
     for index in 0..PARTICLES {
-        // As in a coat, particles that follow each other lie far apart.
+        // As in a coat, consecutive particles lie far apart.
         let triangle = (u64::from(index) * 2_654_435_761 % mesh.triangles.len() as u64) as u32;
         let particle = Particle {
             triangle,

@@ -58,7 +58,8 @@ pub struct Memory {
     pub peak: usize,
 }
 
-/// Does the work and counts its bytes. The threads of the work count too, so nothing else may allocate meanwhile.
+/// Does the work and counts the bytes that it allocates. All threads are counted, so nothing else may allocate
+/// meanwhile.
 pub fn counted<T>(work: impl FnOnce() -> T) -> (T, Memory) {
     HELD.store(0, Relaxed);
     PEAK.store(0, Relaxed);

@@ -21,7 +21,7 @@ impl Streams {
         Self { inputs: streams(inputs), outputs: streams(outputs) }
     }
 
-    /// Streams of one length that hold about this many bytes.
+    /// Streams of equal length. The inputs hold about `read` bytes in all, the outputs about `written`.
     pub fn of_bytes(read: usize, written: usize) -> Self {
         let count = (read.max(written) / 4).div_ceil(8).max(1);
         Self::new(count, (read / 4).div_ceil(count), (written / 4).div_ceil(count).max(1))

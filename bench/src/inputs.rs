@@ -70,7 +70,7 @@ pub const PAPER_SCENES: [PaperScene; 3] = [
 /// Particles of the paper's largest scene.
 pub const LARGEST: usize = PAPER_SCENES[2].particles;
 
-/// The particles of one body as points, in the order in which Impasto keeps them.
+/// The particles of one body as points, in the order in which Impasto stores them.
 pub struct Cloud {
     /// For the table of results: the number of points, after the scene's name, or `objects` for clouds of other sizes.
     pub name: String,

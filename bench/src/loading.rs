@@ -1,5 +1,5 @@
 //! Measures how long a mesh file of a million triangles takes to read: with our reader, which checks every line before
-//! tobj reads it, and with tobj alone. Ours should take at most 1.4 times as long; nothing checks it.
+//! tobj reads it, and with tobj alone. Ours should take at most 1.4 times as long, but nothing checks that.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};

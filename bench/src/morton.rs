@@ -1,5 +1,5 @@
 //! Sorts points in Morton order, so that searches and gathers find their data in the cache: kiddo and rstar are queried
-//! in it, and where our solve races gathers, the particles of all contenders are stored in it.
+//! in this order. In the race of our solve against gathers, all contenders store their particles in it.
 
 use glam::Vec3;
 use rayon::prelude::*;

@@ -1,5 +1,5 @@
-//! Keeps results in a text file, one per machine, so that later runs can be compared with them. The file holds the head
-//! of the table, then a line for each figure.
+//! Stores results in a text file, one per machine, so that later runs can be compared with them. The file holds the
+//! head of the table, then a line for each figure.
 //!
 //! ```text
 //! # processor: …

@@ -7,7 +7,7 @@ use impasto_painting::{FrameOptions, Painting};
 /// A small mesh with two groups, as an OBJ file.
 pub const MESH: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0.3\nv -1 1 0\nv 0 0 1\ng a\nf 1 2 3 4\ng b\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
 
-/// A folder of this process and target, in memory where the system has it.
+/// A folder for this process and target, on the RAM disk `/dev/shm` where the system has one.
 ///
 /// # Panics
 /// Where it cannot be made.

@@ -1,5 +1,5 @@
-//! Fuzzes commands of the editor, in any order. Each is refused and changes nothing, or it is applied and its undo and
-//! redo are exact. The scene that they leave is equal after it was saved and read again.
+//! Fuzzes commands of the editor, in any order. Each is either refused and changes nothing, or applied, with exact undo
+//! and redo. The scene after the last command stays equal when it is saved and read again.
 
 #![no_main]
 

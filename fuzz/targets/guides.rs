@@ -1,4 +1,4 @@
-//! Fuzzes guides and painted amounts on any mesh: however its faces lie and a gesture runs, strokes are finite.
+//! Fuzzes guides and painted amounts on arbitrary meshes: for any faces and any gestures, all strokes are finite.
 
 #![no_main]
 
@@ -19,7 +19,7 @@ fn folder() -> &'static PathBuf {
     FOLDER.get_or_init(|| impasto_fuzz::folder("guides"))
 }
 
-/// Numbers made from bytes, zeros once there are no more.
+/// Numbers made from bytes. Once there are no more bytes, zeros.
 struct Numbers<'a>(std::slice::Iter<'a, u8>);
 
 impl Numbers<'_> {

@@ -10,7 +10,7 @@ use impasto_scene::assets::AssetFolders;
 use impasto_scene::obj;
 use libfuzzer_sys::fuzz_target;
 
-/// A folder of this process, in memory where the system has it.
+/// A folder for this process.
 fn folder() -> &'static PathBuf {
     static FOLDER: OnceLock<PathBuf> = OnceLock::new();
     FOLDER.get_or_init(|| impasto_fuzz::folder("obj"))

@@ -1,4 +1,4 @@
-//! Tests of painted amounts: what a dab makes of the strokes that it reaches, and that all others stay as they are.
+//! Tests of painted amounts: how a dab changes the strokes that it reaches, and that all others stay as they are.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -62,8 +62,8 @@ fn share(painting: &Painting, particle: u32, from: Vec3) -> f64 {
 fn a_stroke_in_the_middle_of_a_dab_is_as_much_wider_and_those_outside_stay_to_the_bit() {
     let plain = painted(scene(20_000, Vec::new()), shapes::sheet(20));
     let before = body(&plain);
-    // The dab lies on a particle, so that the stroke there shows the whole factor. It is the first particle near the
-    // middle: its rank is low, so its stroke is there however wide strokes are.
+    // The dab lies on a particle, so that the stroke there shows the whole factor. The first particle near the middle
+    // is taken: its rank is low, so its stroke is present however wide strokes are.
     let half = SIZE_PX.map(|side| side as f32 * 0.5);
     let off = |stroke: &Stroke| (stroke.center_px[0] - half[0]).hypot(stroke.center_px[1] - half[1]);
     let middle = *before.iter().find(|(_, stroke)| off(stroke) < 30.0).unwrap().0;
@@ -102,7 +102,7 @@ fn a_stroke_in_the_middle_of_a_dab_is_as_much_wider_and_those_outside_stay_to_th
             };
             assert_eq!(outside(&before), outside(&after));
             let factor = f64::from(sides(&after[&middle])[0] / sides(&before[&middle])[0]);
-            // As exactly as single precision tells.
+            // As exact as single precision allows.
             assert!(
                 (factor / by - 1.0).abs() <= f64::from(f32::EPSILON),
                 "{factor} in the middle of the dab"
@@ -304,7 +304,7 @@ fn an_amount_belongs_to_its_region_and_its_object() {
     };
     let at = |painting: &Painting| [0, 1].map(|object| painting.painted_at(object, &place, Amount::Width));
     assert_eq!(at(&both(scene.clone())), [1.0, 2.0]);
-    // A later region takes the surface over, and has amounts of its own: none.
+    // A later region takes over the surface. It has no amounts.
     scene.regions.push(Region::new("over", on));
     assert_eq!(at(&both(scene)), [1.0, 1.0]);
 }

@@ -34,7 +34,7 @@ impl Shot {
         self.plane(name)[(y * self.picture.size_px[0] + x) as usize]
     }
 
-    /// How much of each pixel shows a name.
+    /// How much of each pixel shows the thing of this name.
     fn matte(&self, kind: &str, name: &str) -> Vec<f32> {
         let bits = id_bits(name);
         let ranks = ["00.R", "00.B", "01.R", "01.B", "02.R", "02.B"];
@@ -73,7 +73,7 @@ fn shot(renderer: &mut Renderer, painting: &Painting, number: f64, options: &Fra
     Shot { picture, planes, ids }
 }
 
-/// A sheet of side 2 that faces the camera from the origin, 4 units away, with the strokes of `shapes::scene`.
+/// A sheet of side 2 at the origin, facing the camera, which is 4 units away. It has the strokes of `shapes::scene`.
 fn facing_sheet(change: impl FnOnce(&mut Scene)) -> Painting {
     let mut scene = shapes::scene(vec![shapes::object("Sheet", 3000)]);
     scene.strokes.layers = shapes::body_layer_alone();
@@ -160,7 +160,7 @@ fn a_facing_sheet_has_the_depth_the_normals_and_the_places_that_it_has() {
     assert_eq!(shot.at("Z", [0, 0]), 1e10);
     assert_eq!([shot.at("objectid.X", middle), shot.at("objectid.X", [0, 0])], [1.0, 0.0]);
     assert_eq!(["N.X", "N.Y", "N.Z"].map(|name| shot.at(name, middle)), [0.0, 0.0, 1.0]);
-    // The picture's height is 2 · 4 · tan(half the angle) at the sheet.
+    // At the sheet, 4 units away, the picture is 2 · 4 · tan(half the field of view) units high.
     let height = 8.0 * (0.5 * LENS_DEG.to_radians()).tan();
     let px = height / 180.0;
     for pixel in [[160, 90], [150, 60], [175, 130]] {
@@ -186,7 +186,7 @@ fn strokes_on_a_rolled_sheet_have_the_angle_of_the_roll() {
         let still = shot(&mut renderer, &painting, 0.0, &SMALL).at("stroke.angle.X", [160, 90]);
         let turned = shot(&mut renderer, &painting, 10.0, &SMALL);
         let found = turned.at("stroke.angle.X", [160, 90]);
-        // The picture turns the other way than the camera.
+        // The picture turns opposite to the camera.
         let off = pictures::wrap_half(f64::from(found - still) + f64::to_radians(roll_deg));
         assert!(off.abs() < 1e-3, "{roll_deg} degrees: {found} from {still}");
         assert!(turned.at("stroke.kappa.X", [160, 90]) > 0.999);
@@ -219,7 +219,7 @@ fn a_stroke_keeps_its_number() {
     assert!(same * 10 > all * 8, "{same} of {all}");
 }
 
-/// A sheet that moves by 0.1 a frame to the right and 0.05 up, seen so that a unit has a known number of pixels.
+/// A sheet moves by 0.1 units to the right and 0.05 up per frame. Its scale in pixels per unit is known.
 #[test]
 fn motion_is_where_the_surface_was_and_will_be() {
     let painting = facing_sheet(|scene| {
@@ -336,7 +336,7 @@ fn mattes_cover_what_is_painted() {
     assert!(least > 0.99 && most < 1.01, "{least} to {most}");
 }
 
-/// Without a background alpha is what paint covers, and so is the sum of all mattes.
+/// Without a background, alpha is the coverage by paint, and so is the sum of all mattes.
 #[test]
 fn without_a_background_mattes_add_up_to_alpha() {
     let mut renderer = pictures::renderer(Driver::Auto);
@@ -399,7 +399,7 @@ fn the_command_writes_what_is_asked_for_and_says_what_a_style_lacks() {
     let both = render(path, "roll.ron", &["-o", "c.png", "--exr", "--bits", "16"]);
     assert!(both.status.success() && path.join("c.png").exists(), "{}", said(&both));
     assert_eq!(names("c.exr"), ["A", "B", "G", "R"]);
-    // A whole file is left, a cut one is written again.
+    // A whole file is left as it is; one that was cut short is written again.
     let whole = std::fs::read(path.join("a.exr")).unwrap();
     let skip = || render(path, "roll.ron", &["-o", "a.exr", "--aov", "depth,stroke", "--skip-existing"]);
     let before = std::fs::metadata(path.join("a.exr")).unwrap().modified().unwrap();

@@ -112,7 +112,7 @@ fn errors(mesh: &TriangleMesh, map: &dyn Fn(DVec3) -> DVec3, scene: Scene, refer
     errors
 }
 
-/// Bent about an axis along Z, as a bow.
+/// Bent like a bow, about an axis along Z.
 fn bowed(at: DVec3) -> DVec3 {
     const RADIUS: f64 = 1.5;
     let (sin, cos) = (at.x / RADIUS).sin_cos();
@@ -132,7 +132,7 @@ fn stretched(at: DVec3) -> DVec3 {
 
 #[test]
 fn strokes_turn_as_closed_forms_of_bending_say() {
-    // With the largest errors that are allowed, degrees: of 95 in 100 strokes, and of all.
+    // The last two numbers are the largest errors allowed, in degrees: the 95th percentile, and the maximum.
     for (name, mesh, map, most) in [
         ("a bowed bar", bar(0.45), &bowed as &dyn Fn(DVec3) -> DVec3, [0.035, 0.56]),
         ("a twisted bar", bar(0.5), &twisted, [0.017, 0.18]),
@@ -230,13 +230,13 @@ fn the_paper_s_sum_agrees_on_a_bent_body() {
     assert!(apart.len() > 200 && p50 <= 0.37 && p95 <= 1.95, "{p50} {p95}");
 }
 
-/// A body that stretches threefold has as many strokes a pixel as at rest.
+/// A body that stretches threefold has as many strokes per pixel as at rest.
 #[test]
 fn a_stretched_body_has_no_fewer_strokes_a_pixel() {
     let wide = |at: DVec3| DVec3::new(3.0 * at.x, at.y, at.z);
     let mut scene = morphing_scene(7.0);
     scene.objects[0].particles = None;
-    // The camera is far enough to see all of the stretched sheet, and sees it from straight ahead.
+    // The camera is far enough away to see all of the stretched sheet, and looks straight at it.
     scene.camera.keys = vec![shapes::camera_key(0.0, [0.0, 0.0, 12.0], [0.0; 3])];
     let target = shapes::moved(&shapes::sheet(32), wide);
     let (mut rest, mut wide) = (0.0, 0.0);
@@ -341,7 +341,7 @@ fn changed_parade(change: impl FnOnce(&mut serde_json::Value, &mut Vec<u8>)) -> 
     }
 }
 
-/// glTF places a skinned mesh by its joints alone: what its own node says of its place means nothing.
+/// glTF places a skinned mesh by its joints alone and ignores the transform of the mesh's own node.
 #[test]
 fn the_place_of_a_skinned_node_is_passed_over() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -298,7 +298,7 @@ fn what_takes_more_memory_than_the_process_may_have_is_refused_and_does_not_end_
     assert_eq!(code(&served), 0, "{said}");
 }
 
-/// A folder in the way of a frame stands for a full disk, or a network share that goes away.
+/// A folder with a frame's name stands for a full disk, or for a network share that goes away.
 #[test]
 fn a_frame_that_cannot_be_written_ends_the_render_and_those_before_it_stay() {
     let folder = Folder::new();

@@ -1,5 +1,5 @@
 //! Tests with good and hostile files: always those of the small corpus that `impasto_tests::corpus` makes, and those of
-//! the large corpus if `IMPASTO_CORPUS` names its folder. The real command checks them with little memory and little
+//! the large corpus if `IMPASTO_CORPUS` names its folder. The real command checks them within limits of memory and
 //! time.
 
 use std::path::{Path, PathBuf};

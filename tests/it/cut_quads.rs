@@ -39,7 +39,7 @@ fn cut_quads_look_as_whole_ones_do() {
     }
 }
 
-/// Compares the count of all fragments of the cut quads, also of those that lay no paint, with the area of whole quads.
+/// Compares the number of fragments of the cut quads, also those that lay no paint, with the area of whole quads.
 #[test]
 fn cut_quads_cover_fewer_pixels() {
     const DISCARD: &str = "if (alpha <= 0.0) discard;";

@@ -48,7 +48,7 @@ fn scene(direction: Direction, guides: Vec<Guide>) -> Scene {
 /// Only strokes this near to a drag are judged: there a brush of 45 px still has 0.99 of its strength.
 const CORE_PX: f64 = 2.5;
 
-/// A prepared scene, and what finds its points under the mouse.
+/// A prepared scene, and the picker that finds its points under the mouse.
 struct Setup {
     painting: Painting,
     picker: Picker,

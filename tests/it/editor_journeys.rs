@@ -18,7 +18,7 @@ fn orbit(editor: &mut EditorWindow<'_>, by_px: [i32; 2]) {
     editor.screen.xdotool(&["mousemove", &to[0], &to[1], "mouseup", "2"]);
 }
 
-/// Drags with the left button between two places, given from the viewport's middle.
+/// Drags with the left button between two places, given in pixels from the viewport's middle.
 fn comb(editor: &mut EditorWindow<'_>, from_px: [i32; 2], to_px: [i32; 2]) {
     let middle = editor.control("Viewport").middle();
     let place = |px: [i32; 2]| [middle[0] + px[0], middle[1] + px[1]];

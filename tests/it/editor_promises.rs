@@ -113,7 +113,7 @@ fn a_save_that_fails_stays_listed_until_the_work_is_saved_elsewhere() {
     // It is saved at once, without a question about files that are not there.
     editor.wait_for_title("elsewhere.ron - Impasto");
     editor.wait_until_gone("Save as");
-    // What is left is that the mesh is gone.
+    // The one problem left is that the mesh is gone.
     editor.control("Dismiss");
     editor.keep_picture("settled");
     let text = std::fs::read_to_string(home.path().join("elsewhere.ron")).unwrap();

@@ -16,8 +16,8 @@ use impasto_scene::aovs::AovSet;
 use impasto_scene::load::LoadOptions;
 use impasto_tests::command::{impasto, root};
 
-/// A scene of two cubes, of which one turns, with enough frames for two painters, saved under a name with a space,
-/// which a shell needs quoted.
+/// A scene of two cubes, one of which turns, with enough frames for two painters. The name of its file has a space, so
+/// a shell needs it quoted.
 fn document(folder: &Path) -> Document {
     std::fs::create_dir(folder).unwrap();
     std::fs::copy(root().join("scenes/meshes/cube.obj"), folder.join("cube.obj")).unwrap();
@@ -114,7 +114,7 @@ fn the_editors_frames_are_those_of_the_command_that_it_copies() {
     }
 }
 
-/// Whether an EXR file names a channel in its head.
+/// Whether an EXR file's header names a channel.
 fn has_channel(bytes: &[u8], name: &str) -> bool {
     // The list of channels comes before all pixels, and a zero ends each name.
     let name = format!("\0{name}\0");

@@ -10,7 +10,7 @@ use impasto_scene::load::{LoadOptions, load};
 use impasto_tests::command::{impasto, root};
 use impasto_tests::screen::{ControlRect, EditorWindow, Screen};
 
-/// A folder with the apple alone, with few particles so that it is quickly painted, and strokes without jitter.
+/// A folder with a scene of the apple alone. It has few particles, so that it is painted quickly, and no jitter.
 pub(crate) fn folder() -> tempfile::TempDir {
     let (folder, alone) = apple_alone(12_000);
     let strokes = "    strokes: (angle_jitter_deg: 0, swing_deg: 0, contour: 0),\n";

@@ -146,7 +146,7 @@ fn what_is_no_whole_pack_is_told_and_nothing_is_left() {
             .contains("let the name end in .tar")
     );
     assert!(!here.join("pack.zip").exists());
-    // Two files that would get one place in the pack: one beside the scene, and one from the asset folder.
+    // Two files that would get the same place in the pack: one beside the scene, and one from the asset folder.
     std::fs::write(here.join("library/top.obj"), SHEET).unwrap();
     std::fs::write(here.join("library/sheet.mtl"), "newmtl a\nKd 1 0 0\n").unwrap();
     std::fs::write(here.join("shot/here.obj"), SHEET).unwrap();
@@ -255,7 +255,8 @@ fn frames_of_another_state_are_not_taken_for_this_ones() {
     for more in [&["--size", "64x32"][..], &["--alpha"], &["--set", "strokes.scale=2"], &["--bits", "16"]] {
         assert!(!is_taken(more), "{more:?}");
     }
-    // A comment in the scene makes no other state. A changed field does, and any changed byte of a mesh or texture.
+    // A comment in the scene changes nothing. A changed field, or a changed byte of a mesh or texture, makes another
+    // state.
     std::fs::write(here.join("shot/scene.ron"), format!("// mine\n{SCENE}")).unwrap();
     assert!(is_taken(&[]));
     std::fs::write(here.join("shot/scene.ron"), SCENE.replace("roll_deg: 30", "roll_deg: 31")).unwrap();

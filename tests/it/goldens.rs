@@ -1,5 +1,5 @@
 //! Tests that shipped scenes look as they did: compares small pictures of some techniques, through both drivers, with
-//! stored pictures that a person found good. `IMPASTO_BLESS=1` rewrites the stored ones: look at each.
+//! stored pictures that a person approved. `IMPASTO_BLESS=1` rewrites the stored ones: look at each.
 
 use std::path::PathBuf;
 

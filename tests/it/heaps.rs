@@ -8,7 +8,7 @@ use impasto_tests::shapes;
 
 const SIZE_PX: [u32; 2] = [640, 360];
 
-/// Triangles that lie and stand anywhere in a cube of two units.
+/// Triangles at random places and angles in a cube with sides of two units.
 fn heap(triangles: u32) -> TriangleMesh {
     let random =
         |number: u32, which: u32| 2.0 * hash::unit(hash::combine(hash::combine(9, number), which)) - 1.0;
@@ -42,8 +42,8 @@ fn inside_a_heap_there_are_few_strokes_and_on_it_no_fewer() {
         lens: scene.camera.lens.clone(),
     };
     let (shot, behind) = (pose([0.0, 1.2, 6.0]), pose([0.0, 1.2, -6.0]));
-    // How many particles, and how often strokes would cover the side of the heap that this camera sees, and what lies
-    // behind its middle.
+    // The number of particles, and how many times over strokes would cover the side of the heap that this camera sees,
+    // and the part behind the middle of the heap.
     let of = |seen_from: SeenFrom<'_>, camera: &CameraPose| {
         let loaded = shapes::loaded(scene.clone(), [heap(9000)]);
         let options = PrepareOptions { seen_from, ..PrepareOptions::default() };

@@ -10,7 +10,7 @@ use impasto_tests::shapes;
 
 const SIZE_PX: [u32; 2] = [640, 360];
 
-/// What shows of a grey ball in the light of one sun behind the eye.
+/// A grey ball as it is seen in the light of one sun behind the eye.
 struct Seen {
     /// The green of the brightest pixel of the plain render.
     plain: f32,
@@ -49,7 +49,7 @@ fn ball(renderer: &mut Renderer, gloss: f64, distance: f64) -> Seen {
     Seen { plain, below, highlight }
 }
 
-/// A highlight that passes over a body leaves the strokes below calm: they have a part of it, and its own strokes all.
+/// Strokes below a highlight show only a part of it, so they stay calm when it passes. Its own strokes show all of it.
 #[test]
 fn strokes_below_a_highlight_have_a_part_of_it_and_its_own_strokes_all() {
     let mut renderer = renderer(Driver::Egl);
@@ -63,7 +63,7 @@ fn strokes_below_a_highlight_have_a_part_of_it_and_its_own_strokes_all() {
     assert!(own > 0.9, "its own strokes have {own} of it");
 }
 
-/// A highlight that grows as it runs over a bump must not bloom: its strokes are strong where it is small.
+/// A highlight that grows over a bump must not flare up, so its strokes are about as strong where it is small.
 #[test]
 fn strokes_of_a_small_highlight_are_about_as_strong_as_those_of_a_large_one() {
     let mut renderer = renderer(Driver::Egl);
@@ -71,7 +71,7 @@ fn strokes_of_a_small_highlight_are_about_as_strong_as_those_of_a_large_one() {
     assert!(small > 0.6 * large && large > 0.3, "{small} where it is small, {large} where it is large");
 }
 
-/// Plaster shines a little: that is no highlight, and none of it is lost.
+/// The faint sheen of plaster is not painted as a highlight. The strokes below keep nearly all of it.
 #[test]
 fn a_faint_sheen_has_no_strokes_of_its_own_and_stays_in_those_below() {
     let mut renderer = renderer(Driver::Egl);

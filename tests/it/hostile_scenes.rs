@@ -285,7 +285,7 @@ fn every_case_opens_in_the_editor_as_far_as_it_can_be_read_and_its_file_stays() 
                     let after = fs::read(&path).unwrap();
                     assert!(after == text.as_bytes(), "{}: the file was touched", case.name);
                 } else {
-                    // A mesh that cannot be used costs nothing of the text, and stays listed.
+                    // A mesh that cannot be used costs no text, so the scene can be saved. The loss stays listed.
                     let again = Document::open_with_problems(&path, &LoadOptions::default()).unwrap();
                     assert!(*again.scene() == scene, "{}: the saved scene is another one", case.name);
                     assert_eq!(document.loss_count() > 0, has_losses, "{}", case.name);

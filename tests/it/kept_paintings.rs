@@ -191,7 +191,7 @@ fn a_mesh_a_texture_and_a_brush_that_change_change_the_key() {
     assert_eq!(own, key(&Arc::new(elsewhere)), "where the file lies does not matter");
 }
 
-/// A scene that is prepared quickly. With `Solver::Horn`, lists of neighbours are kept of it too.
+/// A scene that is prepared quickly. With `Solver::Horn`, lists of neighbours are kept too.
 fn small(solver: Solver) -> Arc<LoadedScene> {
     let mut scene = shapes::scene(vec![shapes::object("ball", 120)]);
     scene.style = Style::default();

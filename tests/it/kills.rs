@@ -1,5 +1,5 @@
-//! Tests of kills at any moment: a file is then as before or new, never half written. `IMPASTO_KILLS` sets the number
-//! of kills of each kind.
+//! Tests that a kill at any moment leaves a file as it was or wholly new, never half written. `IMPASTO_KILLS` sets the
+//! number of kills of each kind.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -84,7 +84,7 @@ fn killed(folder: &Path, arguments: &[&str], takes: Duration, mut check: impl Fn
         let mut child = command(folder, arguments).spawn().unwrap();
         std::thread::sleep(takes.mul_f64((f64::from(index) + 0.5) / f64::from(kills())));
         hit += u32::from(child.try_wait().unwrap().is_none());
-        // SIGKILL: nothing in the program can answer to it.
+        // SIGKILL: the program cannot handle it.
         child.kill().unwrap();
         child.wait().unwrap();
         check();

@@ -1,4 +1,5 @@
-//! Tests that a surface which no view sees whole is painted as densely as a small one, and is made only where it is seen.
+//! Tests that a surface which no view sees whole is painted as densely as a small one, with particles only where it is
+//! seen.
 
 use std::sync::Arc;
 
@@ -13,7 +14,7 @@ use impasto_tests::shapes;
 
 const SIZE_PX: [u32; 2] = [640, 360];
 
-/// A level floor of this size, model units; the eye stands 1.6 above its middle.
+/// A scene for a level floor. The eye is 1.6 units above it and 5 units from its middle; the view reaches `far` units.
 fn floor_scene(far: f64) -> Scene {
     let mut scene = shapes::scene(vec![shapes::object("floor", 1)]);
     scene.objects[0].particles = None;
@@ -30,7 +31,7 @@ fn floor(size: f64, cells: u32) -> impasto_core::TriangleMesh {
     shapes::moved(&shapes::sheet(cells), move |at| DVec3::new(at.x, 0.0, -at.y) * f64::from(half))
 }
 
-/// The paint in each of four bands of the picture, from the horizon down: how often its strokes would cover it.
+/// How many times over strokes would cover each of four bands of the picture, from the horizon down.
 fn covered(painting: &Painting, frame: f64) -> [f64; 4] {
     let frame = painting.at(frame, &FrameOptions::new(SIZE_PX));
     let mut covered = [0.0; 4];
@@ -67,7 +68,7 @@ fn a_floor_is_painted_alike_however_far_it_runs() {
     }
 }
 
-/// A picture three units high of a floor of ten kilometres, from straight above; and a long lens from afar.
+/// The camera looks down at a floor 10,000 units wide and sees three units of it, in parallel and through a long lens.
 #[test]
 fn a_small_part_of_a_huge_floor_is_painted() {
     let mut scene = floor_scene(5000.0);
@@ -92,7 +93,7 @@ fn a_small_part_of_a_huge_floor_is_painted() {
     }
 }
 
-/// The camera turns so fast that a view which stands for several frames would miss most of what it sweeps over.
+/// The camera turns so fast that one view for several frames would miss most of what it sweeps over.
 #[test]
 fn every_frame_of_a_whip_pan_is_painted() {
     let mut scene = floor_scene(500.0);
@@ -146,13 +147,13 @@ fn a_free_camera_finds_particles_where_it_was_announced() {
     let (shot, without) = strokes(SeenFrom::SHOT);
     let (shot_too, with) = strokes(SeenFrom::Shot { also: &[(free.clone(), 0.0)], margin: SeenFrom::MARGIN });
     assert!(with > 10 * without && with > shot / 2, "{without} strokes, {with} when announced");
-    // The picture of the shot hardly notices, and not at all once the free camera is gone.
+    // The free camera hardly changes the picture of the shot. Without that camera, the first picture is back.
     assert!(shot_too.abs_diff(shot) * 50 < shot, "{shot} and {shot_too} strokes");
     assert_eq!(strokes(SeenFrom::AsBefore), (shot_too, with));
     assert_eq!(strokes(SeenFrom::SHOT), (shot, without));
 }
 
-/// An editor's view shows what lies round the picture: a quarter of it is made beyond each border.
+/// An editor's view shows what lies round the picture, so paint goes on past each border for a quarter of the picture.
 #[test]
 fn round_the_picture_the_floor_is_painted_too() {
     let scene = floor_scene(500.0);
@@ -170,7 +171,7 @@ fn round_the_picture_the_floor_is_painted_too() {
     assert!(beside * 10 > middle * 8, "{beside} strokes beside the picture, {middle} in its middle");
 }
 
-/// Strokes fade where ground is seen so flat. There its own colour stands for them, not the tone under all paint.
+/// Strokes fade where the ground is seen at a grazing angle. There its own colour shows, not the tone under all paint.
 #[test]
 fn to_the_horizon_the_ground_keeps_its_colour() {
     let mut scene = floor_scene(5000.0);
@@ -190,7 +191,7 @@ fn to_the_horizon_the_ground_keeps_its_colour() {
     };
     let [painted, plain] = [mean(&painting), mean(&painting.in_style(Style::Reference))];
     for (painted, plain) in painted.iter().zip(plain) {
-        // Varnish makes colours fuller by up to 8.
+        // Varnish makes colours more saturated, by up to 8 of 255.
         assert!((painted - plain).abs() < 10.0, "{painted}, not {plain}");
     }
 }

@@ -204,7 +204,7 @@ fn what_cannot_become_a_movie_is_refused_in_one_line() {
     assert_eq!(output.status.code(), Some(2));
     assert!(words(&output).contains("such as 24, 23.976 or 24000/1001"), "{}", words(&output));
 
-    // A gap, and frames on twos.
+    // A gap in the numbers, and frames on twos.
     std::fs::copy(folder.path("f_0001.png"), folder.path("f_0005.png")).unwrap();
     folder.refused(&["f_####.png", "-o", "a.mp4"], 3, &["f_0004.png is not there", "-f 1-3"]);
     for (from, to) in

@@ -1,4 +1,4 @@
-//! Tests of a user's own shaders: they replace the program's all together, or not at all.
+//! Tests of a user's own shaders: they replace the program's shaders all together, or not at all.
 
 use std::path::Path;
 use std::process::Command;
@@ -42,8 +42,7 @@ fn a_text_takes_the_place_of_a_file_and_a_broken_one_leaves_the_last_good() {
     let broken = ENCODE.replace("mix(high, low,", "mix(high, lower,");
     let words = renderer.replace_shaders(&texts(&broken)).unwrap_err().to_string();
     assert!(words.contains("shared/encode.glsl:5") && words.contains("lower"), "{words}");
-    // A shader that is broken only in drafts is refused at once.
-    // So is one that is broken only where data beside the colour is wanted.
+    // A shader that is broken only in drafts, or only where data beside the colour is wanted, is refused at once.
     for only in ["DRAFT", "DATA"] {
         let broken = format!("{ENCODE}\n#ifdef {only}\nbroken\n#endif\n");
         renderer.replace_shaders(&texts(&broken)).unwrap_err();

@@ -306,8 +306,8 @@ fn paint_ends_at_a_crease() {
     let mean = |rows: Range<usize>| rows.clone().map(row).sum::<f64>() / rows.len() as f64;
     let (lit, dark) = (mean(104..116), mean(218..230));
     let share = |rows: Range<usize>| (mean(rows) - dark) / (lit - dark);
-    // The crease is at row 161. Strokes from its other side are long enough to reach the rows that are checked here:
-    // when they run on past the crease, the first share is 0.75.
+    // The crease is at row 161. Strokes from its other side are long enough to reach the rows that are checked here: if
+    // they ran on past the crease, the first share would be 0.75.
     assert!(share(122..150) > 0.95, "dark strokes run on over the top: {}", share(122..150));
     assert!(share(178..200) < 0.18, "light strokes run on over the front: {}", share(178..200));
 }

@@ -17,7 +17,7 @@ use impasto_scene::document::Up;
 use impasto_scene::load::{LoadOptions, load};
 use impasto_tests::command::{impasto, root};
 
-/// A plate of a square and a triangle that lies on it. Points 0 and 4 lie on each other, and no face has both.
+/// A plate of a square and a triangle that lies on it. Points 0 and 4 coincide, and no face has both.
 const PLATE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 0\ng square\nf 1 2 3 4\ng triangle\nf 5 2 3\n";
 
 /// The points of the plate at rest.
@@ -67,7 +67,7 @@ fn raised(heights: [[f32; 5]; 3]) -> Vec<u8> {
 /// Points 0 and 4 move apart, and the others stay.
 const PARTING: [[f32; 5]; 3] = [[0.0; 5], [1.0, 0.0, 0.0, 0.0, -1.0], [2.0, 0.0, 0.0, 0.0, -2.0]];
 
-/// Where each point of the file is at a frame, by the vertices of an object.
+/// Where each point of the file is at a frame, taken from the vertices of an object.
 fn points(painting: &Painting, object: usize, frame: f64) -> [Vec3; 5] {
     let positions = painting.surface(object).positions_at(&painting.shapes_at(frame)[object]);
     let file = &painting.loaded().meshes["plate.obj"];

@@ -77,7 +77,7 @@ fn another_painting_draws_all_its_strokes() {
     assert_eq!(seen(&again, Some(&none)).strokes, seen(&again, None).strokes);
 }
 
-/// The colours of the strokes that are wholly there, by their places in the painting order.
+/// The colours of the strokes whose alpha is over 0.9, by their places in the painting order.
 fn colors(quality: Quality) -> HashMap<u32, Vec3> {
     let mut renderer = renderer(Driver::Auto);
     let frame = still_life().at(0.0, &FrameOptions { quality, ..DRAFT });

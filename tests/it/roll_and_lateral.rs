@@ -225,7 +225,7 @@ fn back_at_the_reference_every_stroke_is_as_it_was() {
     let painting = prepare(shapes::loaded(scene, [shapes::sphere(32, 16)])).unwrap();
     let (first, last) = (painting.at(0.0, &options([640, 360])), painting.at(2.0, &options([640, 360])));
     assert_eq!(first.strokes, last.strokes);
-    // Strokes that the reference faces well stand at the stated angle.
+    // Where the reference sees the surface well, strokes lie at the stated angle.
     for (stroke, source) in first.strokes.iter().zip(&first.sources) {
         if source.facing >= 0.5 {
             assert!(degrees_apart(f64::from(stroke.angle_rad), 20f64.to_radians()) < 1e-3);

@@ -1,5 +1,5 @@
-//! Tests that strokes near the border of their body are shifted along themselves, to lie on it as far as they can, and that
-//! strokes of thin parts lie along the middle of the part.
+//! Tests that strokes near the border of their body are shifted along their length, to lie on the body as far as they
+//! can, and that strokes of thin parts lie along the middle of the part.
 
 use std::collections::HashMap;
 
@@ -92,8 +92,8 @@ fn strokes_at_the_border_are_shifted_onto_their_body() {
     }
 }
 
-/// A wire 2.4 pixels wide, at 30 degrees, with strokes along it: they lie on its middle line, where paint reaches the whole
-/// wire, and do not leap when the camera moves by a tenth of a pixel.
+/// A wire 2.4 pixels wide, at 30 degrees, with strokes along it. They lie on its middle line, where paint reaches the
+/// whole wire, and do not leap when the camera moves by a tenth of a pixel.
 #[test]
 fn strokes_of_a_wire_lie_on_its_middle_line() {
     const HALF_WIDTH_PX: f64 = 1.2;
@@ -112,7 +112,7 @@ fn strokes_of_a_wire_lie_on_its_middle_line() {
     scene.regions[0].direction = Direction::Angle(30.0);
     let painting = prepare(shapes::loaded(scene, [wire])).unwrap();
     let mut renderer = renderer(Driver::Egl);
-    // By particle, how far its stroke is moved; and the distances from the middle line of particles and of strokes.
+    // How far the stroke of each particle is moved, and the distances of particles and of strokes from the middle line.
     let mut of_frame = |number: f64| {
         let frame = painting.at(number, &FrameOptions::new(SIZE_PX));
         renderer.render(&frame).unwrap();
@@ -144,7 +144,7 @@ fn strokes_of_a_wire_lie_on_its_middle_line() {
             before.get(source).map(|then: &[f32; 2]| (now[0] - then[0]).hypot(now[1] - then[1]))
         };
         let largest = moves.iter().filter_map(leap).fold(0.0, f32::max);
-        // Taps on single pixels leap by 0.86 to 1.4 px.
+        // With taps on single pixels, strokes would leap by 0.86 to 1.4 px.
         assert!(largest < 0.7, "frame {number}: a stroke leaps by {largest} px");
         before = moves;
     }

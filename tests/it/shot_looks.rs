@@ -74,8 +74,8 @@ fn a_shot_is_as_bright_as_where_it_was_made_within_limits() {
     let [usual, around, day] = watts(3.0);
     assert!((usual - 3.0 * 0.455).abs() < 1e-3 && (around / usual - 0.11).abs() < 1e-3, "{usual} {around}");
     assert!((watts(2.0)[0] * 1.5 / usual - 1.0).abs() < 1e-3);
-    // A very bright sun is dimmed to the upper limit, and a moon is lifted but stays dim. An intensity that is too
-    // small to be in lux counts as relative, and becomes the upper limit.
+    // A very bright sun is dimmed to the upper limit. Moonlight is raised but stays dim. An intensity that is too small
+    // to be in lux counts as relative, and becomes the upper limit.
     let [burning, ..] = watts(1000.0);
     let [moon, _, night] = watts(0.05);
     assert!((burning - 1.7).abs() < 1e-3 && (lit(1.0)[0] - 1.7).abs() < 1e-3, "{burning}");
@@ -100,7 +100,7 @@ fn the_world_lights_and_shows_as_its_sidecar_tells() {
     let sun = 3.0 * 0.455;
     for (channel, tint) in [0xcfu8, 0xdc, 0xf2].into_iter().enumerate() {
         let linear = |encoded: f32| f64::from(linear_from_srgb(encoded));
-        // The light that surfaces give each other, and half a sphere of the world's light.
+        // The light that surfaces reflect onto each other, plus the light of the world over a hemisphere.
         let wanted =
             0.11 * sun * linear(f32::from(tint) / 255.0) + world[channel] * std::f64::consts::PI * 0.455;
         let found = ambient.intensity * linear(ambient.color.0[channel]);
@@ -109,14 +109,15 @@ fn the_world_lights_and_shows_as_its_sidecar_tells() {
         assert!((shown - world[channel]).abs() < 0.005, "{channel}: {shown}");
     }
     assert!((light(&lit)[0] - sun).abs() < 1e-3, "the world has changed the sun");
-    // With a black world, only the light that surfaces give each other is left. A very bright world dims the sun.
+    // With a black world, only the light that surfaces reflect onto each other is left. A very bright world dims the
+    // sun.
     let [_, dark, sky] = light(&with_world([0.0; 3]));
     assert!((dark / sun - 0.11 * linear_peak()).abs() < 1e-3 && sky == 0.0, "{dark} {sky}");
     let [dimmed, ..] = light(&with_world([100.0; 3]));
     assert!(dimmed < 0.02 * sun, "{dimmed}");
 }
 
-/// The largest channel of the tint of the light that surfaces give each other, linear.
+/// The largest channel, linear, of the tint of the light that surfaces reflect onto each other.
 fn linear_peak() -> f64 {
     f64::from(linear_from_srgb(242.0 / 255.0))
 }

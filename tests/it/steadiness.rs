@@ -1,4 +1,5 @@
-//! Tests of strokes before they are drawn: none pops, and none changes its size with distance.
+//! Tests of strokes before they are drawn: none pops, none changes its size with distance, and more particles leave the
+//! first ones as they were.
 
 use std::collections::BTreeMap;
 

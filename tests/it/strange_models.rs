@@ -1,4 +1,4 @@
-//! Tests of odd OBJ files such as users bring: what they are warned of, and what is read.
+//! Tests of odd OBJ files such as users bring: which warnings they cause, and what is read.
 
 use glam::Vec3;
 use impasto_scene::assets::AssetFolders;

@@ -13,8 +13,8 @@ use impasto_scene::mesh_file::{Material, MeshFile};
 use impasto_tests::pictures::renderer;
 use impasto_tests::shapes;
 
-/// A white sheet, and 13 to 21 pixels behind it a black strip of the same body at 45 degrees to the gaze. No pixel of the strip
-/// is seen. The left border of the picture cuts both.
+/// A white sheet and, 13 to 21 pixels behind it, a black strip of the same body at 45 degrees to the gaze. No pixel
+/// shows the strip. The left border of the picture cuts both.
 fn strip_behind_a_sheet() -> LoadedScene {
     let mut mesh = shapes::sheet(8);
     let to_strip = |at: DVec3| DVec3::new(0.8 * at.x, 0.3 + 0.03 * at.y, -0.12 + 0.03 * at.y);
@@ -59,13 +59,13 @@ fn a_covered_stroke_has_the_colour_that_is_seen_also_where_its_middle_is_beyond_
         }
         let green = resolved.color_linear[1];
         assert!(green > 0.8, "{green} at {:?}", stroke.center_px);
-        // A ring of half a width round the middle is beyond the picture, too.
+        // Left of -4 px, even a ring of half the stroke's width round its middle lies beyond the picture.
         *if stroke.center_px[0] < -4.0 { &mut beyond } else { &mut inside } += 1;
     }
     assert!(inside > 20 && beyond > 5, "{inside} strokes inside, {beyond} beyond");
 }
 
-/// The largest change of a stroke's green from frame to frame, of the first object's strokes whose centre is `near`.
+/// The largest change of green from frame to frame among the strokes of the first object whose centre is `near`.
 fn largest_step(painting: &Painting, near: impl Fn([f32; 2]) -> bool) -> f32 {
     let mut renderer = renderer(Driver::Egl);
     let mut before: HashMap<_, f32> = HashMap::new();
@@ -96,8 +96,8 @@ fn with_samples(scene: &mut Scene, samples: u32) {
     scene.strokes.layers = shapes::body_layer_alone();
 }
 
-/// The largest change of a stroke's green while the camera moves by two pixels in sixteen steps, over a sheet that is black
-/// on the left and white on the right. Pixels have `samples` samples a side.
+/// The largest change of a stroke's green in one step, while the camera moves by two pixels in sixteen steps over a
+/// sheet that is black on the left and white on the right. Pixels have `samples` samples a side.
 fn largest_step_along_a_border(samples: u32) -> f32 {
     let mut board = shapes::object("board", 3000);
     board.material = Some(MaterialOverride { unlit: true, ..Default::default() });
@@ -125,7 +125,7 @@ fn largest_step_along_a_border(samples: u32) -> f32 {
     largest_step(&prepare(loaded.into()).unwrap(), |[x, _]| (x - 320.0).abs() < 20.0)
 }
 
-/// A whole column of pixels changes its colour at once where it has one sample, half of it where it has two.
+/// With one sample a pixel, the border moves by a whole pixel at once; with 2 × 2 samples, by half a pixel.
 #[test]
 fn a_border_between_two_colours_moves_within_pixels() {
     let [coarse, fine] = [1, 2].map(largest_step_along_a_border);
@@ -133,8 +133,8 @@ fn a_border_between_two_colours_moves_within_pixels() {
     assert!(fine < 0.6 * coarse, "a stroke's colour leaps by {fine}, with one sample by {coarse}");
 }
 
-/// The same over a floor that is seen flat and lies in the shade of two roofs, but for a strip between them that is
-/// 0.8 pixels high in the picture.
+/// The same over a floor seen at a grazing angle. Two roofs shade it, but for a strip between them that is 0.8 pixels
+/// high in the picture.
 fn largest_step_along_a_strip_of_light(samples: u32) -> f32 {
     let flat = |near: f64, far: f64, y: f64| {
         shapes::moved(&shapes::sheet(4), move |at| {
@@ -154,7 +154,7 @@ fn largest_step_along_a_strip_of_light(samples: u32) -> f32 {
     scene.timeline.last = 16;
     scene.camera.keys = [0.0, 16.0]
         .map(|frame| {
-            // The horizon stands, and the ground moves up or down by a few pixels.
+            // The horizon stays, and the ground moves down by a few pixels.
             let y = 0.5 + frame / 16.0 * 0.05;
             shapes::camera_key(frame, [0.0, y, 4.0], [0.0, y, 0.0])
         })
@@ -164,8 +164,8 @@ fn largest_step_along_a_strip_of_light(samples: u32) -> f32 {
     largest_step(&prepare(shapes::loaded(scene, meshes)).unwrap(), |[_, y]| (y - 120.0).abs() < 12.0)
 }
 
-/// A strip of light that is thinner than a pixel makes each pixel a little lighter, by its share, where a pixel has 4 x 4 samples. With one
-/// sample it lights some pixels wholly, and others not at all.
+/// A strip of light is thinner than a pixel. With 4 × 4 samples it makes each pixel lighter by its share of the pixel.
+/// With one sample it lights some pixels wholly, and others not at all.
 #[test]
 fn a_thin_strip_of_light_stays_even() {
     let [coarse, fine] = [1, 4].map(largest_step_along_a_strip_of_light);

@@ -110,7 +110,8 @@ impl Twin {
             .collect()
     }
 
-    /// Direct3D 9 samples at the upper left corner of a pixel's texel, so it gets the mean of the four texels there.
+    /// Direct3D 9 samples at the upper left corner of a pixel's texel, so it gets the mean of the four texels that meet
+    /// there.
     fn at_corner(&self, picture: &[u8], x: i64, y: i64, wraps: bool) -> f64 {
         let texel = |x: i64, y: i64| {
             let (x, y) = if wraps {
@@ -183,7 +184,7 @@ impl Seen<'_> {
     }
 }
 
-/// A ball over the right edge of the picture and a cube, seen from the side.
+/// A ball that crosses the right edge of the picture, and a cube, seen from the side.
 fn two_bodies(ink: SumiE) -> (Scene, [TriangleMesh; 2]) {
     let moved = |mut mesh: TriangleMesh, by: Vec3, scale: f32| {
         mesh.positions.iter_mut().for_each(|at| *at = *at * scale + by);

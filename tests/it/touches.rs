@@ -81,7 +81,7 @@ fn a_straight_touch_on_a_plane_lies_where_its_points_are_from_any_view() {
                 let wanted = shown(&view, from.lerp(to, step as f64 / (found.len() - 1) as f64));
                 assert!(at.distance(wanted) < 0.01, "{eye:?} at {roll_deg}°, {step}: {at}, not {wanted}");
             }
-            // The width in pixels is the same in every view: that which a new touch states.
+            // In every view the width is 14 pixels, the default of a new touch.
             let stroke = frame.strokes.last().unwrap();
             assert_eq!(stroke.width_px, 14.0);
             let strip = frame.lines.strips[0];
@@ -111,7 +111,7 @@ fn a_touch_turns_with_its_object_and_is_gone_where_that_faces_away() {
         let half = DVec2::new(320.0, 180.0);
         let turned = glam::DQuat::from_rotation_y(f64::to_radians(turn_deg));
         for (was, now) in before.iter().zip(&found) {
-            // Where the line is on the plane, from where it shows when nothing is turned.
+            // The place on the plane, found from where the line shows when nothing is turned.
             let on_plane = (*was - half) * (4.0 / focal);
             let wanted = shown(&view, turned * on_plane.extend(0.0));
             assert!(now.distance(wanted) < 0.02, "{turn_deg}: {now}, not {wanted}");
@@ -186,7 +186,7 @@ fn touches_hold_on_a_mesh_that_was_exported_again_and_change_no_other_stroke() {
     assert_eq!(two.strokes.last(), with.strokes.last());
 }
 
-/// How red a pixel is, against green.
+/// The red of a pixel minus its green.
 fn redness(picture: &Picture, at: DVec2) -> i32 {
     let (x, y) = (at.x as usize, (f64::from(SIZE_PX[1]) - at.y) as usize);
     let first = 4 * (y * SIZE_PX[0] as usize + x);

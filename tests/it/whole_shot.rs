@@ -1,6 +1,6 @@
-//! Tests of steadiness from frame to frame: measures of chatter, steps and flicker see what is made to flash or blink;
-//! strokes that turn beat fixed angles; boil lets no stroke come or go, and keys let none pop; light, background and
-//! palette follow their keys; and paint covers a pixel as far as its body does.
+//! Tests of steadiness from frame to frame: the measures of chatter, steps and flicker notice flashing and blinking;
+//! strokes that turn are steadier than those at fixed angles; boil lets no stroke come or go, and keys let none pop;
+//! light, background and palette follow their keys; and paint covers a pixel as far as its body does.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

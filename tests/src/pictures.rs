@@ -72,8 +72,8 @@ impl Grey {
         (gx * gx - gy * gy, 2.0 * gx * gy)
     }
 
-    /// [`Self::double_angle`] at every pixel, blurred by a Gaussian of this many pixels. Pixels outside the mask count
-    /// as zero before the blur; the mask must leave out the picture's outermost pixels.
+    /// [`Self::double_angle`] at every pixel, blurred by a Gaussian with the standard deviation `sigma_px`. Pixels
+    /// outside the mask count as zero before the blur; the mask must leave out the outermost pixels of the picture.
     pub fn tensor_field(&self, mask: &[bool], sigma_px: f64) -> Vec<(f64, f64)> {
         let width = self.size_px[0];
         let moments = mask.iter().enumerate().map(|(index, &known)| {
@@ -98,7 +98,7 @@ impl Grey {
         wrap_half(0.5 * imaginary.atan2(real) + std::f64::consts::FRAC_PI_2)
     }
 
-    /// Convolved with a Gaussian of this many pixels; the picture's edge is repeated outwards.
+    /// Convolved with a Gaussian of the standard deviation `sigma_px`; the picture's edge is repeated outwards.
     pub fn blurred(&self, sigma_px: f64) -> Self {
         let reach = (3.0 * sigma_px).ceil() as i64;
         let weights: Vec<f64> =

@@ -411,7 +411,7 @@ impl<'a> EditorWindow<'a> {
         self.screen.keep_picture(&format!("{}_{moment}", self.name))
     }
 
-    /// Quits by its key, waits for the end, and returns the exit code.
+    /// Quits by Ctrl Q, waits for the end, and returns the exit code.
     ///
     /// # Panics
     /// When it does not end.

@@ -114,7 +114,7 @@ fn succeed(mut command: Command, what: &str) -> anyhow::Result<()> {
 /// Builds, validates, installs and tests with one Blender.
 fn test(root: &Path, folder: &Path, interpreter: &Path) -> anyhow::Result<()> {
     const FIND: &str = "import bpy, os, glob; print(glob.glob(os.path.dirname(bpy.__file__) + '/**/bl_pkg/cli/blender_ext.py', recursive=True)[0])";
-    // Importing bpy changes where the module seems to lie, so its folder is found through the site-packages.
+    // After the import, `bpy.__file__` no longer names the module's folder, so it is found through the site-packages.
     let find = FIND.replace(
         "os.path.dirname(bpy.__file__)",
         "[p for p in __import__('sys').path if p.endswith('site-packages')][0] + '/bpy'",

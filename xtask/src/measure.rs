@@ -14,7 +14,7 @@ use crate::steps::{Profile, build, step};
 /// A page with a table of what was measured.
 struct Page {
     path: &'static str,
-    /// Where reports are kept.
+    /// The folder of the reports.
     folder: &'static str,
     metrics: &'static str,
     columns: &'static [Column],

@@ -104,7 +104,7 @@ const MODELS: &[Need] = &[Need {
     retired: false,
 }];
 
-/// What `cargo xtask test` and `ci` make sure of.
+/// What `cargo xtask test` and `ci` need.
 pub const FOR_TESTS: &[&[Need]] = &[TESTS, WINDOW_TESTS, MOVIE_TESTS, MODELS];
 
 /// Makes sure that everything in `needs` is there, or says how to get it.

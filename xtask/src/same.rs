@@ -1,8 +1,8 @@
 //! `cargo xtask same`: checks that pictures and strokes are still, byte for byte, those of the last `same --keep`.
 //!
 //! It draws the first, middle and last frame of every shipped scene through EGL and OSMesa, and lists their strokes.
-//! Where `IMPASTO_CORPUS` names a corpus, it does the same with the corpus's good models. Checksums of the files are
-//! kept, not the files.
+//! Where `IMPASTO_CORPUS` names a corpus, it does the same with the corpus's good models. It keeps checksums of the
+//! files, not the files.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

@@ -167,7 +167,8 @@ impl Glb {
         }
     }
 
-    /// Adds an animation channel: what a node has at `path` follows an accessor of times and one of values.
+    /// Adds an animation channel: the node's property `path` (such as `rotation`) follows an accessor of times and one
+    /// of values.
     fn channel(&mut self, node: usize, path: &str, [input, output]: [usize; 2]) {
         let sampler = self.samplers.len();
         self.samplers.push(json!({ "input": input, "output": output }));

@@ -14,7 +14,7 @@ const FPS: f64 = 24.0;
 const LAST: usize = 48;
 const BALL_RADIUS: f64 = 0.3;
 
-/// The candela that exporters write for a lamp of one watt.
+/// The luminous intensity, in candela, that exporters write for a lamp of one watt.
 const PER_WATT: f64 = 683.0 / (2.0 * TAU);
 
 /// The bytes of `lane.glb`.

@@ -40,7 +40,7 @@ use anyhow::Context as _;
 
 use poly_mesh::PolyMesh;
 
-/// Where the meshes are kept, from the repository's root.
+/// The folder of the meshes, from the repository's root.
 const FOLDER: &str = "scenes/meshes";
 
 /// Writes every shipped mesh (an OBJ file and its MTL file), the shots, and the flag's point cache.

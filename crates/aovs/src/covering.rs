@@ -1,4 +1,5 @@
-//! What shows in each pixel of the finished picture: which strokes, how much of each, and how much of the ground under them.
+//! What shows in each pixel of the finished picture: which strokes, how much of each, and how much of the ground under
+//! them.
 
 use std::collections::BTreeSet;
 

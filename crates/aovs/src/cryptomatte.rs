@@ -1,5 +1,5 @@
-//! Cryptomatte 1.2 (Friedman and Jones, 2015): mattes by name. Each pixel has the names that show in it, as numbers, and how much of
-//! the pixel each covers, the largest first.
+//! Cryptomatte 1.2 (Friedman and Jones, 2015): mattes by name. Each pixel has the names that show in it, as numbers,
+//! and how much of the pixel each of them covers, the largest first.
 
 use std::collections::BTreeMap;
 

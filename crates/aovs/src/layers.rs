@@ -17,8 +17,8 @@ use crate::planes::planes;
 /// The largest factor on a layer.
 const MOST_GAIN: f32 = 4.0;
 
-/// `finish` adds light only where the layers lack more than `LEAST_LIGHT`, and more than `HALF_ULP` times the wanted
-/// light, which is about the last bit of a 16-bit float.
+/// `finish` makes up for a difference only if it exceeds `LEAST_LIGHT`, and also `HALF_ULP` times the wanted light,
+/// which is about the last bit of a 16-bit float.
 const LEAST_LIGHT: f32 = 4e-4;
 const HALF_ULP: f32 = 1.0 / 1024.0;
 

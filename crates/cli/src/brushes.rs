@@ -14,8 +14,7 @@ use crate::failure::Failure;
 /// Free pixels round each mark.
 const GAP_PX: usize = 12;
 
-/// The marks of a row: for each its variant, and its dryness. Paint that is thinner than the dryness (0..1) is left
-/// out.
+/// The variant and the dryness of each mark in a row. Paint that is thinner than the dryness (0..1) is left out.
 const COLUMNS: [(usize, f32); 6] = [(0, 0.02), (1, 0.02), (2, 0.02), (3, 0.25), (4, 0.50), (5, 0.75)];
 
 /// Linear colours of the sheet and of the paint, and what half-mixed paint adds where the tint is 1.
@@ -77,7 +76,7 @@ fn sheet(rows: &[(String, Vec<Mark>)]) -> Picture {
     Picture { size_px: size.map(|side| side as u32), rgba8 }
 }
 
-/// A texel of a mark over what lies below, lit from the upper left.
+/// A texel of a mark, painted over the colour `below` and lit from the upper left.
 fn painted(mark: &Mark, [x, y]: [usize; 2], dryness: f32, below: [f32; 3]) -> [f32; 3] {
     let [width, height] = brush::SIZE;
     // The first row of a mark is its lower edge.

@@ -31,10 +31,11 @@ pub(crate) struct CacheArguments {
 #[derive(Clone)]
 pub(crate) struct Cache {
     folder: KeptFolder,
-    /// How much memory this process may take, bytes: a larger file of the folder is not read. `None` if any may.
+    /// The most memory that this process may take, in bytes: a larger file of the folder is not read. `None` for no
+    /// limit.
     memory_bytes: Option<u64>,
     verbose: bool,
-    /// Whether a warning was given: one is enough.
+    /// Whether a warning was printed: only the first one is.
     was_told: Arc<AtomicBool>,
 }
 
@@ -47,7 +48,7 @@ impl Cache {
         Some(Self { folder, memory_bytes, verbose, was_told: Arc::default() })
     }
 
-    /// What is kept under a key; `None` if nothing is, or it cannot be read.
+    /// The file that is kept under a key; `None` if there is none, or it cannot be read.
     pub(crate) fn find(&self, key: &KeptKey) -> Option<Box<dyn KeptBytes>> {
         let key = key.to_string();
         let found = self.folder.find(&key, self.memory_bytes.unwrap_or(u64::MAX));
@@ -58,7 +59,7 @@ impl Cache {
         found.map(|file| Box::new(OpenFile(file)) as Box<dyn KeptBytes>)
     }
 
-    /// Keeps a painting that was not taken from the folder, and tidies the folder, while other work goes on.
+    /// Keeps a painting, unless it was taken from the folder, and tidies the folder. This happens on another thread.
     pub(crate) fn store(self, painting: &Painting) -> Storing {
         let (key, is_new, replace) = match painting.kept() {
             Kept::NotAsked => return Storing::default(),

@@ -59,7 +59,7 @@ fn as_json(problem: &Problem) -> serde_json::Value {
     })
 }
 
-/// A number of things in words.
+/// A count with its noun: `1 problem`, `3 problems`.
 fn counted(count: usize, thing: &str) -> String {
     if count == 1 { format!("1 {thing}") } else { format!("{count} {thing}s") }
 }

@@ -16,7 +16,7 @@ pub(crate) const USAGE: u8 = 2;
 /// Why a command ends early.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// There is nothing more to say; only this exit code is left.
+    /// Nothing more is printed; the command ends with this exit code.
     Quiet(u8),
     /// Something went wrong that is not the input's fault.
     Other(String),

@@ -142,8 +142,8 @@ fn job(arguments: &FarmArguments, own: &[&str]) -> Result<Job, Failure> {
     })
 }
 
-/// Warns of frames that the scene does not have. They show its first or last frame, and a mistyped list could cost a
-/// night.
+/// Warns of frames outside the scene's range. They show its first or last frame, so a mistyped list could waste a night
+/// of rendering.
 fn tell_frames_beyond(list: &FrameList, first: i64, last: i64) {
     let beyond = || list.iter().filter(|frame| !(first..=last).contains(frame));
     if let (Some(low), Some(high)) = (beyond().min(), beyond().max()) {

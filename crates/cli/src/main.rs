@@ -82,7 +82,7 @@ fn main() -> ExitCode {
         Command::Relight(arguments) => relight::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
         Command::Completions { shell } => {
-            // Into memory first: writing straight to standard output would panic where nobody reads it.
+            // Into memory first: `generate` would panic if standard output were closed.
             let mut text = Vec::new();
             clap_complete::generate(shell, &mut Arguments::command(), "impasto", &mut text);
             std::io::stdout().write_all(&text).map_err(Failure::from)

@@ -113,7 +113,7 @@ fn example(text: &str) -> String {
     path.with_file_name(format!("{before}{}.{ending}", "#".repeat(digits))).display().to_string()
 }
 
-/// All frames that are there, which must be without gaps.
+/// The numbers of all frames that exist. Gaps between them are refused.
 fn frames_there(text: &str, pattern: &Pattern) -> Result<Vec<i64>, Failure> {
     let frames = pattern.frames_there().map_err(|error| Failure::of_file(Path::new(text), error))?;
     let [first, .., last] = frames[..] else {

@@ -16,7 +16,7 @@ pub(crate) enum Progress {
 }
 
 impl Progress {
-    /// Tells a runner of Open Job Descriptions how many frames are through, and which was the last.
+    /// Tells a runner of Open Job Descriptions how many frames are done, and the number of the last.
     pub(crate) fn tell_openjd(done: u64, count: u64, frame: i64) -> std::io::Result<()> {
         let mut out = std::io::stdout().lock();
         let percent = 100.0 * done as f64 / count.max(1) as f64;

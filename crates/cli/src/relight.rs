@@ -11,7 +11,7 @@ use impasto_frame_files::{not_an_input, ready_folder};
 use crate::args::RelightArguments;
 use crate::failure::Failure;
 
-/// What is read of the file: the paint before light falls on it, and its normal.
+/// The channels that are read: the paint's colour before light falls on it, and its normal.
 const CHANNELS: [&str; 7] = [
     "paint.color.R",
     "paint.color.G",

@@ -65,8 +65,8 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     fault.map_or(Ok(()), |fault| Err(Failure::Other(fault)))
 }
 
-/// In words, what is wrong with frames that were drawn nevertheless, such as a body whose point cache could not be
-/// read; `None` if nothing is.
+/// What is wrong with frames that were drawn nevertheless, in words: for example, a point cache could not be read.
+/// `None` if nothing is wrong.
 type Fault = Option<String>;
 
 fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, Failure> {
@@ -176,7 +176,7 @@ fn name_of(loaded: &LoadedScene) -> String {
     loaded.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
-/// The picture in the file of a frame that was there.
+/// Reads the picture of a frame whose file existed already.
 fn picture_in(path: &Path) -> Result<Picture, FrameFileError> {
     let frame = frame_reader::read(&path.with_extension("png"))?.at_depth(Depth::Eight);
     Ok(Picture { size_px: frame.size_px, rgba8: frame.rgba })
@@ -187,7 +187,7 @@ fn sheet_path(pattern: &Pattern) -> PathBuf {
     pattern.beside("sheet").with_extension("png")
 }
 
-/// What is made of each frame.
+/// Which outputs are made from each frame.
 fn wanted(arguments: &RenderArguments, destination: &Destination, scene: &Scene) -> Result<Wanted, Failure> {
     let picture = &arguments.picture;
     let only_exr = has_ending(&arguments.output, ".exr");
@@ -267,7 +267,7 @@ impl Plan {
         let bar = progress_bar(frames.count(), arguments.talk.quiet);
         let mut sheet = arguments.contact_sheet.then(|| Sheet::new(frames.count(), sequence.options.size_px));
         let (mut done, mut kept, mut failed, mut passed, start) = (0, 0, 0, 0, Instant::now());
-        // Frames that were there, and do not say from which state they were painted.
+        // Files that existed already and do not say from which state they were painted.
         let mut foreign = Vec::new();
         let sheet_provenance = sequence.provenance("sheet", renderer);
         if arguments.json {
@@ -459,7 +459,7 @@ impl Plan {
     }
 }
 
-/// The fault of a drawing that makes one file. A drawing that was stopped is an error, because it leaves no file.
+/// The fault of a rendering into one file. A rendering that was stopped is an error, because it leaves no file.
 fn of_all(ending: Ending) -> Result<Fault, Failure> {
     match ending {
         Ending::Done(fault) => Ok(fault),

@@ -112,9 +112,9 @@ impl Server<'_> {
         let begun = stamp_of(&of_scene.scene);
         let loaded = session::read_scene(of_scene, true)?;
         let inputs = loaded.inputs();
-        // The stamp of the scene file is from before it was read, so that a change during reading shows the next time.
-        // The other files are known only now, after reading, so a change of one during reading goes unnoticed. Whoever
-        // changes a file is expected to replace it as a whole, so that none is read half-written.
+        // The stamp of the scene file is from before it was read, so that a change during reading is noticed the next
+        // time. The other files are known only now, after reading, so a change of one during reading goes unnoticed.
+        // Whoever changes a file is expected to replace it as a whole, so that none is read half-written.
         let mut stamps: Vec<Stamp> = inputs.iter().map(|path| stamp_of(path)).collect();
         if let Some(first) = stamps.first_mut() {
             *first = begun;

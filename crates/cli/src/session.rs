@@ -1,4 +1,4 @@
-//! What commands that read or draw a scene share: reading it, preparing it, opening a renderer.
+//! Steps that several commands share: reading a scene, preparing it, opening a renderer.
 
 use std::sync::Arc;
 
@@ -56,7 +56,7 @@ pub(crate) struct Prepared {
     pub(crate) storing: Storing,
 }
 
-/// Prepares a scene within the memory that it may take, for pictures that are `seen_from` there. If `verbose`, time and
+/// Prepares a scene within its memory limit, for pictures from the views of `seen_from`. If `verbose`, the time and
 /// peak memory of each step go to stderr.
 pub(crate) fn prepare_scene(
     loaded: LoadedScene,

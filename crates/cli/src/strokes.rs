@@ -50,7 +50,7 @@ struct Row<'a> {
 
 const HEADER: &str = "id,object,region,layer,x_px,y_px,depth,angle_deg,length_px,width_px,alpha,kappa,r,g,b,facing,rank,taper,bend_deg";
 
-/// The name for what belongs to no region.
+/// The region name of strokes that belong to no region.
 const EVERYTHING_ELSE: &str = "everything else";
 
 pub(crate) fn run(arguments: &StrokesArguments) -> Result<(), Failure> {
@@ -198,7 +198,7 @@ fn svg(frame: &Frame, rows: &[Row<'_>]) -> String {
         );
     }
     let mut layer = "";
-    // A layer may come more than once, and an id must not.
+    // A layer may occur more than once, but an id must not.
     let mut times = BTreeMap::<&str, usize>::new();
     for row in rows {
         if row.layer != layer {
@@ -325,7 +325,7 @@ mod tests {
         assert!((x - radius * half).abs() < 1e-3 && (y + radius * (1.0 - half)).abs() < 1e-3, "{x} {y}");
     }
 
-    /// The columns are matched by hand, so each has a value of its own here.
+    /// The columns of the CSV are listed by hand, so each field has a different value here.
     #[test]
     fn a_column_holds_what_the_field_of_that_name_does() {
         let row = Row {

@@ -1,13 +1,14 @@
-//! Bending: where the vertices of a mesh are when morph targets and joints move them, and how a bent surface carries what lies
-//! on it.
+//! Bending: where the vertices of a mesh are when morph targets and joints move them, and how a bent surface carries
+//! what lies on it.
 //!
 //! ```text
 //! bound ─▶ + Σ weight · target ─▶ Σ weight · joint ─┬─▶ (noise) ─▶ vertices
 //!                    or, instead, points of a cache ┘               └─▶ Gradients: F at each vertex ─▶ carry
 //! ```
 //!
-//! F is the deformation gradient: it takes a step on the surface at rest to the same step on the bent one. Where there is a
-//! point cache, its points replace targets and joints. The cache and the noise are applied by the `painting` crate.
+//! F is the deformation gradient: it takes a step on the surface at rest to the same step on the bent one. Where there
+//! is a point cache, its points replace targets and joints. The cache and the noise are applied by the `painting`
+//! crate.
 
 mod bonds;
 mod carry;
@@ -74,8 +75,8 @@ pub struct SkinWeights {
 pub struct BendPose {
     /// The weight of each target; those left out are 0.
     pub weights: Vec<f32>,
-    /// For each joint, from the space in which the mesh was bound to model space. With no joints, vertices stay where targets put
-    /// them.
+    /// For each joint, from the space in which the mesh was bound to model space. With no joints, vertices stay where
+    /// targets put them.
     pub joints: Vec<DAffine3>,
 }
 

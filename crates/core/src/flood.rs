@@ -11,8 +11,8 @@ use crate::shells;
 /// A face that faces opposite to the seed's normal counts as this many times farther away than it is.
 const TURNED_AWAY: f64 = 4.0;
 
-/// Where both ends of an edge have more triangles than this, the edge is looked at only once. Otherwise n triangles
-/// round such an edge would take n² steps.
+/// Where both ends of an edge have more triangles than this, the edge is handled only once. Otherwise n triangles round
+/// such an edge would take n² steps.
 const CROWDED: usize = 64;
 
 /// For each triangle, whether it is reached from a seed over edges at which the two triangles' normals differ by less

@@ -21,11 +21,11 @@ const MOST_RISE: f32 = 0.22;
 /// a plane fills 0.25.
 const LEAST_SHARE: f32 = 0.2;
 
-/// The first radius that is looked at, in spacings of the samples: within a smaller one there are too few samples.
+/// The first radius that is tried, in spacings of the samples: within a smaller one there are too few samples.
 const FIRST_RADIUS: f32 = 2.5;
 
-/// How many radii are looked at. Their squares, in squares of the first, are 1, 1.5, 2, 3, 4, 6, 8 and so on: all
-/// numbers from 1 on that a float holds in its exponent and the first bit of its mantissa.
+/// How many radii are tried. Their squares, in squares of the first, are 1, 1.5, 2, 3, 4, 6, 8 and so on: all numbers
+/// from 1 on that a float holds in its exponent and the first bit of its mantissa.
 const RADII: usize = 24;
 
 /// The sizes are smoothed over samples within this radius, in spacings: 26 of them on a plane.
@@ -35,7 +35,7 @@ const SMOOTHING_RADIUS: f32 = 2.7;
 /// size is found as quickly in a heap of triangles as on a plane.
 const MOST_NEIGHBOURS: usize = 128;
 
-/// How many samples are asked how far their neighbours are.
+/// At most this many samples are used to measure how far neighbours are.
 const ASKED: usize = 64;
 
 /// The size of the form all over a surface, measured at samples of it.
@@ -48,7 +48,8 @@ const ASKED: usize = 64;
 pub struct FormSize {
     /// In the order of their buckets.
     samples: Vec<Sample>,
-    /// Where the samples of each bucket begin, and the end of the last. A bucket holds the cells of a grid that have its hash.
+    /// Where the samples of each bucket begin, and the end of the last. A bucket holds the cells of a grid that have
+    /// its hash.
     starts: Vec<u32>,
     smoothing_radius: f32,
     least: f32,
@@ -62,7 +63,7 @@ struct Sample {
     size_ln: f32,
 }
 
-/// The samples' positions and normals, an array for each axis: pairs are looked at in wide registers.
+/// The samples' positions and normals, an array for each axis, so that pairs are compared in wide registers.
 struct Axes([Vec<f32>; 6]);
 
 impl FormSize {
@@ -112,7 +113,8 @@ impl FormSize {
         field
     }
 
-    /// The size of the form at a point of the surface with this unit normal, model units; infinite on a surface without area.
+    /// The size of the form at a point of the surface with this unit normal, model units; infinite on a surface without
+    /// area.
     pub fn at(&self, position: Vec3, normal: Vec3) -> f32 {
         if self.samples.is_empty() {
             return f32::INFINITY;
@@ -152,8 +154,8 @@ impl FormSize {
     }
 }
 
-/// The radius within which samples have [`MOST_NEIGHBOURS`] others in the mean, more or less; infinite where there are
-/// too few for that.
+/// The radius within which a sample has about [`MOST_NEIGHBOURS`] others on average; infinite where there are too few
+/// samples for that.
 fn radius_of_neighbours(samples: &[Sample]) -> f32 {
     let asked: Vec<Vec3> =
         samples.iter().step_by(samples.len().div_ceil(ASKED).max(1)).map(|sample| sample.position).collect();
@@ -165,7 +167,7 @@ fn radius_of_neighbours(samples: &[Sample]) -> f32 {
         return f32::INFINITY;
     }
     let (_, distance_sq, _) = all.select_nth_unstable_by(at, f32::total_cmp);
-    // All at one place: any radius finds all of them.
+    // The distance is 0 where samples lie at one place; then no radius is better than another.
     if *distance_sq > 0.0 { distance_sq.sqrt() } else { f32::INFINITY }
 }
 
@@ -358,7 +360,7 @@ mod tests {
         }
     }
 
-    /// In a heap of triangles without order, all that is within a few spacings would be nearly everything.
+    /// In a heap of triangles without order, nearly all samples lie within a few spacings of each other.
     #[test]
     fn in_a_heap_of_triangles_few_samples_are_near() {
         let mut mesh = TriangleMesh::default();

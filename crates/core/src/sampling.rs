@@ -83,7 +83,7 @@ impl Particle {
 pub struct Surface<'mesh> {
     mesh: &'mesh TriangleMesh,
     faces: Vec<Face>,
-    /// Area of all faces up to and including this one, model units squared.
+    /// For each face, the area of all faces up to and including it, model units squared.
     area_up_to: Vec<f64>,
 }
 

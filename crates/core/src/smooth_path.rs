@@ -58,7 +58,7 @@ impl Piece {
     }
 }
 
-/// A line of points, cut anew into equal steps.
+/// Resamples a line of points at equal steps.
 fn even(line: &[DVec3], steps: usize) -> Vec<DVec3> {
     let mut along = vec![0.0];
     for pair in line.windows(2) {

@@ -35,8 +35,8 @@ pub struct BakedParticles {
     pub along: [Vec<f32>; 3],
     /// Second column of N': x, y, z.
     pub across: [Vec<f32>; 3],
-    /// 1: the stroke only turns with its surroundings, as if it lay flat on the picture. 0: its direction is also foreshortened
-    /// with the surface. Empty when all are 1.
+    /// 1: the stroke only turns with its surroundings, as if it lay flat on the picture. 0: its direction is also
+    /// foreshortened with the surface. Empty when all are 1.
     pub flatness: Vec<f32>,
 }
 
@@ -198,11 +198,11 @@ impl BakedParticles {
     }
 }
 
-/// Makes an array exactly so long; new numbers are zero.
+/// Makes an array exactly `count` long; new numbers are zero.
 fn resize(array: &mut Vec<f32>, count: usize) {
     if array.is_empty() {
-        // The system gives zeroed memory without writing to it, so the threads that fill it touch its pages first, side
-        // by side. `resize` would write all the zeros here.
+        // The system gives zeroed memory without writing to it, so the threads that fill it are the first to touch its
+        // pages, in parallel. `resize` would write all the zeros here.
         *array = vec![0.0; count];
     } else {
         array.truncate(count);
@@ -221,10 +221,11 @@ fn vector(arrays: &[Vec<f32>; 3], particle: usize) -> DVec3 {
     DVec3::from_array(components(arrays, particle).map(f64::from))
 }
 
-/// Projects every particle and finds its stroke's angle. A picture solves only the particles that show, one by one
-/// ([`ParticleView`]); this solves a whole body, for tests and to be timed beside others. With flatness 1 that is φ, the angle of the rotation nearest to
-/// A = J N'. With flatness 0 it is the direction of A e₁, the first column of A. With a flatness F between, the two unit vectors are
-/// blended: `arg(F·e^{iφ} + (1 − F)·A e₁/|A e₁|)`. The result depends on the inputs alone, not on the threads.
+/// Projects every particle of a body and finds its stroke's angle. Serves tests and benchmarks: a picture solves only
+/// the particles that show, one by one ([`ParticleView`]). With flatness 1 the angle is φ, that of the rotation nearest
+/// to A = J N'. With flatness 0 it is the direction of A e₁, the first column of A. With a flatness F between, the two
+/// unit vectors are blended: `arg(F·e^{iφ} + (1 − F)·A e₁/|A e₁|)`. The result depends on the inputs alone, not on the
+/// threads.
 pub fn solve(particles: &BakedParticles, map: &ScreenMap, solved: &mut SolvedParticles) {
     let count = particles.len();
     for array in
@@ -275,8 +276,8 @@ struct Output<'a> {
     area_px: &'a mut [f32],
 }
 
-/// One task: the particles from `first` on, as many as the output holds. `WRAPPED` says that some strokes follow the surface, so
-/// that flatness has to be read; otherwise it is 1 for all.
+/// One task: the particles from `first` on, as many as the output holds. `WRAPPED` says that some strokes follow the
+/// surface, so that flatness has to be read; otherwise it is 1 for all.
 struct Chunk<'a, const WRAPPED: bool> {
     particles: &'a BakedParticles,
     first: usize,

@@ -4,8 +4,8 @@
 //! All versions round alike, since the compiler fuses no multiplication with an addition: results are the same on every
 //! machine, to the bit.
 
-/// A loop over plain arrays. `run` and all functions that it calls are marked `#[inline(always)]`: what is not inlined is compiled
-/// for the oldest processor.
+/// A loop over plain arrays. `run` and all functions that it calls are marked `#[inline(always)]`: what is not inlined
+/// is compiled for the oldest processor.
 pub(crate) trait Wide {
     /// The result.
     type Output;

@@ -16,7 +16,7 @@ const ORBIT_RAD_PER_PX: f64 = 0.5 * std::f64::consts::PI / 300.0;
 pub const ZOOM_PER_STEP: f64 = 0.85;
 /// The gaze stays this far from straight up and down, where a look-at camera has no up direction.
 const POLE_GAP_RAD: f64 = 0.0087;
-/// Views from above and below are off the axis by this, radians, so that the camera still has an up direction.
+/// Views from above and below are tilted off the axis by this angle, radians, so that the camera has an up direction.
 const AXIS_GAP_RAD: f64 = 1e-3;
 /// Framing leaves this share of the picture free.
 const FRAME_MARGIN: f64 = 0.1;
@@ -30,7 +30,7 @@ pub struct FreeView {
     pose: CameraPose,
     /// Vertical field of view that [`Self::toggle_orthographic`] goes back to, degrees.
     fov_y_deg: f64,
-    /// The near and far plane that it began with, world units.
+    /// Distances of the near and far planes that it began with, world units.
     depths: [f64; 2],
 }
 
@@ -79,7 +79,7 @@ impl FreeView {
         let drag = DVec2::from_angle(self.pose.roll_rad).rotate(delta_px * DVec2::new(1.0, -1.0));
         let [right, gaze] = self.level_axes();
         let pitch = gaze.y.clamp(-1.0, 1.0).asin();
-        // A camera that begins nearer to the pole may stay, but goes no further.
+        // A camera that is already nearer to the pole may stay there, but gets no nearer.
         let limit = (std::f64::consts::FRAC_PI_2 - POLE_GAP_RAD).max(pitch.abs());
         let wanted = (pitch + drag.y * ORBIT_RAD_PER_PX).clamp(-limit, limit);
         let turn = DQuat::from_rotation_y(-drag.x * ORBIT_RAD_PER_PX)
@@ -89,7 +89,8 @@ impl FreeView {
         }
     }
 
-    /// Moves sideways by a drag in pixels (Y down), so that a point at the depth of `held` follows the pointer.
+    /// Moves parallel to the picture by a drag in pixels (Y down), so that a point at the depth of `held` follows the
+    /// pointer.
     pub fn pan(&mut self, delta_px: DVec2, held: DVec3, size_px: DVec2) {
         let view = self.view(size_px);
         let [right, up, _] = view.axes();
@@ -195,7 +196,7 @@ impl FreeView {
         self.pose.target += step;
     }
 
-    /// Puts the clip planes where they were at first, or so far apart that points this far away show.
+    /// Puts the clip planes back where they began, or farther apart where points at this distance need it.
     fn reach(&mut self, distance: f64) {
         match &mut self.pose.lens {
             Lens::Perspective { near, far, .. } | Lens::Orthographic { near, far, .. } => {

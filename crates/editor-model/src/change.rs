@@ -17,9 +17,9 @@ enum Part {
     Touches(Splice<Touch>),
     /// The guides of one region, where nothing else of any region differs.
     Guides(usize, Splice<Guide>),
-    /// The painted amounts of one region, likewise.
+    /// The painted amounts of one region, where nothing else of any region differs.
     Amounts(usize, Splice<PaintedAmount>),
-    /// The dabs of one amount of one region, likewise.
+    /// The dabs of one amount of one region, where nothing else of any region differs.
     Dabs([usize; 2], Splice<AmountDab>),
 }
 

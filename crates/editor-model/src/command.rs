@@ -128,7 +128,7 @@ pub(crate) fn posable_object<'a>(scene: &'a mut Scene, name: &str) -> Result<&'a
     unlocked_object(scene, name)
 }
 
-/// The refusal to pose what the scene's shot moves.
+/// The refusal of a command that would pose something that the scene's shot moves.
 pub(crate) fn moved_by_shot(scene: &Scene, name: &str) -> Refusal {
     let shot = scene.shot.as_deref().unwrap_or("the shot");
     Refusal::new(format!("{name} moves as {shot} has it: make own keys first, in the inspector"))

@@ -263,7 +263,7 @@ impl Document {
         self.held().with_scene(scene, &self.options.folders).map_err(|report| Refusal::of(&report))
     }
 
-    /// The scene with the boxes that stand in for meshes that cannot be used.
+    /// The scene, with a box in place of each mesh that cannot be used.
     fn held(&self) -> Arc<LoadedScene> {
         let held = self.source.as_ref().map(|source| Arc::new(source.held(&self.loaded)));
         held.unwrap_or_else(|| Arc::clone(&self.loaded))

@@ -50,7 +50,7 @@ pub use request::{Offer, Request, Said};
 struct TransformDrag {
     machine: Transforming,
     objects: Vec<String>,
-    /// The light that is transformed, if it is a light.
+    /// Name of the light that is transformed; `None` if objects are transformed.
     light: Option<String>,
     /// Whether a press of the button began the transform. If so, the release ends it.
     held: bool,
@@ -178,7 +178,7 @@ impl Editor {
         self.painting.as_ref()
     }
 
-    /// Finds surfaces under rays.
+    /// The picker, which finds the surfaces that rays hit.
     pub fn picker(&self) -> &Picker {
         &self.picker
     }

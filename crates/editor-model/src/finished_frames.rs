@@ -1,5 +1,5 @@
-//! Looking through the finished frames of a rendering: which frame is to be shown, and which are read from their
-//! files ahead of time. The caller passes the time. Nothing is edited here.
+//! Viewing the finished frames of a rendering: which frame is to be shown, and which are read from their files ahead of
+//! time. The caller passes the time. Nothing is edited here.
 
 use std::path::{Path, PathBuf};
 

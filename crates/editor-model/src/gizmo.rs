@@ -20,8 +20,8 @@ const SQUARE: [f64; 2] = [0.3, 0.16];
 const REACH_PX: f64 = 12.0;
 /// Radius of the dot in the middle, pixels.
 const CENTRE_PX: f64 = 10.0;
-/// An arm points nearly at the eye, and is left out, if it shows at less than this share of its length. A square is
-/// left out if it shows at less than this share of its area.
+/// An arm that points nearly at the eye is left out: one that appears at less than this share of its length. A square
+/// is left out if it appears at less than this share of its area.
 const LEAST_SHOWN: f64 = 0.15;
 const RING_PIECES: usize = 64;
 
@@ -43,7 +43,7 @@ pub struct Handle {
 pub enum HandleShape {
     /// A line with a tip (an arrow, or a box for scaling) and its letter.
     Arm {
-        /// Where the object's origin shows.
+        /// Where the object's origin appears.
         from_px: DVec2,
         /// The tip.
         to_px: DVec2,
@@ -157,7 +157,7 @@ struct Placement<'a> {
 }
 
 impl Placement<'_> {
-    /// Where the point at `arms` (arm lengths along the axes) shows. There is no perspective, so that handles keep
+    /// Where the point at `arms` (arm lengths along the axes) appears. There is no perspective, so that handles keep
     /// their shape everywhere in the picture.
     fn px(&self, arms: DVec3) -> DVec2 {
         let [right, up, _] = self.view.axes();

@@ -1,6 +1,6 @@
-//! The keymap: what each key does, in two presets (Blender's keys and Maya's). `Editor::key` decides which scope holds.
-//! A modal tool takes every key. In the other scopes, a key without a binding there does what it does everywhere. While
-//! text is typed, this is so only for keys that text fields do not use.
+//! The keymap: what each key does, in two presets (Blender's keys and Maya's). `Editor::key` decides which scope is
+//! active. A modal tool takes every key. In the other scopes, a key without a binding there does what it does
+//! everywhere; but while text is typed, keys that text fields use do not.
 
 mod hints;
 mod own;
@@ -165,9 +165,9 @@ pub enum Action {
     NudgeKeysBack,
     /// Moves the selected keys one frame on.
     NudgeKeysOn,
-    /// Holds a transform to an axis.
+    /// Constrains a transform to an axis.
     HoldAxis(Axis),
-    /// Holds a transform to the plane across an axis.
+    /// Constrains a transform to the plane perpendicular to an axis.
     HoldPlane(Axis),
     /// Ends a modal tool and keeps what it did.
     Confirm,
@@ -267,7 +267,7 @@ pub struct Keymap {
     pub own: OwnKeys,
 }
 
-/// The scopes of bindings. One scope holds at a time.
+/// The scopes of bindings. One scope is active at a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Scope {
     /// A modal move, turn or scale.

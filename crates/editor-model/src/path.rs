@@ -5,7 +5,7 @@
 //! events ─▶ curve through them ─▶ steps of one pixel ─▶ pulled string ─▶ a ray per step ─▶ pieces on the surface
 //! ```
 //!
-//! The string steadies the hand: its tip draws, and the pointer pulls the tip only when it is farther away than the
+//! The string steadies the hand: its tip draws. The pointer pulls the tip only when the tip is farther from it than the
 //! string is long.
 
 use glam::{DAffine3, DVec2, DVec3};
@@ -31,12 +31,12 @@ const STEP_PX: f64 = 1.0;
 pub(crate) const STAMP_SHARE: f64 = 0.25;
 /// A guide leaves out points of its path as long as its line stays within this distance of the path.
 const TOLERANCE_PX: f64 = 0.5;
-/// This distance on a bent body. A straight gesture there is a curve on the surface at rest, and needs more points.
+/// The same on a body that bends. A straight gesture there is a curve on the surface at rest, and needs more points.
 const BENT_TOLERANCE_PX: f64 = 0.1;
 /// If two steps are farther apart on the surface than this many pixels, it is checked whether the surface is connected
 /// there.
 const LEAP_PX: f64 = 4.0;
-/// A hand that holds a pen in one place moves it by up to this.
+/// A hand that tries to hold a pen in one place moves it by up to this distance.
 const TREMBLE_PX: f64 = 4.0;
 /// Length of the string at full steadiness.
 const LONGEST_STRING_PX: f64 = 120.0;
@@ -65,9 +65,9 @@ pub enum Faces {
 /// One step of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathPoint {
-    /// Where it shows in the view that it was drawn in, pixels.
+    /// Its place in the view in which it was drawn, pixels.
     pub at_px: DVec2,
-    /// Where it lies, in the object's own space.
+    /// Its position on the surface, in the object's own space.
     pub position: DVec3,
     /// Normal of the surface there, unit.
     pub normal: DVec3,
@@ -197,13 +197,13 @@ impl SurfacePath {
         self.lifted
     }
 
-    /// The pieces so far, each of steps on the surface.
+    /// The pieces so far. Each is a list of steps on the surface.
     pub fn pieces(&self) -> &[Vec<PathPoint>] {
         &self.pieces
     }
 
-    /// The pointer moved. `pick` finds the surface under a pixel, and nothing where the gesture may not go (another
-    /// region).
+    /// The pointer moved. `pick` finds the surface under a pixel, and returns `None` where the gesture may not go
+    /// (another region).
     pub fn move_to(&mut self, at_px: DVec2, pick: &mut dyn FnMut(DVec2) -> Option<Hit>) {
         if at_px.is_finite() {
             let press_px = self.pieces[0][0].at_px;
@@ -379,8 +379,8 @@ impl SurfacePath {
         takes_part.then(|| PathPoint::new(at_px, &hit, pressure))
     }
 
-    /// Whether the surface is connected between two steps, and does not jump from a fold to what lies behind. Bisects
-    /// the step: on a connected surface the distance between its ends shrinks, across a gap it does not.
+    /// Whether the surface is connected between two steps, and does not jump from a fold to the surface behind it.
+    /// Bisects the step: on a connected surface the distance between its ends shrinks, across a gap it does not.
     fn is_connected(
         &self,
         mut from: PathPoint,

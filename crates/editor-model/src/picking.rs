@@ -17,7 +17,7 @@ use surface::SurfaceTree;
 pub use surface::SurfacePoint;
 pub use view::{Ray, View};
 
-/// Finds surfaces under rays. Has a tree per object, rebuilt when its surface changes.
+/// Finds the surfaces that rays hit. Has a tree per object, rebuilt when the object's surface changes.
 #[derive(Clone, Default)]
 pub struct Picker {
     /// One per object, in the order of the scene.
@@ -37,8 +37,8 @@ pub struct Hit {
     pub barycentric: [f64; 3],
     /// The point of the surface at rest, in the object's own space.
     pub position_in_model: DVec3,
-    /// Smooth normal of the painted side, unit. A sheet is painted on both sides: there, the normal of the side that
-    /// was met.
+    /// Smooth normal of the painted side, unit. A sheet is painted on both sides: its normal is that of the side that
+    /// the ray met.
     pub normal_in_model: DVec3,
     /// Normal of the flat triangle on the same side, unit.
     pub face_normal_in_model: DVec3,
@@ -63,7 +63,7 @@ impl Picker {
             .iter()
             .enumerate()
             .map(|(index, (surface, shape))| {
-                // The tree of the same index is tried first, then all: an added or removed object shifts the others.
+                // The tree of the same index is tried first, then all: an added or removed object shifts later indices.
                 let all = kept.get(index).into_iter().chain(&kept).chain(&offered);
                 let known = all.into_iter().find(|tree| tree.is_of(surface, shape));
                 known.map_or_else(
@@ -183,7 +183,8 @@ impl Picker {
     }
 }
 
-/// How many world units a unit of an object's own space is long; poses scale evenly.
+/// How many world units a unit of an object's own space is long. For a pose that scales unevenly, this is the cube root
+/// of the factor on volumes.
 pub fn world_units_per_model_unit(world_from_model: DAffine3) -> f64 {
     let axes: DMat3 = world_from_model.matrix3;
     axes.determinant().abs().cbrt()
@@ -216,7 +217,7 @@ impl Hit {
         }
     }
 
-    /// How many pixels a unit of the object's own space takes at this hit, across the gaze.
+    /// How many pixels a unit of the object's own space takes at this hit, perpendicular to the gaze.
     pub fn px_per_model_unit(&self, view: &View, poses: &[DAffine3]) -> f64 {
         let scale = poses.get(self.object).map_or(1.0, |&pose| world_units_per_model_unit(pose));
         view.px_per_unit(self.position_in_world) * scale

@@ -27,7 +27,7 @@ const ROUNDING: f64 = 1e-6;
 /// Whether playback follows the clock or shows every frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Pacing {
-    /// The frame that the clock asks for; what cannot be drawn in time is dropped.
+    /// The frame that the clock asks for; frames that cannot be drawn in time are dropped.
     #[default]
     RealTime,
     /// All frames, however long they take.

@@ -96,7 +96,7 @@ impl Recovery {
     /// to the disk.
     pub fn take_over(&self, offer: Offer) -> io::Result<()> {
         fs::rename(&offer.file, self.file())?;
-        // A lock file without a copy means nothing. If it cannot be removed now, the next call of `offers` removes it.
+        // A lock file without a copy has no effect. If it cannot be removed now, the next call of `offers` removes it.
         let _ = fs::remove_file(&offer.lock_file);
         // The rename is safe only once the folder itself is written to the disk.
         if cfg!(unix) { File::open(&self.folder)?.sync_all() } else { Ok(()) }
@@ -114,7 +114,7 @@ impl Recovery {
         for file in files.iter().filter(|file| has_ending(file, COPY)) {
             let lock_file = file.with_extension(LOCK);
             let Some(lock) = lock_of(&lock_file) else { continue };
-            // What cannot be read is left for people to look at.
+            // A copy that cannot be read stays, so that people can look at it.
             let Some(copy) = Copy::read(file) else { continue };
             offers.push(Offer { copy, file: file.clone(), lock_file, _lock: lock });
         }
@@ -168,7 +168,7 @@ fn lock_of(lock_file: &Path) -> Option<File> {
     match lock.try_lock() {
         Ok(()) => Some(lock),
         Err(TryLockError::WouldBlock) => None,
-        // A file system without locks: better offer a copy too often than lose it.
+        // The file system has no locks. It is better to offer a copy too often than to lose it.
         Err(TryLockError::Error(_)) => Some(lock),
     }
 }

@@ -110,7 +110,7 @@ pub struct Fault {
     pub words: String,
 }
 
-/// What will be rendered, of the document as it was when the plan was made.
+/// What will be rendered. Holds the document as it was when the plan was made.
 #[derive(Clone, Debug)]
 pub struct RenderPlan {
     /// The scene with its files.
@@ -174,7 +174,7 @@ impl RenderSettings {
         }
     }
 
-    /// The document as it is now, with everything that is needed to render it.
+    /// The plan for rendering the document as it is now.
     ///
     /// # Errors
     /// The fault of the first field that has one.
@@ -193,7 +193,7 @@ impl RenderSettings {
             let words = "this kind of movie holds no transparency: let the name end in .mov or .webm";
             return Err(fault(Field::Output)(words.to_owned()));
         }
-        // A movie is one file, whatever stands in its name.
+        // A movie is one file, whatever its name contains.
         let count = if kind == FileKind::Movie { 1 } else { frames.count() };
         let pattern = Pattern::parse(&output.to_string_lossy(), count);
         Ok(RenderPlan {

@@ -108,7 +108,7 @@ pub enum FillKind {
     /// Chosen from the shape of the surface, as `Auto` in a scene file.
     #[default]
     Automatic,
-    /// Along the least bend of the surface.
+    /// Along the direction in which the surface curves least.
     Curvature,
     /// Up the surface.
     Up,
@@ -163,7 +163,7 @@ pub enum Pressure {
 pub struct ToolOptions {
     /// Radius of the ring, logical pixels (points) of the screen.
     pub radius_px: f64,
-    /// How far strokes follow, 0..=1.
+    /// How far strokes follow the drag, 0..=1.
     pub strength: f64,
     /// Whether strokes run against the drag.
     pub against: bool,
@@ -232,7 +232,7 @@ pub struct Session {
     pub options: ToolOptions,
     /// How the picture is drawn.
     pub shading: Shading,
-    /// What is drawn over it.
+    /// What is drawn over the picture.
     pub overlays: Overlays,
     /// Whether the reference and this frame are shown side by side.
     pub compare: bool,

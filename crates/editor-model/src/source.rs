@@ -68,7 +68,7 @@ impl Source {
         })
     }
 
-    /// A hash of which parts could not be read, to tell whether they are the same again. Where the file lies does not
+    /// A hash of which parts could not be read, to tell whether they are the same again. The file's path does not
     /// matter.
     pub(crate) fn losses_hash(&self) -> u64 {
         let parts = self.losses.iter().map(|Loss { problem, mesh, .. }| {

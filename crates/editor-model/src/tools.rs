@@ -57,7 +57,7 @@ pub struct Surroundings<'a> {
     pub options: &'a ToolOptions,
     /// What is selected.
     pub selection: &'a Selection,
-    /// Questions to the painting.
+    /// Answers questions about the painting.
     pub painted: &'a dyn Painted,
 }
 
@@ -79,7 +79,7 @@ pub trait Painted {
 /// How strokes show at a point of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PaintedDirection {
-    /// Counter-clockwise from the picture's +X in the view that is looked at, radians.
+    /// Angle in the current view, counter-clockwise from the picture's +X, radians.
     pub angle_rad: f64,
     /// The trust: how well a rotation describes the change of the picture since the reference, 0..=1.
     pub trust: f64,

@@ -82,7 +82,7 @@ pub enum TransformEvent {
     Typed(char),
     /// Removes the last typed character.
     Backspace,
-    /// Keeps the result: Enter, a press or, if a handle of the gizmo is dragged, its release.
+    /// Keeps the result: Enter, a press or, if a press began the transform, the release of the button.
     Keep,
     /// Cancels the transform: Esc, a right press, or the loss of the window's focus.
     Back,
@@ -361,8 +361,8 @@ impl Transforming {
         if self.snap == Snap::Steps { (by / STEP).round() * STEP } else { by }
     }
 
-    /// Of all points of an axis through the pivot, finds the one that shows nearest to a pixel; returns how far it lies
-    /// from the pivot. 0 if the axis points at the eye, or the pivot does not show.
+    /// Of all points of an axis through the pivot, finds the one that appears nearest to a pixel. Returns its position
+    /// along the axis, in world units from the pivot. 0 if the axis points at the eye, or the pivot has no projection.
     fn along_axis(&self, at_px: DVec2, along: DVec3) -> f64 {
         let [jx, jy] = self.view.map(DAffine3::IDENTITY).jacobian(self.pivot());
         let shown = DVec2::new(jx.dot(along), -jy.dot(along));
@@ -395,7 +395,7 @@ impl Transforming {
             Lens::Perspective { .. } => self.view.camera.eye - self.pivot(),
             Lens::Orthographic { .. } => -self.view.axes()[2],
         };
-        // Turns about an axis that points away from the eye show the other way round.
+        // A turn about an axis that points away from the eye appears reversed on the screen.
         let away = (self.world_from_space() * self.turn_axis()).dot(towards_eye) < 0.0;
         let angle_rad = if away { -self.gone_round_rad } else { self.gone_round_rad };
         if self.snap == Snap::Steps {
@@ -424,7 +424,7 @@ impl TransformDelta {
     }
 
     /// Where each point of the world goes, with turns and scalings about a pivot. The columns of `world_from_space` are
-    /// the axes of the delta. Poses cannot hold non-uniform factors: `Arrange::Stretch` is for those.
+    /// the axes of the delta. Commands on poses take one factor for all axes: uneven ones are for `Arrange::Stretch`.
     pub fn world_from_world(&self, pivot: DVec3, world_from_space: DMat3) -> DAffine3 {
         let about_pivot = |linear: DMat3| DAffine3::from_mat3_translation(linear, pivot - linear * pivot);
         match *self {

@@ -36,7 +36,7 @@ struct Board {
     paths: Vec<PathBuf>,
     /// Indices, the most urgent first.
     wanted: Vec<usize>,
-    /// The size of the area that pictures are shown in. Larger ones are reduced, to no less than they are shown at.
+    /// The size of the area that pictures are shown in. Larger pictures are reduced, but not below the size shown.
     size_px: [usize; 2],
     read: BTreeMap<usize, Result<Arc<ColorImage>, String>>,
     /// Frames whose pictures were dropped to make room for others. They are not read again until other frames or
@@ -133,7 +133,7 @@ impl Board {
         self.read.values().flatten().map(|picture| bytes_of(picture)).sum()
     }
 
-    /// Lets frames go until all fit: first those that nobody wants, then the least urgent.
+    /// Drops pictures until the rest fit: first those of frames that are not wanted, then the least urgent.
     fn make_room(&mut self) {
         while self.bytes() > self.most_bytes {
             let urgency = |index: &usize| {

@@ -1,4 +1,4 @@
-//! Icons by what they mean. The glyphs are Material Symbols Rounded.
+//! Icons, named by what they mean. The glyphs are Material Symbols Rounded.
 
 use egui_material_icons::icons as glyphs;
 

@@ -21,7 +21,7 @@ use crate::rendering::open_renderer;
 #[cfg(test)]
 mod tests;
 
-/// The longest sides of a picture, in pixels.
+/// The greatest width and height of a picture, in pixels.
 const MOST_PX: [u32; 2] = [288, 162];
 
 /// Strokes are this much larger than in the scene's picture, so that they can be told apart in a small one.

@@ -312,7 +312,7 @@ fn film(
     fault.map_or(Ok(Outcome::Done), |fault| Err(format!("The movie is written, but {fault}")))
 }
 
-/// The files of each frame, and its pixels, of which the window shows a small copy.
+/// What to make of each frame: its files, and its pixels for the small copy in the window.
 fn wanted(plan: &RenderPlan) -> Wanted {
     let png = match plan.kind {
         FileKind::Png8 | FileKind::PngAndExr => Some(PngDepth::Eight),

@@ -192,7 +192,7 @@ impl Worker {
         self.mailbox.stop_preparing();
     }
 
-    /// The reports since the last call: the newest of each kind, for pictures the newest of each view, and several
+    /// The reports since the last call: the newest of each kind, but the newest picture of each view, and the first few
     /// failures.
     pub fn poll(&self) -> Vec<Report> {
         self.mailbox.collect()

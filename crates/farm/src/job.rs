@@ -68,7 +68,7 @@ impl Frames {
             while end < all.len() && all[end].wrapping_sub(all[end - 1]) == step {
                 end += 1;
             }
-            // Two frames that are no neighbours make no run, so that the second may begin one.
+            // Two frames that are not neighbours do not form a run, so that the second may begin one.
             if end - at == 2 && step != 1 {
                 end = at + 1;
             }

@@ -164,7 +164,7 @@ pub fn pack(loaded: &LoadedScene, to: &Path) -> Result<PackList, PackError> {
 /// Compares a folder with the list in it.
 ///
 /// # Errors
-/// No list that can be read, another version of the program, or files that are not as they were packed.
+/// The folder has no list that can be read, another version of the program packed it, or files differ from the list.
 pub fn check(folder: &Path) -> Result<PackList, PackError> {
     if folder.is_file() {
         return Err(PackError::NoPack(folder.to_owned()));

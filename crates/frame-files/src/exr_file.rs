@@ -20,9 +20,9 @@ use crate::picture_file::Provenance;
 /// The values of a channel, row by row from the top.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Samples {
-    /// 16 bits, for colours and for what needs no more.
+    /// 16-bit floats, for colours and for values that need no more precision.
     Half(Vec<f16>),
-    /// 32 bits, for measured values such as depth.
+    /// 32-bit floats, for measured values such as depth.
     Float(Vec<f32>),
     /// Whole numbers.
     Uint(Vec<u32>),
@@ -91,7 +91,7 @@ const REC_709: Chromaticities = Chromaticities {
     white: Vec2(0.3127, 0.3290),
 };
 
-/// How small a file is made.
+/// Whether a file is compressed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Packing {
     /// Compressed (ZIP, 16 rows at a time).

@@ -41,7 +41,7 @@ pub(crate) fn sort_attributes(bytes: &mut [u8]) {
     bytes[FIRST..end - 1].copy_from_slice(&sorted);
 }
 
-/// Whether a file is an EXR file with all its rows, as far as its table tells; a file that was cut is not.
+/// Whether a file is an EXR file with all its rows, as far as its table tells; a truncated file is not.
 pub(crate) fn is_whole(path: &Path) -> bool {
     ends_with_its_last_block(path).unwrap_or(false)
 }

@@ -3,7 +3,7 @@
 /// The most frames that one command renders.
 const MAX_FRAMES: u64 = 1_000_000;
 
-/// Frame numbers in the order in which they were listed. They are kept as ranges, so a long list takes little memory.
+/// Frame numbers in the order in which they were listed. They are stored as ranges, so a long list takes little memory.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FrameList {
     ranges: Vec<Range>,

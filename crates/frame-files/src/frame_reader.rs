@@ -1,4 +1,5 @@
-//! Reads frames from PNG files, whoever wrote them. Memory is taken only for pixels that a file can hold.
+//! Reads frames from PNG files, whoever wrote them. Memory is taken only for as many pixels as a file of that length
+//! can hold.
 
 use std::fs::File;
 use std::io::BufReader;

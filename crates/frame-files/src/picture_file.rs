@@ -103,7 +103,7 @@ pub fn begin_animation<'a>(
 ) -> anyhow::Result<png::Writer<&'a mut dyn Write>> {
     let mut encoder = encoder(file, size_px, provenance)?;
     encoder.set_animated(pictures, 0)?;
-    // Both numbers of the fraction have 16 bits in the file.
+    // In the file, each number of the fraction has 16 bits.
     let delay_s = match fraction(fps).map(u16::try_from) {
         [Ok(over), Ok(under)] => [under, over],
         _ => [(1000.0 / fps).round().clamp(1.0, 65535.0) as u16, 1000],

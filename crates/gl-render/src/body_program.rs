@@ -84,8 +84,8 @@ impl BodyProgram {
         Ok(())
     }
 
-    /// Starts to draw a part of a body: sets the uniforms of `shared/body.glsl` and `shared/cutout.glsl`. Unless
-    /// [`BodyProgram::prepare`] was called for its frame, no holes are cut.
+    /// Starts to draw a part of a body: sets the uniforms of `shared/body.glsl` and `shared/cutout.glsl`. Holes are
+    /// only sure to be cut if [`BodyProgram::prepare`] was called for the frame.
     pub(crate) fn bind<'a>(&'a self, body: &FrameBody, part: &Part) -> Bound<'a> {
         let usual = || self.variants[0].as_ref().expect("the usual variant is always made");
         let wanted = self.variants[usize::from(part.cutoff.is_some())].as_ref();

@@ -16,7 +16,7 @@ pub(crate) struct Painted {
 }
 
 impl Painted {
-    /// The same target where it has this size already, else a new one.
+    /// `before` if it has this size already, else a new target.
     fn of_size(gpu: &Gpu, before: Option<Self>, size_px: [u32; 2]) -> Result<Self, GlError> {
         match before {
             Some(painted) if painted.pass.size_px() == size_px => Ok(painted),

@@ -39,10 +39,10 @@ impl Keeps {
     /// each axis.
     pub fn bytes_per_px(self, style: &Style, samples: u32) -> u64 {
         let fine = if samples > 1 { u64::from(samples * samples) * 12 } else { 0 };
-        // The colours of samples are not drawn for a huge picture.
+        // Counted only in `Everything`: for a huge picture, the colours of samples are not drawn.
         let colors = if samples > 1 { u64::from(samples * samples) * 4 } else { 0 };
-        // Bytes of the target that is found from the samples: depth and body in the middle of each pixel, and the share
-        // of the pixel that shows something else.
+        // Bytes of the target that is computed from the samples: depth and body at the middle of each pixel, and the
+        // share of the pixel that shows something else.
         let surface = if samples > 1 { 8 } else { 0 };
         // The ink style reads the unlit targets of the reference pass.
         let (paint, reads_unlit) = match style {
@@ -62,7 +62,7 @@ impl Keeps {
         drawn + else_taken
     }
 
-    /// Whether a target is let go as soon as no later pass reads it.
+    /// Whether a target is freed as soon as no later pass reads it.
     pub(crate) fn lets_go(self) -> bool {
         self != Self::Everything
     }

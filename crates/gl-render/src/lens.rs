@@ -20,7 +20,8 @@ pub(crate) const VIEW_LENS_UNIFORMS: [&str; 4] = ["size_px", "gaze_px", "px_per_
 pub(crate) struct LensSetup {
     world_from_view: Mat4,
     size_px: Vec2,
-    /// Where the gaze meets the picture, pixels from its lower left corner: its middle, unless the lens is shifted.
+    /// Where the gaze meets the picture, in pixels from the lower left corner: the picture's middle, unless the lens is
+    /// shifted.
     gaze_px: Vec2,
     /// Pixels per world unit at a depth of 1.
     pub(crate) px_per_unit_at_1: f32,

@@ -67,7 +67,7 @@ impl Part {
 
 /// All surfaces on the GPU.
 pub(crate) struct MeshCache {
-    /// By the address of the surface; the weak pointer keeps the address from being used again.
+    /// Keyed by the address of the surface; the weak pointer keeps the address from being used again.
     entries: HashMap<*const BodySurface, (Weak<BodySurface>, Rc<MeshOnGpu>)>,
     bent: Vec<BentOnGpu>,
     white: Rc<Texture>,

@@ -20,8 +20,8 @@ pub struct MotionPixels {
     /// From a pixel's centre to where the same surface point projects in the other picture: columns to the right, rows
     /// **down**. 0 where no body shows, or where the point is behind the other camera's eye.
     pub offset_px: Vec<[f32; 2]>,
-    /// Depth of that point along the other camera's gaze, world units; 0 where no body shows, or where the point is behind the
-    /// other camera's eye.
+    /// Depth of that point along the other camera's gaze, in world units; 0 where no body shows, or where the point is
+    /// behind the other camera's eye.
     pub depth_then: Vec<f32>,
     /// Index of the body plus 1; 0 where nothing is.
     pub body_id: Vec<u32>,
@@ -48,8 +48,8 @@ impl MotionPass {
         self.program.ready_all()
     }
 
-    /// Draws the bodies of `now`, and finds where they are in `then`. Bodies are matched by
-    /// index, so both frames must have them in the same order. If `then` has fewer, the rest count as not moved.
+    /// Draws the bodies of `now`, and finds where they are in `then`. Bodies are matched by index, so both frames must
+    /// have them in the same order. If `then` has fewer, the rest count as not moved.
     pub(crate) fn draw(
         &mut self,
         reference: &mut ReferencePass,

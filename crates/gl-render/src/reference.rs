@@ -157,9 +157,9 @@ impl ReferencePass {
         }
     }
 
-    /// Draws the light on the surfaces of the last picture, apart from their colours. Returns two lists, bottom row
-    /// first. The first is the light that arrives; its last channel is the share of the shadow-casting light that
-    /// arrives. The second is how open each place is.
+    /// Draws the light on the surfaces of the last picture, without their colours. Returns two lists, bottom row first.
+    /// The first is the light that arrives; its last channel is the share of the shadow-casting light that arrives. The
+    /// second is how open each place is.
     pub(crate) fn draw_light_parts(
         &mut self,
         frame: &Frame,
@@ -213,7 +213,7 @@ impl ReferencePass {
         Ok(())
     }
 
-    /// The map of shadows, as it was drawn last.
+    /// The shadow map, as it was drawn last.
     pub(crate) fn shadow(&self) -> &ShadowMap {
         &self.shadow
     }
@@ -246,8 +246,8 @@ impl ReferencePass {
             if !is_drawn_here(body) {
                 continue;
             }
-            // A draft draws only the triangles that face the eye, which are found on the mesh as it is stored. That
-            // would be wrong for an eye inside the body, and where the body is not at rest.
+            // A draft draws only the triangles that face the eye. They are found on the mesh at rest, so all triangles
+            // of a bent body are drawn. So are all of a body that the eye may be inside: it sees their backs.
             let front = match frame.quality {
                 Quality::Draft if body.bent.is_none() => {
                     let eye = body.world_from_model.inverse() * eye;

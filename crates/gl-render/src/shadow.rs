@@ -27,7 +27,8 @@ pub(crate) struct ShadowMap {
 
 /// What a shadow map is drawn from.
 struct Casters {
-    /// Surface, pose and shape of every body. The weak pointers keep addresses from being used again.
+    /// Surface, pose and shape of every body that casts a shadow. The weak pointers keep addresses from being used
+    /// again.
     bodies: Vec<(Weak<BodySurface>, Mat4, Option<Weak<Bent>>)>,
     shadow_from_world: Mat4,
 }

@@ -31,8 +31,8 @@ pub(crate) struct StyleInput<'a> {
 
 /// Draws frames in one style.
 pub(crate) trait StyleRenderer {
-    /// Runs the style's passes. The last one writes the picture into `output`: display-linear, straight alpha. Where
-    /// `input` says that not everything is kept, targets are let go as soon as they have served.
+    /// Runs the style's passes. The last one writes the picture into `output`: display-linear, straight alpha. If
+    /// `input.keeps` is not everything, each target is freed after its last use.
     fn draw(
         &mut self,
         input: &StyleInput<'_>,

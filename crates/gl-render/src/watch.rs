@@ -1,5 +1,5 @@
-//! Watches the drawing of a picture: after each pass, or part of one, notes how long it took, and asks whether the picture is
-//! still wanted.
+//! Watches the drawing of a picture: after each pass, or part of one, notes how long it took, and asks whether the
+//! picture is still wanted.
 
 use crate::gl::{Gpu, Halt};
 

@@ -126,7 +126,7 @@ pub(crate) struct Run {
     pub stride: usize,
 }
 
-/// Elements that differ from the rest.
+/// Elements that replace elements of the accessor's run.
 #[derive(Clone, Debug)]
 pub(crate) struct Sparse {
     pub count: usize,
@@ -147,7 +147,7 @@ pub(crate) struct Accessor {
     /// Why it cannot be read, if the bytes of one of its views are compressed or not in the file.
     pub is_absent: Option<&'static str>,
     pub sparse: Option<Sparse>,
-    /// Least and greatest of each number as stated.
+    /// Least and greatest value of each number of an element, as the file states them.
     pub min: Option<Vec<f64>>,
     pub max: Option<Vec<f64>>,
 }

@@ -25,7 +25,7 @@ impl Animation {
 pub struct Track {
     /// What it drives.
     pub target: Target,
-    /// Which of the animation's channels it is.
+    /// Index of its channel in the file's list of the animation's channels.
     pub channel: usize,
     /// Times of the keys, seconds: finite, increasing, at least one.
     pub times_s: Arc<Vec<f32>>,

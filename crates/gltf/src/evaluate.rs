@@ -240,7 +240,7 @@ impl Animator {
 }
 
 /// The lists of key times, each once: exporters write one for each track, and nearly all are equal. So a time's place
-/// among the keys is looked for once, and not for every track.
+/// among the keys is looked for once per list, not once per track.
 #[derive(Default)]
 struct Clocks {
     list: Vec<Arc<Vec<f32>>>,

@@ -93,7 +93,7 @@ impl UvTransform {
     }
 }
 
-/// A picture and how it goes on beyond its border.
+/// A picture, and how it is sampled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
     /// The name in the file; empty for none.

@@ -1,5 +1,5 @@
-//! Reads a file from the outside in: container, JSON, buffers, accessors, then what stands on them. Each step needs
-//! those before it, so a step that finds errors is the last.
+//! Reads a file from the outside in: container, JSON, buffers, accessors, then all that is built from them. Each step
+//! needs the results of earlier steps, so reading stops after a step that finds errors.
 
 use crate::bytes::Bytes;
 use crate::cursor::Cursor;

@@ -42,7 +42,7 @@ pub(crate) struct Source<'o> {
     open: &'o mut Open<'o>,
     opened: HashMap<String, Bytes>,
     opened_bytes: u64,
-    /// What may still be taken in memory.
+    /// Bytes of memory that may still be taken.
     spare_bytes: u64,
     pub views: Vec<View>,
 }

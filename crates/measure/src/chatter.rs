@@ -21,7 +21,7 @@ pub struct Place {
     pub at_px: [f64; 2],
     /// The stroke; `None` where a pixel was found.
     pub stroke: Option<StrokeKey>,
-    /// How much was found there.
+    /// How large it was: a reversal of luma (0..1), a step of alpha, or a second difference of luma (levels of 255).
     pub amount: f64,
 }
 

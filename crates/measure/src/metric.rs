@@ -28,8 +28,8 @@ pub enum Metric {
     M9,
     /// Angular jitter.
     M10,
-    /// Authoring: saving and scrubbing leave the strokes as they are, a higher density keeps their directions, and strokes
-    /// on a guide lie as drawn.
+    /// Authoring: saving and scrubbing leave the strokes as they are, a higher density keeps their directions, and
+    /// strokes on a guide lie as drawn.
     M11,
     /// Speed.
     M12,

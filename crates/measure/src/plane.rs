@@ -174,7 +174,7 @@ impl Taps {
         self.indices.iter().zip(self.weights).map(|(&index, weight)| value(index) * weight).sum()
     }
 
-    /// Whether `holds` is true for every one of the pixels that has a weight.
+    /// Whether `holds` is true for every pixel with a weight above 0.
     pub(crate) fn all(&self, holds: impl Fn(usize) -> bool) -> bool {
         self.indices.iter().zip(self.weights).all(|(&index, weight)| weight <= 0.0 || holds(index))
     }

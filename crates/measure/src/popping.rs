@@ -14,8 +14,8 @@ const QUAD: f64 = 1.0 / impasto_core::brush::FILL as f64;
 /// What popped from one frame to the next.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Popping {
-    /// Area of the strokes whose alpha stepped by more than 0.2, over the area shown
-    /// before: Σ a·\[|Δα| > 0.2\] / Σ a·α.
+    /// Area of the strokes whose alpha stepped by more than 0.2, over the area shown before:
+    /// Σ a·\[|Δα| > 0.2\] / Σ a·α.
     pub share: f64,
     /// The largest step of alpha.
     pub largest_step: f64,
@@ -37,8 +37,8 @@ pub fn popping(before: &StrokesByKey, after: &StrokesByKey, size_px: [u32; 2]) -
         after.iter().filter(|(key, _)| !before.contains_key(*key)).map(|(key, now)| (key, None, Some(now)));
     let others = before.iter().map(|(key, then)| (key, Some(then), after.get(key)));
     for (key, then, now) in others.chain(only_after) {
-        // A stroke that is in one frame only may have crossed the border. It moved no farther, we assume, than the
-        // fastest stroke that is in both.
+        // A stroke that is in one frame only may have crossed the border. We assume that it moved no farther than the
+        // fastest stroke that is in both frames.
         let margin_px = if then.is_some() && now.is_some() { 0.0 } else { carried_px };
         if [then, now].into_iter().flatten().any(|stroke| touches_border(stroke, margin_px, size_px)) {
             continue;

@@ -14,7 +14,8 @@ use crate::strokes::{MeasuredStroke, StrokeKey, StrokesByKey};
 /// stroke.
 const STEP: f64 = 0.35;
 
-/// A surface hides a stroke if it is nearer than the stroke's nearest end by more than this share of its depth.
+/// A surface hides a stroke if it is nearer than the stroke's nearest end by more than this share of the depth of the
+/// stroke.
 const NEARER: f64 = 0.01;
 
 /// A smaller cosine between the normal of a stroke's surface and the direction to the eye counts as this one.
@@ -30,7 +31,7 @@ pub struct Shown<'a> {
     pub strokes: &'a StrokesByKey,
     /// Body and depth of every pixel.
     pub reference: &'a ReferencePixels,
-    /// World units that a pixel spans at depth 1; 0 with parallel rays, where slant is not allowed for.
+    /// World units that a pixel spans at depth 1; 0 with parallel rays, so that slant is ignored there.
     pub units_per_px_at_1: f64,
 }
 

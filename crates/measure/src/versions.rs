@@ -12,8 +12,8 @@ use impasto_scene::presets::{LayerKind, PAPER_PRESET};
 use crate::cameras;
 
 /// A version of a scene. In all but the first, boil is off, because its changes are intended and must not count as
-/// errors. The picture is then also on a *board*, a smooth canvas: the texture of other canvases stands still on the
-/// picture by design, which would disturb measurements.
+/// errors, and the picture is on a *board*, a smooth canvas. The texture of other canvases stands still on the picture
+/// by design, which would disturb measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum SceneVersion {
     /// The scene as it is.
@@ -223,8 +223,8 @@ fn flat(scene: &mut Scene) {
     }
 }
 
-/// Objects that would hide the target from a camera that goes round it, as walls and other backdrops do. Only objects
-/// count that are large compared with the camera's distance and have no children.
+/// Objects that would hide the target from a camera that goes round it, as walls and other backdrops do. An object
+/// counts only if it is large compared with the camera's distance and has no children.
 pub fn orbit_blockers(loaded: &LoadedScene) -> Vec<usize> {
     let scene = &loaded.scene;
     let (camera, frame) = motion::referred_to(scene, &scene.reference);

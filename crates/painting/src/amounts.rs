@@ -11,20 +11,20 @@ use glam::{DVec3, IVec3, Vec3};
 use impasto_core::presence::smoothstep;
 use impasto_scene::document::{Amount, AmountDab, Scene};
 
-/// From this cosine between the two normals on, a dab has its whole strength.
+/// A dab has its full strength where the cosine between the two normals is at least this.
 const WHOLLY_FACING: f32 = 0.5;
 
 /// The factor on the number of particles is rounded up to one of these. There are few of them, so that particles are
-/// seldom sampled anew while the user drags a dab.
+/// seldom sampled again while the user drags a dab.
 const COUNT_STEPS: [f32; 13] = [1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0, 48.0, 64.0];
 
-/// What is painted onto one body.
+/// The amounts painted onto one body.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct BodyAmounts {
     of_rule: Vec<RuleAmounts>,
 }
 
-/// What is painted onto the strokes of one rule, in the order of [`Amount::ALL`].
+/// The amounts painted onto the strokes of one rule, in the order of [`Amount::ALL`].
 #[derive(Clone, Debug, PartialEq)]
 struct RuleAmounts {
     rule: u16,
@@ -48,7 +48,7 @@ struct PlacedDab {
 }
 
 impl BodyAmounts {
-    /// What a scene states for an object.
+    /// The amounts that a scene states for an object.
     pub(crate) fn new(scene: &Scene, object: &str) -> Self {
         let mut all = Self::default();
         for (rule, region) in scene.regions.iter().enumerate() {
@@ -76,7 +76,7 @@ impl BodyAmounts {
         painted.map_or(1.0, |painted| painted.at(of, position, normal))
     }
 
-    /// What is painted onto the size and the number of strokes at a point of the surface that belongs to a rule.
+    /// The factors painted onto the size and the number of strokes at a point of the surface that belongs to a rule.
     pub(crate) fn painted(&self, rule: u16, position: Vec3, normal: Vec3) -> Painted {
         let painted = self.of_rule.iter().find(|painted| painted.rule == rule);
         painted.map_or(Painted::NOTHING, |painted| painted.painted(position, normal))
@@ -87,7 +87,7 @@ impl BodyAmounts {
         self.of_rule.iter().map(|painted| painted.rule)
     }
 
-    /// Whether any of these is painted.
+    /// Whether any of these amounts is painted.
     pub(crate) fn has(&self, any: &[Amount]) -> bool {
         self.of_rule.iter().any(|painted| any.iter().any(|&of| !painted.of(of).dabs.is_empty()))
     }
@@ -101,7 +101,7 @@ impl BodyAmounts {
         of(self) == of(other)
     }
 
-    /// How many times as many particles are needed, because of what is painted.
+    /// The factor, at least 1, by which painted amounts raise the number of particles needed: one of [`COUNT_STEPS`].
     pub(crate) fn more_wanted(&self) -> f32 {
         let most = self.of_rule.iter().flat_map(|painted| {
             let sized = [Amount::Width, Amount::Length, Amount::Density];
@@ -185,7 +185,7 @@ impl PlacedDab {
     }
 }
 
-/// What is painted onto the size and the number of one particle's strokes, as factors.
+/// The factors painted onto the size and the number of one particle's strokes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Painted {
     pub(crate) length: f32,

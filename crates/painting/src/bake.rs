@@ -1,4 +1,5 @@
-//! Baking: where every particle is, and the lift of those that are seen, from references, base direction and jitter.
+//! Baking: places every particle. Finds the lift of each particle that is seen, from its references, base direction and
+//! jitter.
 
 use std::sync::Arc;
 
@@ -32,18 +33,18 @@ pub(crate) struct LiftSources {
 /// All that the lifts of a coat depend on.
 pub(crate) struct BakeInputs {
     pub(crate) sources: LiftSources,
-    /// What the traits are made from.
+    /// The inputs of the traits.
     pub(crate) trait_inputs: Arc<TraitInputs>,
-    /// What is painted onto the particles; only flatness matters here.
+    /// The painted amounts at the particles; only flatness matters here.
     pub(crate) amounts: Arc<CoatAmounts>,
     pub(crate) solver: Solver,
     /// The rules that particles of the body may have.
     pub(crate) used: Arc<Vec<u16>>,
-    /// What combs the directions; none if they are all stated outright.
+    /// The guides and the field that comb the directions; `None` if all directions are stated outright.
     pub(crate) combed: Option<Combed>,
 }
 
-/// What combs the directions of a body.
+/// The guides and the field that comb the directions of a body.
 #[derive(Clone)]
 pub(crate) struct Combed {
     pub(crate) inputs: Arc<FieldInputs>,
@@ -127,7 +128,7 @@ impl BakedBody {
 /// How many particles one task places.
 const CHUNK: usize = 1024;
 
-/// How many looks are found side by side.
+/// How many looks are found together.
 const BATCH: usize = traits::BATCH;
 
 impl BakeInputs {
@@ -296,7 +297,7 @@ impl LiftSources {
         })
     }
 
-    /// The lift of the tangent plane, without base angle: κ is measured with it, whatever the solver.
+    /// The lift of the tangent plane, without base angle: the trust κ is measured with it, whatever the solver.
     pub(crate) fn surface_lift(&self, index: usize, region: u16) -> Lift {
         self.views(index, self.point(index, region), false).bare_lift()
     }

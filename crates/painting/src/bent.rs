@@ -26,7 +26,7 @@ pub struct Bent {
 }
 
 impl Bent {
-    /// What carries places of the surface at rest to where they are now.
+    /// The carrier, which takes places of the surface at rest to where they are now.
     pub(crate) fn carrier(&self) -> &Carrier {
         made_once(&self.carrier, || {
             let positions = &self.vertices.positions;
@@ -118,7 +118,7 @@ impl BodySurface {
         Vertices { positions: self.mesh.positions.clone(), normals: self.mesh.normals.clone() }.into()
     }
 
-    /// Vertices whose normals turn as the surface round them does.
+    /// Vertices at these positions, with normals that turn as the surface round them does.
     fn with_own_normals(&self, positions: Vec<Vec3>) -> Strained {
         let gradients: Vec<Mat3> = self.gradients().at(&positions);
         let normals = self.gradients().normals(&self.mesh.normals, &gradients);
@@ -141,7 +141,7 @@ impl From<Vertices> for Strained {
 /// All bodies of a scene at one frame; `None` for those at rest.
 pub(crate) type BentBodies = Arc<Vec<Option<Arc<Bent>>>>;
 
-/// The bodies at the frames that were asked for last: several steps of one picture ask for the same frame.
+/// Remembers the bodies at the last few frames, because several steps of one picture ask for the same frame.
 #[derive(Default)]
 pub(crate) struct BentMemo(Mutex<VecDeque<Remembered>>);
 
@@ -160,7 +160,7 @@ const REMEMBERED: usize = 8;
 /// The memo itself holds the bodies of the newest frames: about this many bytes of them, and at least the last frame's.
 const KEPT_BYTES: usize = 16 << 20;
 
-/// Bytes of a vertex of a bent body, with what carries strokes.
+/// Bytes of a vertex of a bent body: its position and normal, and its share of the [`Carrier`].
 const VERTEX_BYTES: usize = size_of::<[Vec3; 2]>() + size_of::<[f32; 16]>();
 
 impl Remembered {
@@ -194,7 +194,8 @@ impl BentMemo {
             return bodies;
         }
         let shapes = shapes_at();
-        // A body that has the same shape at a remembered frame is reused, with all that was uploaded for it.
+        // A body that has the same shape at a remembered frame is reused, so what a renderer uploaded for it is reused
+        // too.
         let before: Vec<Option<Arc<Bent>>> = {
             let memo = self.lock();
             let of_shape = |(object, shape): (usize, &BodyShape)| {

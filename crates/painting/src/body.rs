@@ -15,7 +15,7 @@ pub struct BodySurface {
     pub mesh: TriangleMesh,
     /// For each triangle, the side that can be seen.
     pub sides: Vec<Side>,
-    /// What bends it.
+    /// The targets, joints and point cache that bend it.
     pub(crate) bending: BodyBend,
     /// Indexed by `mesh.material_of_triangle`.
     pub materials: Vec<BodyMaterial>,

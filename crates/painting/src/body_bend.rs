@@ -34,7 +34,7 @@ pub(crate) struct BodyCache {
 }
 
 impl BodyBend {
-    /// What bends the mesh of `file`. `morph` is a mesh of the same topology that it may morph into.
+    /// The bend of the mesh of `file`. `morph` is a mesh of the same topology that it may morph into.
     pub(crate) fn new(
         file: &MeshFile,
         morph: Option<&MeshFile>,
@@ -64,13 +64,14 @@ impl BodyBend {
         }
     }
 
-    /// The same with another shape as its rest. The gradients are made anew; a fault stays known.
+    /// The same bend with another shape as its rest. Its gradients are found anew when they are asked for; a fault is
+    /// carried over.
     pub(crate) fn resting(self, rest: BodyShape) -> Self {
         Self { bend: self.bend, cache: self.cache, fault: self.fault, rest, ..Self::default() }
     }
 }
 
-/// Brings a bend into model space: by its joints or, without joints, by its vertices and targets.
+/// Brings a bend into model space: transforms its joints or, if it has none, its vertices and targets.
 fn placed(mut bend: Bend, model_from_file: DMat3) -> Bend {
     if bend.skin.is_some() {
         let place = DAffine3::from_mat3(model_from_file);

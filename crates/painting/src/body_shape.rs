@@ -54,7 +54,7 @@ pub struct FrameNoise {
     pub noise: Arc<BodyNoise>,
     /// Where its vertices look their noise up.
     pub lookup: Lookup,
-    /// How far the layers have moved, speed multiplied in, in lengths of the texture; only the fraction.
+    /// How far the layers have moved, in lengths of the texture, without whole lengths. Speed is multiplied in.
     pub travelled: Vec2,
 }
 
@@ -71,7 +71,7 @@ impl PartialEq for FrameNoise {
 /// The shape of a surface at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BodyShape {
-    /// How far targets and joints have moved, model space; `None` if they rest as in the mesh file.
+    /// The weights of targets and the joints, model space; `None` if they are as in the mesh file.
     pub pose: Option<Arc<BendPose>>,
     /// The frame at which its point cache is read.
     pub cache_frame: Option<f64>,

@@ -5,13 +5,15 @@
 
 use impasto_core::hash;
 
-/// Standard deviation of the shift at full strength: along the stroke in its lengths, across it in its widths.
+/// Standard deviation of the shift at full strength: along the stroke, in stroke lengths, and across it, in stroke
+/// widths.
 const PLACE: [f32; 2] = [0.10, 0.22];
 /// Standard deviations of the logarithms of length and width at full strength.
 const SIZE: [f32; 2] = [0.16, 0.12];
 /// Standard deviation of the direction at full strength, radians.
 const ANGLE_RAD: f32 = 0.14;
-/// Standard deviation of what is added to the slow noise of colour at full strength, in that noise's own deviations.
+/// Standard deviation of what is added to the slow noise of colour at full strength, in standard deviations of that
+/// noise.
 const DRIFT: f32 = 1.6;
 
 /// How strokes are laid while one drawing holds.
@@ -25,7 +27,7 @@ pub(crate) struct Boil {
 /// How a stroke differs from the one that the scene states.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Boiled {
-    /// Shift of the centre along the stroke and across it, in its length and its width.
+    /// Shift of the centre: along the stroke, in stroke lengths, and across it, in stroke widths.
     pub(crate) shift: [f32; 2],
     /// Factors on length and width.
     pub(crate) size: [f32; 2],
@@ -42,7 +44,7 @@ impl Boil {
         Self { amount, drawing_bits: hash::scramble(drawing as u32) }
     }
 
-    /// The stroke of the particle with these random bits.
+    /// How the stroke of the particle with these random bits differs in this drawing.
     pub(crate) fn of(self, bits: u32) -> Boiled {
         let bits = hash::combine(bits, self.drawing_bits);
         let normal =

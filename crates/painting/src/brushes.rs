@@ -46,8 +46,8 @@ pub(crate) fn know(brushes: &Brushes) {
     }
 }
 
-/// Makes the built-in marks that have not been made yet, on all threads. It holds no lock while it works: two callers
-/// at once make the same marks, and those of one caller are kept.
+/// Makes the built-in marks that have not been made yet, on all threads. It holds no lock while it works. Two callers
+/// at once make the same marks; those of one caller stay, the others are dropped.
 fn make_built_in_marks(names: &[String]) {
     let missing: Vec<(usize, u32)> = names
         .iter()

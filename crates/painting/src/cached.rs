@@ -12,12 +12,12 @@ impl<Inputs, Output> Default for Cached<Inputs, Output> {
 }
 
 impl<Inputs, Output> Cached<Inputs, Output> {
-    /// What the output was computed from.
+    /// The inputs that the output was computed from.
     pub(crate) fn inputs(&self) -> Option<&Inputs> {
         self.entry.as_ref().map(|(inputs, _)| inputs)
     }
 
-    /// The output that is kept.
+    /// The cached output.
     pub(crate) fn output(&self) -> Option<&Output> {
         self.entry.as_ref().map(|(_, output)| output)
     }
@@ -29,8 +29,8 @@ impl<Inputs, Output> Cached<Inputs, Output> {
 }
 
 impl<Inputs: PartialEq, Output> Cached<Inputs, Output> {
-    /// The output for these inputs. If the kept inputs are equal, they stay, and so does their output. If not,
-    /// `compute` makes a new output from the new inputs and from what was kept before.
+    /// The output for these inputs. If the cached inputs are equal, inputs and output stay as they are. If not,
+    /// `compute` makes a new output from the new inputs and from what was cached before.
     pub(crate) fn update(
         &mut self,
         inputs: Inputs,
@@ -46,7 +46,7 @@ impl<Inputs: PartialEq, Output> Cached<Inputs, Output> {
     }
 
     /// As [`Cached::update`], for an output that must sometimes be resized although its inputs stay equal. So `compute`
-    /// always runs; it gets the kept output if the kept inputs are equal.
+    /// always runs; it gets the cached output if the cached inputs are equal.
     pub(crate) fn resize(
         &mut self,
         inputs: Inputs,

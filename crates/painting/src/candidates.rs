@@ -13,7 +13,7 @@ use crate::recall::Recall;
 use crate::stroke::Candidate;
 use crate::surface::HOLE;
 
-/// How many candidates are read before their strokes are computed.
+/// How many candidates are read before any of them is tested; also the fewest looks that a task is meant to find.
 const BATCH: usize = 64;
 
 /// How many particles one task takes.
@@ -53,7 +53,7 @@ impl PaintingView<'_> {
     pub(crate) fn strokes(&self) -> Strokes {
         let numbers = self.painting.order.numbers();
         let may_show: Vec<Vec<u64>> = self.coats.iter().map(|coat| self.may_show(coat)).collect();
-        // The numbers of particles run through all coats; each coat begins with a new word.
+        // Particles are numbered through all coats. The numbers of each coat begin with a new word of bits.
         let may_show = may_show.concat();
         let chunk = |(number, part): (usize, &[u32])| self.candidates(number * CHUNK, part, &may_show);
         let candidates: Vec<Vec<Candidate>> = numbers.par_chunks(CHUNK).enumerate().map(chunk).collect();
@@ -83,7 +83,7 @@ impl PaintingView<'_> {
     }
 
     /// A bit for each particle of a coat: whether it faces the eye and its stroke may be present in the picture, judged
-    /// by the widest bounds among its regions.
+    /// by the widest bounds among the coat's regions.
     fn may_show(&self, coat: &CoatView<'_>) -> Vec<u64> {
         let (mut most_reach_px, mut most_per_area) = (0.0f32, 0.0f32);
         for &rule in coat.coat.used.iter() {
@@ -102,7 +102,8 @@ impl PaintingView<'_> {
         coat.within(&bounds)
     }
 
-    /// Those particles among `numbers` whose strokes may show; `first` is the place of `numbers[0]` in the painting order.
+    /// Those particles among `numbers` whose strokes may show; `first` is the place of `numbers[0]` in the painting
+    /// order.
     fn candidates(&self, first: usize, numbers: &[u32], may_show: &[u64]) -> Vec<Candidate> {
         let shows = |offset: &usize| {
             let number = numbers[*offset] as usize;
@@ -125,7 +126,7 @@ impl PaintingView<'_> {
             for candidate in &mut batch {
                 candidate.look = self.looks(candidate.entry).known(candidate.entry.particle as usize);
             }
-            // To find a look takes longer than to judge more closely whether it is needed.
+            // Finding a look takes longer than testing more closely whether the look is needed.
             found.extend(
                 batch
                     .drain(..)

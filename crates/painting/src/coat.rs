@@ -137,11 +137,11 @@ pub(crate) struct Sampled {
     pub(crate) polygons: Option<Arc<PolygonCounts>>,
     /// How many particles the coat would have if it had those of its whole surface; at least 1.
     pub(crate) count_on_whole: usize,
-    /// Whether it has them.
+    /// Whether it has those of its whole surface.
     pub(crate) is_everywhere: bool,
 }
 
-/// What the particles of a coat depend on, except their number where they lie everywhere.
+/// The inputs that decide which particles a coat has. How many it has is not one of them, except with the paper's rule.
 #[derive(Clone, PartialEq)]
 pub(crate) struct SampleInputs {
     pub(crate) surface: SurfaceInputs,
@@ -168,9 +168,10 @@ impl SampleInputs {
         }
     }
 
-    /// The first `count` particles of a body. If `before` has so many, they are taken from it. If not, further ones are
-    /// sampled and appended to those of `before`; with the paper's rule, and where particles are not needed everywhere,
-    /// all are sampled anew. `before` must come from equal inputs. `surface` is called only if particles are sampled.
+    /// The first `count` particles of a body. If `before` has that many, they are taken from it. If not, further ones
+    /// are sampled and appended to those of `before`; with the paper's rule, and where particles are not needed
+    /// everywhere, all are sampled anew. `before` must come from equal inputs. `surface` is called only if particles
+    /// are sampled.
     pub(crate) fn sample<'a, 'mesh: 'a>(
         &self,
         before: Option<Arc<Sampled>>,

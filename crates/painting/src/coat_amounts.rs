@@ -21,7 +21,7 @@ pub(crate) struct CoatAmounts {
     most: Vec<(u16, Painted)>,
 }
 
-/// What the amounts of a coat are made from.
+/// The inputs of a coat's amounts.
 pub(crate) struct AmountInputs {
     pub(crate) kind: LayerKind,
     pub(crate) amounts: Arc<BodyAmounts>,
@@ -35,8 +35,8 @@ impl PartialEq for AmountInputs {
 }
 
 impl AmountInputs {
-    /// The amounts of all particles. The underpainting is there to cover: the size and the number of its
-    /// strokes stay.
+    /// The amounts of all particles. The underpainting is there to cover, so the size and the number of its strokes do
+    /// not change.
     pub(crate) fn find(&self) -> CoatAmounts {
         let Self { kind, amounts, traits } = self;
         let count = traits.particles.len();

@@ -16,16 +16,17 @@ use crate::regions::{BodyGuide, BodyRegions, RegionRule};
 use crate::surface::SurfaceInputs;
 use crate::view::PictureView;
 
-/// What the steps of all objects share.
+/// The inputs that the steps of all objects share.
 pub(crate) struct Context<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) rules: &'a Arc<Vec<RegionRule>>,
     /// A sample of the views, each with the objects' poses: that of the reference, and a few spread evenly over the
-    /// timeline. How many particles an object needs is found from them first.
+    /// timeline. The number of particles that an object needs is first found from these.
     pub(crate) views: &'a [(PictureView, Vec<DAffine3>)],
     /// For each of these views, the objects' shapes.
     pub(crate) shapes: &'a [Vec<BodyShape>],
-    /// Every view that the painting will be seen from: large surfaces have particles only where one of these needs them.
+    /// Every view that the painting will be seen from: large surfaces have particles only where one of these needs
+    /// them.
     pub(crate) seen: &'a Seen<'a>,
     pub(crate) solver: Solver,
     /// Whether strokes are painted by the source paper's own rule.
@@ -47,8 +48,8 @@ impl Context<'_> {
 #[derive(Clone, Copy)]
 pub(crate) struct ObjectInputs<'a> {
     pub(crate) index: usize,
-    /// An object may be one group of a mesh: then, how many groups of this mesh are objects, this one included. 1 if the
-    /// object is the whole mesh.
+    /// If the object is one group of a mesh: how many groups of this mesh are objects, this one included. 1 if it is
+    /// the whole mesh.
     pub(crate) groups: usize,
     pub(crate) surface: &'a SurfaceInputs,
     pub(crate) regions: &'a Arc<BodyRegions>,

@@ -31,7 +31,7 @@ pub(crate) struct CountInputs {
     sightings: Vec<Sighting>,
     /// For each rule, at each moment of its keys: the length, the width and the coverage of each layer.
     layers: Vec<Vec<[[f32; 3]; LAYERS]>>,
-    /// For each rule how far strokes fit the form.
+    /// For each rule, how far strokes fit the form.
     fits: Vec<f32>,
     left_out: [bool; LAYERS],
     /// The least count of a layer: see [`particle_count::least`].
@@ -43,8 +43,8 @@ pub(crate) struct CountInputs {
     /// The factor, at least 1, by which painted amounts raise the counts.
     more_wanted: f32,
     paper: bool,
-    /// Whether particles may be made where views need them only: the body stays at rest, and a stroke's size and presence
-    /// follow from its ordinal and the view.
+    /// Whether particles may be made only where views need them: the body stays at rest, and a stroke's size and
+    /// presence follow from its ordinal and the view.
     is_by_view: bool,
 }
 
@@ -162,8 +162,8 @@ impl CountInputs {
         f64::from(reach.fold(0.0, f32::max))
     }
 
-    /// Gives the strokes of each layer that may be wanted per pixel on a triangle, from its index, a point of it and
-    /// its normal.
+    /// Returns a function that takes the index of a triangle, a point of it and its normal. It gives, for each layer,
+    /// the most strokes that may be wanted per pixel there.
     pub(crate) fn wanted_per_px<'a>(
         &'a self,
         mesh: &'a TriangleMesh,
@@ -194,9 +194,9 @@ impl CountInputs {
 /// How many particles the coats of an object need.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Counted {
-    /// If they lie on the whole surface.
+    /// The counts if the particles lie on the whole surface.
     pub(crate) counts: [usize; LAYERS],
-    /// Whether it may pay to make them only where they are needed.
+    /// Whether it may pay to make the particles only where they are needed.
     pub(crate) may_depend_on_views: [bool; LAYERS],
     /// The factor, at least 1, by which painted amounts raise the counts.
     pub(crate) more_wanted: f64,
@@ -211,7 +211,7 @@ pub(crate) struct CoatCount {
     pub(crate) count_on_whole: usize,
     /// Where they are needed; `None` everywhere.
     pub(crate) needed: Option<Arc<Needed>>,
-    /// How many these are, roughly.
+    /// How many particles are made, roughly.
     pub(crate) made: usize,
 }
 
@@ -230,7 +230,7 @@ impl BodyCounts {
 }
 
 impl CoatCount {
-    /// So many everywhere.
+    /// This many particles, everywhere on the surface.
     pub(crate) fn everywhere(count: usize) -> Self {
         Self { count_on_whole: count, needed: None, made: count }
     }

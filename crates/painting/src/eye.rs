@@ -1,4 +1,4 @@
-//! A view of a body, which tells how densely it may see a part of the surface.
+//! A view of a body. Gives upper bounds on how densely it sees the parts of the surface.
 
 use glam::{DVec2, DVec3, DVec4};
 use impasto_core::ScreenMap;
@@ -8,13 +8,15 @@ use crate::own_depths::OwnDepths;
 use crate::particle_count::{Reach, Sighting};
 use crate::presence_bound::LEAST_COUNTED_FADE;
 
-/// A cell's parts are alike while its radius is at most this share of its distance.
+/// The parts of a cell count as alike while the cell's radius is at most this share of its depth.
 const EVEN: f64 = 0.1;
 
-/// A cell that is not all inside the view is cut while its radius is more than this share of half the picture.
+/// A cell that is not wholly inside the view is cut while its radius in pixels is more than this share of half the
+/// picture's shorter side.
 const LARGE: f64 = 0.25;
 
-/// Sides of a space in model space; each with the length of its first three numbers.
+/// The planes that bound what a view sees, in model space; each with the length of its normal (its first three
+/// numbers).
 type Planes = [(DVec4, f64); 5];
 
 /// Whether all of a sphere lies on the near side of all planes.
@@ -30,20 +32,21 @@ fn is_beyond(planes: &Planes, center: DVec3, radius: f64) -> bool {
 /// A view of a body, ready to ask how densely it sees a cell.
 pub(crate) struct Eye {
     map: ScreenMap,
-    /// Where these are positive, nothing is seen.
+    /// Nothing is seen where any of these is positive.
     planes: Planes,
-    /// The same for the picture alone.
+    /// The same for the picture alone, without a margin round it.
     picture: Planes,
     half_px: DVec2,
     near: f64,
     row_w_length: f64,
     most_offset: f64,
-    /// What the body hides of itself, where that counts.
+    /// The body's own depths, which tell what it hides of itself; `None` unless it is a heap.
     pub(crate) own: Option<OwnDepths>,
 }
 
 impl Eye {
-    /// A view in which paint may be so far from the picture and from its particles.
+    /// The eye of a view. `Reach` says how far round the picture there are particles, and how far from them there may
+    /// be paint.
     pub(crate) fn new(sighting: &Sighting, Reach { margin, reach_px, most_offset }: Reach) -> Self {
         let map = &sighting.map;
         let planes = |margin: f64, reach_px: f64| {
@@ -75,9 +78,9 @@ impl Eye {
         !is_beyond(&self.picture, cell.center, cell.radius + self.most_offset)
     }
 
-    /// An upper bound on the pixels that a unit of a cell's surface fills in this view, divided by the fade of strokes near
-    /// an outline; 0 where the view does not see the cell. And whether its parts may differ much: it is large beside its
-    /// depth, or a large part of the picture and not all inside.
+    /// First, an upper bound on the pixels that a unit of a cell's surface fills in this view, divided by the fade of
+    /// strokes near an outline; 0 where the view does not see the cell. Second, whether the cell's parts may differ
+    /// much: it is large beside its depth, or it is a large part of the picture and not all inside.
     pub(crate) fn most_per_area(&self, cell: &Cell) -> (f64, bool) {
         let radius = cell.radius + self.most_offset;
         if is_beyond(&self.planes, cell.center, radius) {
@@ -93,11 +96,13 @@ impl Eye {
         let [along_x, along_y] = map.jacobian(cell.center);
         let to_eye = along_x.cross(along_y);
         let px_per_area = to_eye.length();
-        // How much nearer, and in how different a direction, the cell's nearest point may be.
+        // At points of the cell that are nearer than its centre, and seen in another direction, a unit of surface may
+        // fill up to this many times as many pixels.
         let radius_per_depth = self.row_w_length * radius / w;
         let nearer = (1.0 + radius_per_depth) / (1.0 - radius_per_depth).powi(3);
         let thickness = (cell.thickness + self.most_offset) / cell.radius * radius_per_depth;
-        // The distance to the cell's plane, over the least or the greatest distance to one of its points.
+        // The cosine between the normal and the direction to the eye, at most: the eye's distance from the cell's
+        // plane, over its least or greatest distance from a point of the cell.
         let above = cell.normal.dot(to_eye) / px_per_area + thickness;
         let facing =
             above / if above > 0.0 { 1.0 - radius_per_depth } else { 1.0 + radius_per_depth } + cell.spread;
@@ -105,22 +110,23 @@ impl Eye {
             return (0.0, false);
         }
         let most = px_per_area * nearer * most_over_fade(facing.min(1.0), map.uneven.is_some());
-        // Where it is not a number, the cell is seen along its own plane.
+        // A bound that is not a number becomes infinite below, which is the safe side.
         let is_large = cell.radius * px_per_area.sqrt() > LARGE * self.half_px.min_element();
         let is_uneven = radius_per_depth > EVEN || is_large && !is_inside(&self.planes, cell.center, radius);
         (if most.is_nan() { f64::INFINITY } else { most }, is_uneven)
     }
 }
 
-/// The greatest `f / fade(f)` for `f` up to this facing: strokes that face the eye less are more, to make up for those
-/// that fade.
+/// The greatest `f / fade(f)` for `f` up to this facing. Where strokes face the eye less, there are more of them, to
+/// make up for those that fade.
 fn most_over_fade(facing: f64, uneven: bool) -> f64 {
     let least = f64::from(LEAST_COUNTED_FADE);
-    // In a body that is stretched, the facing in the world is another one.
+    // The pose scales directions differently, so the facing in world space is not this one.
     if uneven {
         return facing / least;
     }
-    // It grows until the fade is more than the least that counts, then falls, and follows the facing from 0.2 on.
+    // The ratio grows until the fade exceeds the least that counts, then falls. From a facing of 0.2 on, the fade is 1,
+    // and the ratio is the facing.
     facing.max((facing / least).min(MOST_GRAZING))
 }
 

@@ -112,8 +112,8 @@ pub enum Quality {
 /// The camera of a frame.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameView {
-    /// The place in world space that is the origin of all that the frame calls world space: single precision is finest
-    /// there. It is 0, except in scenes that lie far from the world's own origin, and the same in all frames of a
+    /// The point of the scene's world space that is the origin of the frame's world space. Single precision is finest
+    /// there. It is 0, except in scenes that lie far from the world's own origin. It is the same in all frames of a
     /// painting.
     pub origin_in_world: DVec3,
     /// Right-handed, looks down −Z.
@@ -169,7 +169,7 @@ pub struct PointLight {
 /// The cone of a spot, with a soft edge.
 #[derive(Clone, Copy, Debug)]
 pub struct Cone {
-    /// Where its middle shines to, world space, unit length.
+    /// The direction in which its middle shines, world space, unit length.
     pub axis: Vec3,
     /// Cosine of the angle from the axis to where it begins to fade.
     pub inner_cosine: f32,
@@ -204,7 +204,7 @@ pub struct Brushes {
     pub marks: Vec<Arc<Vec<Mark>>>,
 }
 
-/// What the paint lies on, and its relief and varnish.
+/// The ground and the canvas under the paint, and the paint's relief and varnish.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finish {
     /// The tone under the first layer of paint where a body is; `None` if nothing lies under the paint there.

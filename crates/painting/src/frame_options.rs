@@ -35,7 +35,7 @@ pub enum StrokeColors {
     Trust,
 }
 
-/// Whether strokes turn with what they lie on. All but `On` exist for comparison.
+/// Whether strokes turn with the surface under them. All but `On` exist for comparison.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Rotation {
     /// They do.
@@ -44,7 +44,7 @@ pub enum Rotation {
     /// They keep the angle that they have in the reference pose. The scene then moves behind a fixed pattern (the
     /// shower-door effect).
     Off,
-    /// They have random angles, anew in each frame.
+    /// They have random angles, new ones in each frame.
     Random,
     /// They are mapped to the surface like a texture: foreshortened, and smaller with distance (the source paper's
     /// figure 2).

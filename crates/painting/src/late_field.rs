@@ -9,7 +9,7 @@ use crate::made_once::made_once;
 
 type Make = dyn Fn() -> Option<Arc<BodyField>> + Send + Sync;
 
-/// A field that is solved already, or when it is first asked for.
+/// A field that is solved already, or that is solved when it is first asked for.
 pub(crate) struct LateField {
     field: OnceLock<Option<Arc<BodyField>>>,
     make: Option<Box<Make>>,

@@ -16,7 +16,7 @@ fn radiance(color: Color, intensity: f64) -> Vec3 {
     Vec3::from(linear(color)) * intensity as f32
 }
 
-/// The lights of a scene at a frame, as bright as its exposure makes them.
+/// The lights of a scene at a frame, with the scene's exposure applied.
 pub(crate) fn resolve(
     scene: &Scene,
     frame: f64,
@@ -34,8 +34,8 @@ pub(crate) fn resolve(
     lights
 }
 
-/// The lights of a scene at a frame. If it names none, they are a warm sun from the upper left front, cool light from above, and
-/// warm light from below.
+/// The lights of a scene at a frame. If it names none, they are a warm sun from the upper left front, cool light from
+/// above, and warm light from below.
 fn unexposed(scene: &Scene, frame: f64, origin_in_world: DVec3) -> FrameLights {
     let mut lights = FrameLights::default();
     if scene.lights.is_empty() {
@@ -73,8 +73,8 @@ fn unexposed(scene: &Scene, frame: f64, origin_in_world: DVec3) -> FrameLights {
     lights
 }
 
-/// The index of the brightest lamp among all points and spots, by what the document states. Keys do not count, so it is
-/// the same lamp in every frame.
+/// The index of the brightest lamp among all points and spots, by the colour and intensity that the document states.
+/// Keys do not count, so it is the same lamp in every frame.
 fn brightest_lamp(scene: &Scene) -> Option<usize> {
     let is_lamp = |light: &&Light| matches!(light.kind, LightKind::Point | LightKind::Spot);
     let luma = |light: &Light| radiance(light.color, light.intensity).dot(Vec3::new(0.2126, 0.7152, 0.0722));

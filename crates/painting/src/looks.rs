@@ -14,8 +14,8 @@ pub(crate) struct Look {
     pub(crate) lift: [[f32; 3]; 2],
     /// Two slow noises: one for hue and value, one for how firm edges are and where scumble and contours lie.
     pub(crate) drift: [f32; 2],
-    /// The base angle with jitter in the reference picture, radians; `horn-exact` adds its turn to it. 0 with the solver
-    /// `Tangent`, where the lift alone gives the angle.
+    /// The base angle with jitter in the reference picture, radians; `horn-exact` adds its turn to it. 0 with the
+    /// solver `Tangent`, where the lift alone gives the angle.
     pub(crate) base_angle_rad: f32,
 }
 
@@ -48,7 +48,7 @@ pub(crate) struct Looks {
     words: Vec<AtomicU32>,
     count: usize,
     has_angles: bool,
-    /// What looks are found from; `None` where all are known.
+    /// The inputs that looks are found from; `None` where all are known.
     inputs: Option<Arc<dyn FindLooks>>,
 }
 
@@ -68,7 +68,7 @@ impl Looks {
         Self::of_count(count, inputs.has_angles(), Some(inputs))
     }
 
-    /// The looks of `count` particles. What `self` knows of them is taken over; it must come from equal inputs.
+    /// The looks of `count` particles. Looks that `self` knows are taken over; `self` must come from equal inputs.
     pub(crate) fn resized(&self, inputs: Arc<dyn FindLooks>, count: usize) -> Self {
         let resized = Self::unknown(inputs, count);
         let known = (0..self.count.min(count)).into_par_iter().with_min_len(CHUNK);
@@ -78,7 +78,7 @@ impl Looks {
         resized
     }
 
-    /// The looks that [`Looks::to_words`] gave; `None` where a look has no whole number of words.
+    /// The looks that [`Looks::to_words`] gave; `None` where the words are not a whole number of looks.
     pub(crate) fn of_words(words: Vec<u32>, has_angles: bool) -> Option<Self> {
         let width = width(has_angles);
         let count = words.len() / width;
@@ -97,12 +97,12 @@ impl Looks {
         self.words.iter().map(|word| word.load(Ordering::Relaxed)).collect()
     }
 
-    /// How many words so many looks have.
+    /// How many words `count` looks have.
     pub(crate) fn words_of(count: usize, has_angles: bool) -> usize {
         count * width(has_angles)
     }
 
-    /// Whether base angles are known by themselves.
+    /// Whether looks store base angles.
     pub(crate) fn has_angles(&self) -> bool {
         self.has_angles
     }
@@ -159,7 +159,7 @@ impl Looks {
         for (word, number) in self.words[particle * width..][..width].iter().zip(numbers) {
             word.store(number.to_bits(), Ordering::Relaxed);
         }
-        // Whoever sees the bit sees the words too.
+        // A thread that sees the bit sees the words too.
         self.known[particle / BITS].fetch_or(1 << (particle % BITS), Ordering::Release);
     }
 }
@@ -205,7 +205,8 @@ mod tests {
         assert!(found < all / 2, "{found} of {all}");
     }
 
-    /// Found one by one by several threads, a few together for a picture and all others at once, and found all at once.
+    /// Finds looks in three ways: one by one on several threads; a few for a picture, then the others at once; all at
+    /// once.
     #[test]
     fn a_look_is_the_same_in_any_company() {
         // With `HornExact`, looks have base angles.
@@ -217,7 +218,7 @@ mod tests {
                 assert_eq!(bulk.has_angles, !set.is_empty());
                 std::thread::scope(|scope| {
                     for thread in 0..4 {
-                        // All ask for the same looks, each from another place on.
+                        // Each thread asks for every seventh look, beginning at another place.
                         let order = (0..asked.count).rev().cycle().skip(thread * asked.count / 4);
                         scope.spawn(move || {
                             order.take(asked.count).step_by(7).for_each(|at| {

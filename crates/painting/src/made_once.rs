@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-/// The value in the cell; an empty cell is filled with what `make` makes, which must always be the same.
+/// The value in the cell. If the cell is empty, `make` makes the value, which must always be the same.
 ///
 /// This does not call `make` inside `get_or_init`, because `make` could then not use rayon. A thread that waits for its
 /// own rayon tasks runs other tasks meanwhile. If one of these asked for the same cell, it would wait forever for a

@@ -1,5 +1,5 @@
-//! Where an object needs its particles: a floor that runs to the horizon is made only as densely as the shot sees each
-//! spot of it.
+//! Where an object needs its particles: each spot of a floor that runs to the horizon gets only as many as the shot
+//! needs there.
 
 use std::sync::Arc;
 
@@ -18,33 +18,36 @@ use crate::parts::BodyParts;
 
 const LAYERS: usize = LayerKind::ALL.len();
 
-/// Particles are left out of a coat only if at most this share of those that it would have everywhere is needed. Then the
-/// nearest spots may get more than they would have had, until this share of particles is made, or `MOST_MADE`.
+/// Particles are left out of a coat only if it needs at most this share of those that it would have on its whole
+/// surface. Then the nearest spots may get more particles than they would have had, until this share of particles is
+/// made or, if that is more, `MOST_MADE`.
 const MOST_SHARE: f64 = 0.5;
 const MOST_MADE: f64 = 50_000.0;
 
-/// The longest order: enough for a floor of some ten kilometres.
+/// The longest order, in particles: enough for a floor of some ten kilometres.
 const MOST_ON_WHOLE: f64 = 1e12;
 
-/// At most so many pairs of a cell and a view are looked at: beyond that, particles lie everywhere.
+/// At most this many pairs of a cell and a view are tested. Where there are more pairs, particles lie everywhere.
 const MOST_PAIRS: usize = 12_000_000;
 
-/// A cell that needs fewer particles is not cut, and none is cut more often than `MOST_DEPTH` times.
+/// A cell that needs fewer particles than `FEW` is not cut. A first cell and its parts are cut at most `MOST_DEPTH`
+/// times in a row.
 const FEW: f64 = 4.0;
 const MOST_DEPTH: u32 = 12;
 
-/// An object whose faces cover its part of the picture so often is a heap: what it hides itself needs no particles. A
-/// layer then gets more than it would have everywhere only up to `MOST_MADE_OF_HEAP`, and cells are not cut more finely
-/// than an order of `MOST_OF_HEAP` particles pays for.
+/// An object whose faces cover its part of the picture at least `HEAP` times over is a heap: surface that the object
+/// itself hides needs no particles. A heap's layer gets a longer order than on its whole surface only while at most
+/// `MOST_MADE_OF_HEAP` of its particles are made. When its cells are cut, needs count only up to an order of
+/// `MOST_OF_HEAP` particles.
 const HEAP: f64 = 12.0;
 const MOST_MADE_OF_HEAP: f64 = 20_000.0;
 const MOST_OF_HEAP: f64 = 400_000.0;
 
-/// Of sheets of which both sides can be seen, half is never seen. Where more than this share of a heap is not, its small
-/// cells are looked at one by one.
+/// Of sheets with two visible sides, half of the surface is never seen. If more than this share of a heap is not seen,
+/// its cells are split from the first level on ([`Needed::is_strict`]).
 const MUCH_UNSEEN: f64 = 0.6;
 
-/// All cells together are cut about so often; each that is to be cut, this often at least.
+/// About how many cuts all cells together may have, and how many each cell that is to be cut may have at least.
 const MOST_CUTS: usize = 65_536;
 const LEAST_CUTS: usize = 16;
 
@@ -112,7 +115,7 @@ impl NeededInputs {
                 std::array::from_fn(|kind| most[kind].max(wanted[kind]))
             };
             let wanted = cell.triangles(surface).fold([0.0; LAYERS], most);
-            // A stroke shows until its ordinal is so many times the number wanted.
+            // A stroke shows while its ordinal is less than this many times the number wanted.
             let still_present = (-f64::from(presence::ABSENT_LN)).exp();
             let needed =
                 wanted.map(|wanted| f64::from(wanted) * surface.area() * still_present * counted.more_wanted);
@@ -155,7 +158,7 @@ struct SeenCell {
     eyes: Vec<usize>,
     /// The most pixels that a unit of its surface may fill: see [`Eye::most_per_area`].
     px_per_area: f64,
-    /// The same of the views that have it in their picture, not only round it.
+    /// The same, of only those views that have it in the picture itself and not just in the margin round it.
     px_in_picture: f64,
     /// Whether its parts differ much.
     is_uneven: bool,
@@ -230,15 +233,15 @@ impl SeenCell {
 
 /// All cells, in the order of [`Needed`].
 struct SeenTree {
-    /// For each cell its share of the surface, and the particles that it needs of each layer.
+    /// For each cell, its share of the surface and, for each layer, the ordinal below which it needs particles.
     cells: Vec<(f64, [f64; LAYERS])>,
-    /// The greatest need of each layer in any picture.
+    /// For each layer, the greatest such ordinal that a picture itself needs.
     most_in_picture: [f64; LAYERS],
     first_part: Arc<Vec<u32>>,
 }
 
 impl SeenTree {
-    /// From the first cells, with what they need for each pixel that a unit of surface fills.
+    /// Builds the tree from the first cells, with what they need for each pixel that a unit of surface fills.
     fn new(first: Vec<(SeenCell, [f64; LAYERS])>) -> Self {
         let (mut cells, mut first_part) = (Vec::new(), Vec::new());
         let mut most_in_picture = [0.0f64; LAYERS];
@@ -295,8 +298,8 @@ impl SeenTree {
     }
 }
 
-/// The longest order between these two lengths of which at most `most_made` particles are made, as of the shortest.
-/// `made` tells how many are made of an order of this length; it grows with the length.
+/// The longest order between these two lengths of which at most `most_made` particles are made; the shortest if there
+/// is none. `made` gives how many particles of an order of a length are made; it grows with the length.
 fn longest([shortest, longest]: [f64; 2], most_made: f64, made: impl Fn(f64) -> f64) -> f64 {
     let longest = longest.max(shortest);
     if made(longest) <= most_made {

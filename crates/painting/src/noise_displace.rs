@@ -39,7 +39,7 @@ impl BodyNoise {
     }
 }
 
-/// What a body's noise depends on.
+/// The inputs of a body's noise.
 #[derive(Clone, Default)]
 pub(crate) struct NoiseInputs {
     stated: Option<NoiseDisplace>,

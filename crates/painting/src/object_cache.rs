@@ -65,7 +65,7 @@ struct ObjectSurface {
     extent: (DVec3, f64),
 }
 
-/// What the samples of the field depend on.
+/// The inputs of the field's samples.
 #[derive(PartialEq)]
 struct FieldSampleInputs {
     surface: SurfaceInputs,
@@ -271,7 +271,7 @@ impl ObjectCache {
         Arc::new(LateField::solved(self.field.output().and_then(Clone::clone)))
     }
 
-    /// The field of a body whose coats were kept, to be solved if anybody asks.
+    /// The field of a body whose coats were kept, to be solved when it is first asked for.
     pub(crate) fn late_field(&self, context: &Context<'_>, object: ObjectInputs<'_>) -> Arc<LateField> {
         if !needs_field(context, object) {
             return Arc::new(LateField::solved(None));
@@ -284,7 +284,7 @@ impl ObjectCache {
         }))
     }
 
-    /// Bakes the coats that have particles, and the body layer's in any case.
+    /// Bakes the coats that have particles, and the coat of the body layer in any case.
     pub(crate) fn bake(
         &mut self,
         context: &Context<'_>,
@@ -338,7 +338,7 @@ fn field_samples(body: &BodySurface, name_hash: u32) -> FieldSamples {
     FieldSamples::new(&Surface::with_sides(&body.mesh, &body.sides, |_| true), name_hash)
 }
 
-/// What a coat is made from.
+/// The inputs of a coat.
 struct CoatInputs<'a> {
     context: &'a Context<'a>,
     object: ObjectInputs<'a>,
@@ -348,7 +348,7 @@ struct CoatInputs<'a> {
 }
 
 impl CoatInputs<'_> {
-    /// What the traits of these particles are made from.
+    /// The inputs of the traits of these particles.
     fn traits(&self, particles: Particles) -> TraitInputs {
         TraitInputs::new(self.context, self.object, self.kind, particles, &self.surface.parts)
     }
@@ -422,7 +422,8 @@ impl CoatCache {
 
     fn take_kept(&mut self, given: &CoatInputs<'_>, mut kept: KeptCoat) -> Coat {
         let sampled = Arc::new(Sampled::of_kept(&given.surface.body, &mut kept));
-        // Where particles are needed was not kept, so those that do not lie everywhere cannot be reused.
+        // The places where particles are needed were not kept, so particles that do not lie everywhere cannot be
+        // reused.
         if kept.is_everywhere {
             let wanted = CoatCount::everywhere(kept.wanted);
             let inputs = SampleInputs::new(given.context, given.object, given.kind, &wanted);

@@ -1,5 +1,5 @@
-//! Puts particles in the order in which they are painted: by the regions' layers, then by the layers of paint in the scene's
-//! order, then by rank from high to low.
+//! Puts particles in the order in which they are painted: by the regions' layers, then by the layers of paint in the
+//! scene's order, then by rank from high to low.
 
 use std::cmp::Reverse;
 use std::collections::binary_heap::PeekMut;
@@ -135,7 +135,8 @@ impl Queue<'_> {
         }
     }
 
-    /// Twice the rank of a particle, (2 ordinal + 1) / count, as bits: the bits of positive floats sort as the floats do.
+    /// Twice the rank of a particle, (2 ordinal + 1) / count, as bits: the bits of positive floats sort as the floats
+    /// do.
     fn rank(&self, particle: u32) -> u64 {
         let ordinal = f64::from(self.coat.particles.ordinal(particle as usize));
         ((ordinal * 2.0 + 1.0) / self.coat.count_on_whole as f64).to_bits()

@@ -1,5 +1,5 @@
-//! Finds what a view does not see of a body because the body itself hides it. Of a heap of faces, that is most. Strokes
-//! there cannot show, so no particles are made there.
+//! Finds what a view does not see of a body because the body itself hides it. In a heap of faces, most of the surface
+//! is hidden. Strokes there cannot show, so no particles are made there.
 
 use std::ops::Range;
 
@@ -9,32 +9,33 @@ use rayon::prelude::*;
 
 use crate::particle_count::{Reach, Sighting};
 
-/// One depth is known for a square of so many pixels.
+/// One depth is stored for each square with a side of this many pixels.
 const CELL_PX: f64 = 4.0;
 
-/// Limits on the work: with more faces times views, or more squares in the grids of all views, the depths are not looked
-/// for.
+/// Limits on the work: with more faces times views, or more squares in the grids of all views, the depths are not
+/// computed.
 const MOST_FACES: usize = 16_000_000;
 const MOST_SQUARES: usize = 32_000_000;
 
-/// How many times a face is tested against a square, about: in all views together, and in one view. Where more would be
-/// needed, only every n-th face is taken. The others hide nothing.
+/// About how many times faces may be tested against squares: in all views together, and in one view. Where more tests
+/// would be needed, only every n-th face is taken. The others hide nothing.
 const MOST_TESTS: f64 = 1e8;
 const MOST_TESTS_IN_VIEW: f64 = 4e6;
 
-/// The resolve shader tests whether a stroke's own body hides it, at places up to this distance from the stroke's middle.
-/// The distance is that for small strokes: in a heap, few large strokes can be seen.
+/// The resolve shader tests whether a stroke's own body hides it, at places up to this distance from the stroke's
+/// middle. The distance is that for small strokes: in a heap, few large strokes can be seen.
 const ASKED_PX: f64 = 8.7;
 
 /// The resolve shader begins to hide a small stroke `HIDDEN_PX + HIDDEN_SLANTED_PX / slant` pixels behind the nearest
-/// surface (pixels of the scene's own size, as a length at the stroke's depth). The slant is the cosine between the face
-/// and the eye, at least `LEAST_SLANT`. At three times that depth the stroke is hidden wholly. Strokes that would be hidden
-/// in part count as hidden here, on purpose: in a heap, strokes of other faces lie over them.
+/// surface (pixels of the scene's own size, as a length at the stroke's depth). The slant is the cosine between the
+/// face's normal and the direction to the eye, at least `LEAST_SLANT`. At three times that depth the stroke is hidden
+/// wholly. Strokes that would be hidden in part count as hidden here, on purpose: in a heap, strokes of other faces lie
+/// over them.
 const HIDDEN_PX: f64 = 2.5;
 const HIDDEN_SLANTED_PX: f64 = 3.5;
 const LEAST_SLANT: f64 = 0.2;
 
-/// Places on a triangle, as weights of its corners, at which it is looked whether some of it is hidden.
+/// Places on a triangle, as weights of its corners, that are tested to find whether some of it is hidden.
 const SPOTS: [[f64; 3]; 7] = [
     [1.0 / 3.0; 3],
     [0.8, 0.1, 0.1],
@@ -63,8 +64,8 @@ pub(crate) struct OwnDepths {
     lift: f64,
     /// The corner of the first square, pixels.
     low_px: DVec2,
-    /// First the nearest depth at the middle of each square, infinite where no face lies. Then for each two by two entries
-    /// of the level before, the greatest of them, and so on.
+    /// First the nearest depth at the middle of each square, infinite where no face lies. Then for each two by two
+    /// entries of the level before, the greatest of them, and so on.
     levels: Vec<Level>,
 }
 
@@ -84,7 +85,7 @@ struct Shown {
 
 impl OwnDepths {
     /// The depths in every view, of the triangles that let nothing through. `None` where that would be too much work,
-    /// where no triangle hides anything, and where a pose stretches the body.
+    /// where no triangle hides anything, and where a pose scales directions differently.
     pub(crate) fn of_all(
         surface: &Surface<'_>,
         sightings: &[Sighting],
@@ -169,7 +170,7 @@ impl OwnDepths {
         let [along_x, along_y] = map.jacobian(corners[0]);
         let unit = map.row_depth.truncate().length() / along_x.cross(along_y).length().sqrt();
         let slack = unit * (HIDDEN_PX + HIDDEN_SLANTED_PX / slant) + self.lift;
-        // A stroke that is lifted off its face may show beside what hides the face.
+        // A stroke that is lifted off its face may show beside the surface that hides the face.
         let reach_px = ASKED_PX + self.lift / unit;
         let low = px[0].min(px[1]).min(px[2]) - reach_px;
         let high = px[0].max(px[1]).max(px[2]) + reach_px;
@@ -184,7 +185,7 @@ impl OwnDepths {
         if SPOTS.into_iter().any(is_hidden) { Covered::InPart } else { Covered::Nowhere }
     }
 
-    /// The greatest depth within a box; infinite where the box reaches beyond what is known.
+    /// The greatest depth within a box; infinite where the box reaches beyond the squares.
     fn greatest_over(&self, low: DVec2, high: DVec2) -> f64 {
         let [low, high] = [low, high].map(|at| (at - self.low_px) / CELL_PX);
         let [columns, rows] = self.levels[0].size;
@@ -311,7 +312,8 @@ mod tests {
         Sighting { map, half_size_px: DVec2::new(320.0, 180.0), near: 0.1, shape: BodyShape::default() }
     }
 
-    /// The share of each square's upper side that is hidden wholly, and all of what the lower sides show.
+    /// The share of each square's upper side that is hidden wholly; and the share of the whole surface that lies on
+    /// lower sides and is not hidden wholly.
     fn hidden(mesh: &TriangleMesh, sighting: &Sighting, is_solid: bool) -> (Vec<f64>, f64) {
         let surface = Surface::new(mesh, |_| true);
         let own = OwnDepths::new(&surface, sighting, |_| is_solid, REACH, 4e6);
@@ -338,11 +340,12 @@ mod tests {
         for lens in lenses {
             let (hidden, below) = hidden(&pile(12), &from_above(lens), true);
             assert_eq!(hidden[0], 0.0, "{lens:?}");
-            // The second sheet is only eight pixels (0.1 units) behind the first, little more than the six from which
-            // strokes count as hidden: nothing is asked of it.
+            // The second sheet is only eight pixels (0.1 units) behind the first, little more than the six pixels from
+            // which on strokes count as hidden. So this test leaves it out.
             for (square, &share) in hidden.iter().enumerate().skip(2) {
                 assert!(share > 0.6, "sheet {square}: {share}, {lens:?}");
-                // In the orthographic view all sheets end at the same pixels; in perspective the lower ones end farther in.
+                // In the orthographic view all sheets end at the same pixels; in perspective the lower ones end farther
+                // in.
                 let is_seen_beside = matches!(lens, PixelLens::Orthographic { .. }) || square < 4;
                 assert!(!is_seen_beside || share < 0.95, "sheet {square}: {share}, {lens:?}");
             }

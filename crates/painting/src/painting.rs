@@ -65,7 +65,7 @@ pub struct Painting {
     pub(crate) kept: Kept,
 }
 
-/// One object, prepared: what all its coats lie on.
+/// One object, prepared: all that its coats share.
 #[derive(Clone)]
 pub(crate) struct PreparedBody {
     pub(crate) surface: Arc<BodySurface>,
@@ -81,7 +81,7 @@ pub(crate) struct PreparedBody {
     pub(crate) counts: BodyCounts,
     /// Which region lies where.
     pub(crate) regions: Arc<BodyRegions>,
-    /// What is painted onto it.
+    /// The amounts painted onto it.
     pub(crate) amounts: Arc<BodyAmounts>,
 }
 
@@ -135,12 +135,13 @@ impl Painting {
         self.coats.iter().map(|coat| coat.sampled.particles.len()).sum()
     }
 
-    /// Whether large surfaces have particles only where they are seen from: see [`crate::SeenFrom`].
+    /// Whether large surfaces have particles only where the views that the painting was prepared for need them: see
+    /// [`crate::SeenFrom`].
     pub fn is_partial(&self) -> bool {
         self.coats.iter().any(|coat| !coat.sampled.is_everywhere)
     }
 
-    /// Whether it is another painting if it is prepared to be seen from elsewhere.
+    /// Whether preparing the scene for other views may give another painting.
     pub fn depends_on_views(&self) -> bool {
         self.bodies.iter().any(|body| body.counts.counted.may_depend_on_views.contains(&true))
     }
@@ -198,8 +199,8 @@ impl Painting {
         }
     }
 
-    /// What went wrong since its files were opened: point caches that could not be read any more. Their bodies stay at
-    /// rest. Each message occurs once; they are sorted.
+    /// What went wrong since the scene's files were opened: point caches that could not be read any more. Their bodies
+    /// stay at rest. Each message occurs once; they are sorted.
     pub fn faults(&self) -> Vec<String> {
         let mut faults: Vec<String> =
             self.bodies.iter().filter_map(|body| body.surface.fault().cloned()).collect();

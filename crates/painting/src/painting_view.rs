@@ -74,7 +74,8 @@ pub(crate) struct PlacedParticle {
     pub(crate) normal: DVec3,
     /// N'.
     pub(crate) lift: Lift,
-    /// Position, normal and the columns of N' in single precision. The normal is as long as its surface has grown.
+    /// Position, normal and the columns of N' in single precision. The length of the normal is the area of its surface
+    /// now over that at rest.
     vectors: [[f32; 3]; 4],
 }
 
@@ -250,7 +251,8 @@ impl CoatView<'_> {
         [position, self.unit(normal)]
     }
 
-    /// A carried normal has the length of how much its surface has grown; one at rest is a unit vector.
+    /// The length of a carried normal is the area of its surface now over that at rest; a normal at rest is a unit
+    /// vector.
     fn unit(&self, normal: DVec3) -> DVec3 {
         if self.bent.is_some() { normal.normalize_or_zero() } else { normal }
     }

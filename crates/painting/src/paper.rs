@@ -31,7 +31,7 @@ pub(crate) struct PolygonSide {
     unused: u32,
 }
 
-/// What is kept of [`PolygonCounts`].
+/// The form in which [`PolygonCounts`] are kept.
 pub(crate) struct KeptPolygons<'a> {
     pub(crate) of_particle: Vec<[u32; 2]>,
     pub(crate) sides: &'a [PolygonSide],
@@ -39,7 +39,7 @@ pub(crate) struct KeptPolygons<'a> {
 }
 
 impl PolygonCounts {
-    /// Restores the counts from what was kept; `None` if an index is out of range.
+    /// Restores the counts from their kept form; `None` if an index is out of range.
     pub(crate) fn of_kept(
         of_particle: Vec<[u32; 2]>,
         sides: Vec<PolygonSide>,
@@ -61,7 +61,7 @@ impl PolygonCounts {
         })
     }
 
-    /// What is kept of these counts.
+    /// The counts in their kept form.
     pub(crate) fn to_keep(&self) -> KeptPolygons<'_> {
         let Self { of_particle, sides, faces } = self;
         KeptPolygons {

@@ -34,8 +34,8 @@ pub(crate) fn least(objects: usize) -> u32 {
 const MARGIN: f64 = 1.1;
 
 /// Faces that cover the picture more often than this, one behind the other, give their object no more particles: nearly
-/// all of them are hidden, as in a heap of thousands of large triangles. Groups of one mesh that are objects of their own
-/// share this depth, but each may be `LEAST_DEEP`.
+/// all of them are hidden, as in a heap of thousands of large triangles. Groups of one mesh that are objects of their
+/// own share this limit, but the limit of each is at least `LEAST_DEEP`.
 const DEEPEST: f64 = 16.0;
 const LEAST_DEEP: f64 = 4.0;
 
@@ -51,7 +51,8 @@ pub(crate) fn groups_of_meshes(scene: &Scene) -> Vec<usize> {
     scene.objects.iter().map(of).collect()
 }
 
-/// How often the faces of one of so many groups of a mesh may cover the picture and still give it particles.
+/// How often the faces of an object may cover the picture and still give it particles, if it is one of this many groups
+/// of its mesh.
 pub(crate) fn deepest(groups: usize) -> f64 {
     (DEEPEST / groups.max(1) as f64).max(LEAST_DEEP)
 }
@@ -69,7 +70,7 @@ pub(crate) struct Sighting {
     pub(crate) shape: BodyShape,
 }
 
-/// How far round the picture there are particles, and how far from them there may be paint.
+/// How far beyond the picture there are particles, and how far from its particle a stroke's paint may be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Reach {
     /// How far from the middle of the picture there are particles, in half sizes of the picture.
@@ -91,7 +92,7 @@ const MOST_CUTS: f64 = 64.0;
 /// depth.
 const EVEN_DEPTH: f64 = 0.25;
 
-/// A face or a piece of one, with what its strokes need.
+/// A face or a piece of one, with how many strokes are wanted there.
 struct CountedFace<const LAYERS: usize> {
     triangle: u32,
     flipped: bool,
@@ -106,17 +107,19 @@ struct CountedFace<const LAYERS: usize> {
 /// How many particles each layer needs.
 pub(crate) struct Found<const LAYERS: usize> {
     pub(crate) needed: [f64; LAYERS],
-    /// Whether views see large faces in part, or very unevenly: then a spot that is small beside the face may need more.
+    /// Whether views see large faces in part, or very unevenly: then a small spot on such a face may need more
+    /// particles.
     pub(crate) is_cut: bool,
-    /// How often, in the mean, faces that face the eye cover the part of the picture where the object is; the greatest
+    /// How often, on average, faces that face the eye cover the part of the picture where the object is; the greatest
     /// of all views.
     pub(crate) deepness: f64,
 }
 
 /// How many particles each layer needs on the whole surface. They are enough that, in every view, nine tenths of the
-/// object's area in the picture have all the strokes that are wanted there. `wanted_per_px` gives the strokes per
-/// pixel wanted on a triangle, from its index, a point of it and its normal. `positions_at` gives the vertices'
-/// positions in a shape, or `None` at rest. Faces that cover the picture more than `deepest` times count no more.
+/// object's area in the picture have all the strokes that are wanted there. `wanted_per_px` gives the strokes per pixel
+/// wanted on a triangle, from its index, a point of it and its normal. `positions_at` gives the vertices' positions in
+/// a shape, or `None` at rest. Faces that cover the picture more than `deepest` times need no more particles than if
+/// they covered it that often.
 pub(crate) fn find<const LAYERS: usize>(
     surface: &Surface<'_>,
     sightings: &[Sighting],
@@ -161,7 +164,7 @@ pub(crate) fn find<const LAYERS: usize>(
     };
     let (needed_per_area, deepness) =
         sightings.par_iter().map(needed_in).reduce(|| ([0.0; LAYERS], 0.0), most);
-    // A quarter more, since the highest ranks are only half present at just the number wanted.
+    // A quarter more: with exactly the number wanted, strokes of the highest ranks are only half present.
     Found {
         needed: needed_per_area.map(|needed| needed * surface.area() * 1.25),
         is_cut: faces
@@ -171,12 +174,12 @@ pub(crate) fn find<const LAYERS: usize>(
     }
 }
 
-/// The count of a coat that needs so many, at least `least` and at most [`MOST`].
+/// The count of a coat that needs `needed` particles: at least `least` and at most [`MOST`].
 pub(crate) fn bounded(needed: f64, least: u32) -> usize {
     needed.clamp(f64::from(least), MOST).ceil() as usize
 }
 
-/// A count that was found, times `by`, but at most [`MOST`].
+/// A count that was found, times `by`, but at most [`MOST`] or, if that is more, the count itself.
 pub(crate) fn times(found: usize, by: f32) -> usize {
     let most = found.max(MOST as usize);
     ((found as f64 * f64::from(by)).ceil() as usize).min(most)
@@ -239,8 +242,8 @@ fn middles([a, b, c]: [DVec3; 3], cuts: usize) -> impl Iterator<Item = DVec3> {
     })
 }
 
-/// Particles needed per unit of surface in one view, by layer, and how often faces cover the box round them.
-/// Faces that cover the picture more than `deepest` times count no more.
+/// Particles needed per unit of surface in one view, by layer, and how often faces cover the box round them. Faces that
+/// cover the picture more than `deepest` times need no more particles than if they covered it that often.
 fn needed_per_area<const LAYERS: usize>(
     faces: &[CountedFace<LAYERS>],
     deepest: f64,

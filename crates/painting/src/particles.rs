@@ -11,7 +11,8 @@ use rayon::prelude::*;
 
 use crate::body::BodySurface;
 
-/// The first particles of an order, on a surface at rest. Only their places are stored; all else is computed when it is asked for.
+/// The first particles of an order, on a surface at rest. Only their places are stored; all else is computed when it is
+/// asked for.
 #[derive(Clone)]
 pub struct Particles {
     /// The same `Arc` in all `Particles` of one order, however many of its particles have been sampled; compared by
@@ -62,7 +63,7 @@ impl Particles {
         Self { order: Arc::new(()), sampled: Arc::new(sampled), surface: Arc::clone(surface), count }
     }
 
-    /// The first `count` of the same order, if so many have been sampled.
+    /// The first `count` of the same order, if that many have been sampled.
     pub(crate) fn first(&self, count: usize) -> Option<Self> {
         (count <= self.sampled.places.len()).then(|| Self { count, ..self.clone() })
     }
@@ -88,7 +89,7 @@ impl Particles {
     }
 
     /// The ordinals of all particles; empty where they are the particles' indices. An ordinal says about how many
-    /// particles come before one when the whole surface has all of its particles.
+    /// particles come before its own when the whole surface has all of its particles.
     pub(crate) fn ordinals(&self) -> &[f32] {
         self.sampled.ordinals.get(..self.count).unwrap_or_default()
     }
@@ -127,7 +128,7 @@ impl Particles {
         self.place_on_surface(self.sampled.places[..self.count][index])
     }
 
-    /// One of them, if there are so many.
+    /// One of them; `None` if `index` is not less than [`Particles::len`].
     pub fn get(&self, index: usize) -> Option<Particle> {
         (index < self.count).then(|| self.at(index))
     }

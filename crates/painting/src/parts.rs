@@ -18,15 +18,15 @@ const LENGTH_SHARE: f64 = 0.6;
 /// The least cap, pixels at the scene's size.
 const LEAST_CAP_PX: f64 = 3.0;
 
-/// A stroke that fits the form is at most `FORM_SHARE` of the form's size wide. The limit is lower still for strokes
-/// that would be wider otherwise, but never below `LEAST_FITTED_PX`.
+/// A stroke that fits the form is at most `FORM_SHARE` of the form's size wide. For strokes that would be wider than
+/// that, the limit is lower still, but never below `LEAST_FITTED_PX`.
 const FORM_SHARE: f32 = 0.13;
 const LEAST_FITTED_PX: f32 = 10.0;
 
 /// The seed of the samples that measure the form: the same for all bodies, so that equal meshes have equal strokes.
 const FORM_SEED: u32 = 0x0f02_2a1e;
 
-/// Strokes stay at least this much longer than wide.
+/// A cap leaves strokes at least this many times as long as wide, unless they are stated to be shorter.
 const LEAST_ASPECT: f32 = 1.2;
 
 /// A part is long when its longest extent is more than this many times its second.
@@ -46,12 +46,12 @@ const BACKDROP_DEG: f64 = 8.0;
 pub(crate) struct BodyParts {
     pub(crate) parts: Vec<Part>,
     pub(crate) of_triangle: Vec<u32>,
-    /// How large the form is all over the body.
+    /// How large the form is at each place of the body.
     pub(crate) form: FormSize,
 }
 
-/// The largest strokes that a part carries, pixels at the scene's size. The reference pose decides: a stroke keeps its size
-/// however far away it is.
+/// The largest strokes that a part carries, pixels at the scene's size. The reference pose decides: a stroke keeps its
+/// size however far away it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Cap {
     length_px: f32,
@@ -107,7 +107,7 @@ impl BodyParts {
 }
 
 impl Cap {
-    /// A stroke of this size, or as large as the part carries.
+    /// This size of a stroke, limited to what the part carries.
     pub(crate) fn apply(self, length_px: f32, width_px: f32) -> [f32; 2] {
         let width = width_px.min(self.width_px);
         // A stroke that is stated to be broader than long stays so.

@@ -289,7 +289,7 @@ impl Preparer {
     }
 }
 
-/// What the heavy steps are given.
+/// The inputs of the heavy steps.
 struct Work<'a> {
     loaded: &'a LoadedScene,
     context: &'a Context<'a>,
@@ -297,7 +297,7 @@ struct Work<'a> {
     options: &'a PrepareOptions<'a>,
 }
 
-/// What the heavy steps make.
+/// The results of the heavy steps.
 struct Strokes {
     coats: Vec<Arc<Coat>>,
     brushes: Arc<Brushes>,
@@ -305,7 +305,7 @@ struct Strokes {
 }
 
 impl Work<'_> {
-    /// Asks for what another process kept.
+    /// Finds and reads what another process kept.
     fn find_kept(&self, bodies: &[PreparedBody]) -> (Kept, Option<KeptPainting>) {
         let Self { loaded, context, objects, options } = *self;
         let Some(find) = options.kept else { return (Kept::NotAsked, None) };

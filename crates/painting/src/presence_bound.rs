@@ -17,7 +17,8 @@ use crate::stroke_size::{most_size, reach_px};
 /// than this.
 pub(crate) const LEAST_COUNTED_FADE: f32 = 0.3;
 
-/// The bound is rounded differently from the presence itself, so it lets a little more through.
+/// A factor on the bound that lets a little more through, since the bound is rounded differently from the presence
+/// itself.
 const LEEWAY: f64 = 1.001;
 
 /// The bound for one rule on one coat, in one view.
@@ -32,9 +33,9 @@ pub(crate) struct PresenceBound {
 }
 
 impl Painting {
-    /// One bound for each rule in `strokes_of_rule`, which holds the rules' strokes at the frame; `None` for a rule that
-    /// paints nothing on this coat. With `by_polygon`, the source paper's counts per polygon decide what shows, whatever
-    /// the ordinal, so `most_per_area` is infinite.
+    /// One bound for each rule in `strokes_of_rule`, which holds the rules' strokes at the frame; `None` for a rule
+    /// that paints nothing on this coat. With `by_polygon`, the source paper's counts per polygon decide what shows,
+    /// whatever the ordinal, so `most_per_area` is infinite.
     pub(crate) fn presence_bounds(
         &self,
         coat: &Coat,

@@ -1,5 +1,5 @@
-//! Remembers which strokes the last picture of a moving view had, so that the next one is computed more quickly. Only
-//! few strokes are present in a picture, and the next picture has mostly the same ones. So only a share of the other
+//! Remembers which strokes the last picture of a moving view had, so that the next one is computed more quickly. Few
+//! strokes are present in a picture, and the next picture has mostly the same ones. So only a share of the other
 //! strokes is computed.
 
 use std::ops::Range;
@@ -61,7 +61,7 @@ impl Recall {
         Self { order, words }
     }
 
-    /// Whether it was made of the particles of this painting.
+    /// Whether it was made from the particles of this painting.
     pub(crate) fn is_of(&self, painting: &Painting) -> bool {
         Arc::ptr_eq(&self.order, &painting.order)
     }

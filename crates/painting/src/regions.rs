@@ -62,7 +62,7 @@ pub(crate) struct BodyGuide {
     pub(crate) view: Option<BodyGuideView>,
 }
 
-/// Where a guide was looked at from, model space.
+/// The view in which a guide was drawn, model space.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct BodyGuideView {
     pub(crate) eye: DVec3,
@@ -89,7 +89,7 @@ impl BodyGuide {
 pub(crate) fn guides(scene: &Scene, object: &str) -> Vec<BodyGuide> {
     let mut guides = Vec::new();
     for (rule, region) in scene.regions.iter().enumerate() {
-        // Guides that smooth nothing are left out: they would make the body's field be solved for nothing.
+        // Guides that smooth nothing are left out, so that the body's field is not solved needlessly.
         let is_idle = |guide: &&Guide| guide.mode == GuideMode::Smooth && guide.strength <= 0.0;
         for guide in region.guides.iter().filter(|guide| !is_idle(guide)) {
             if guide.object.as_deref().or(region.on.object()) == Some(object) {
@@ -144,7 +144,7 @@ pub(crate) fn palettes(rules: &[RegionRule]) -> (Vec<Palette>, Vec<u8>) {
                 keys.push(&rule.strokes.keys);
                 palettes.len() - 1
             });
-            // A byte cannot number more palettes: rules with a further one get the last number.
+            // A byte can number no more palettes, so rules with a further palette get the last number.
             index.min(usize::from(ANY_COLOR) - 1) as u8
         })
         .collect();

@@ -92,7 +92,7 @@ fn round_seen(boxes: &[Option<Corners>], views: &[View]) -> Option<(DVec3, f64)>
             let hits = placed.iter().filter_map(|(model_from_world, corners)| {
                 ray.hits(*model_from_world, *corners).filter(|hit| hit.depth > view.near())
             });
-            // Boxes round the eye come last; their far side is seen.
+            // Boxes in which the ray begins come last, because only their far side is seen.
             let nearest = hits.min_by(|a, b| {
                 (a.is_inside, a.depth).partial_cmp(&(b.is_inside, b.depth)).unwrap_or(Ordering::Equal)
             });

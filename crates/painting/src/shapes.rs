@@ -10,7 +10,7 @@ use impasto_scene::motion;
 
 use crate::body_shape::{BodyNoise, BodyShape, FrameNoise};
 
-/// What moves the vertices of all objects at one frame, noise left out.
+/// The bends, morphs and cache frames of all objects at one frame. Noise is left out.
 pub(crate) struct BodyShapes<'a> {
     loaded: &'a LoadedScene,
     bends: Vec<Option<BendPose>>,
@@ -18,7 +18,7 @@ pub(crate) struct BodyShapes<'a> {
     cache_frames: Vec<f64>,
 }
 
-/// What bends the mesh file of an object.
+/// The bend in the mesh file of an object.
 pub(crate) fn file_bend<'a>(loaded: &'a LoadedScene, object: &Object) -> Option<&'a Bend> {
     loaded.meshes.get(&object.mesh)?.bend.as_deref()
 }
@@ -42,7 +42,7 @@ impl<'a> BodyShapes<'a> {
         self
     }
 
-    /// The shape of one object. `bend` is what bends its mesh file.
+    /// The shape of one object. `bend` is the bend in its mesh file.
     pub(crate) fn of(&self, object: usize, bend: Option<&Bend>) -> BodyShape {
         let stated = &self.loaded.scene.objects[object];
         let cache = stated.cache.as_ref().and_then(|name| self.loaded.caches.get(name));

@@ -40,7 +40,7 @@ const EDGE_SWING: f32 = 0.6;
 /// The `supply_ln` (see [`presence::of_supply`]) of a stroke that is present whatever its rank.
 const WHOLE: f32 = 8.0;
 
-/// A particle that may show, with what its stroke depends on.
+/// A particle that may show, with the values that its stroke depends on.
 pub(crate) struct Candidate {
     pub(crate) entry: OrderEntry,
     /// Index in the painting order.
@@ -66,11 +66,11 @@ struct Supplied {
 impl PaintingView<'_> {
     /// Whether the stroke of a particle may be present, judged without its look.
     pub(crate) fn may_be_present(&self, candidate: &Candidate) -> bool {
-        // Patches only make scumble rarer.
+        // With 1, no scumble is left out: patches can only make it rarer.
         self.supplied(candidate, 1.0).is_some()
     }
 
-    /// `None` if the stroke is absent wherever its surface faces. `patches` is how much scumble is wanted, 0..=1.
+    /// `None` if the stroke is absent, whichever way its surface faces. `patches` is how much scumble is wanted, 0..=1.
     fn supplied(&self, candidate: &Candidate, patches: f32) -> Option<Supplied> {
         let &Candidate { entry, ref seen, region, part, .. } = candidate;
         let (coat_view, index) = (&self.coats[entry.coat as usize], entry.particle as usize);
@@ -216,9 +216,9 @@ impl PaintingView<'_> {
         Some((stroke, source))
     }
 
-    /// ln of the supply over the rank, ρ*·A/(ordinal + ½). Supply is the strokes wanted per pixel, ρ*, over the particles
-    /// per pixel; A is how many pixels the coat's whole area would fill at this particle's scale. The number of
-    /// particles cancels out, so doubling it leaves the first half of the particles unchanged.
+    /// ln of the supply over the rank, ρ*·A/(ordinal + ½). Supply is the strokes wanted per pixel, ρ*, over the
+    /// particles per pixel; A is how many pixels the coat's whole area would fill at this particle's scale. The number
+    /// of particles cancels out, so doubling it leaves the first half of the particles unchanged.
     fn supply_ln(&self, coat: &CoatView<'_>, index: usize, area_px: f32, wanted_per_px: f32) -> f32 {
         let area_px = area_px / (self.px_scale * self.px_scale);
         let sampled = &coat.coat.sampled;

@@ -86,7 +86,7 @@ impl Painting {
             for index in indices(&coat.within(&bounds)) {
                 let seen = coat.seen(index);
                 let [x, y] = view.position_px(&seen);
-                // The last float below half a picture's height becomes the height itself.
+                // The sum of half a side and the float just below it rounds to the whole side.
                 let [column, row] = [(x / cell_px) as usize, (y / cell_px) as usize];
                 let cell = column.min(columns - 1) + row.min(rows - 1) * columns;
                 if cells[cell].is_some_and(|(_, best)| best.rank <= coat.coat.sampled.rank(index)) {

@@ -21,7 +21,7 @@ use crate::body_shape::BodyShape;
 use crate::lights::linear;
 use crate::shapes::{BodyShapes, file_bend};
 
-/// What a body's surface depends on.
+/// The inputs of a body's surface.
 #[derive(Clone, Debug)]
 pub(crate) struct SurfaceInputs {
     file: Arc<MeshFile>,

@@ -47,7 +47,8 @@ struct LinePoint {
     facing: f64,
     /// How much deeper the surface gets, in pixels of depth per pixel along x and y.
     slope: DVec2,
-    /// How far the surface faces the eye, as in `shared/lens.glsl` (`facing_at_px`), without sign; at least `LEAST_SLANT`.
+    /// How far the surface faces the eye, as in `shared/lens.glsl` (`facing_at_px`), without sign; at least
+    /// `LEAST_SLANT`.
     slant: f64,
     /// Unit.
     normal_in_world: DVec3,
@@ -161,7 +162,7 @@ impl PaintingView<'_> {
         // The rows of the map are in model space; a pose may scale.
         let in_world = body.world_from_model.matrix3.inverse().transpose() * body.map.row_y.truncate();
         let of_lens = if body.map.row_w.truncate() == DVec3::ZERO { 1.0 } else { depth };
-        // A shifted lens leans the row towards the gaze.
+        // A shifted lens adds a part along the gaze to the row. That part is left out here.
         let in_view = self.view_from_world * in_world;
         in_view.truncate().length() / of_lens
     }
@@ -320,7 +321,7 @@ impl Width {
         RUNS_DRY * (widths / DRY_AFTER).min(1.0) * ((share - 0.35) / 0.65).max(0.0).powi(2)
     }
 
-    /// The share of the line that either end of the mark takes.
+    /// The share of the line that each end of the mark takes up.
     fn end_share(&self) -> f64 {
         let marks = self.length_px / (MARK_LENGTH * self.width_px);
         END * (STRETCHED / marks).min(1.0)

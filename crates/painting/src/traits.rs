@@ -1,4 +1,4 @@
-//! Traits: what is fixed for a particle besides its direction: its region, its part, its random numbers; and its slow
+//! Traits: what is fixed for a particle besides its direction (its region, its part and its random numbers). Also slow
 //! noise, for those particles that are asked for.
 
 use std::sync::Arc;
@@ -16,7 +16,7 @@ use crate::particles::Particles;
 use crate::parts::{BodyParts, fit_of, px_per_unit};
 use crate::regions::{BodyRegions, RegionRule};
 
-/// A particle has several random numbers: which of them is used for what.
+/// Each particle has several random numbers. These say which of them is used for what.
 pub(crate) const ANGLE_JITTER: u32 = 1;
 pub(crate) const LENGTH_JITTER: u32 = 2;
 pub(crate) const WIDTH_JITTER: u32 = 3;
@@ -46,7 +46,7 @@ const CROSSING_SWING: f64 = 26.0 / 6.0;
 const CROSSING_JITTER: f64 = 13.0 / 7.0;
 const SECOND_FAMILY: f32 = 0.42;
 
-/// Noise is computed for so many particles side by side.
+/// Noise is computed for this many particles at once.
 pub(crate) const BATCH: usize = 64;
 
 /// All that traits depend on. The number of particles is not compared.

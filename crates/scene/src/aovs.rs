@@ -72,7 +72,7 @@ pub struct AovRow {
     pub channels: &'static str,
     /// Type of a sample: half, float or uint.
     pub samples: &'static str,
-    /// What it is, in which unit.
+    /// What it is, and in which unit.
     pub summary: &'static str,
 }
 
@@ -306,8 +306,8 @@ impl AovSet {
         AOVS.iter().filter(move |row| self.has(row.aov))
     }
 
-    /// The set that a word stands for: `all`, `none`, `scene`, the name of one AOV, or what several names have before
-    /// the dot, such as `stroke`.
+    /// The set that a word stands for: `all`, `none`, `scene`, the name of one AOV, or the part before the dot that
+    /// several names share, such as `stroke`.
     ///
     /// # Errors
     /// The word is unknown. The error is the known name that is close to it, if there is one.

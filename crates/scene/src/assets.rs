@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::found_files::{FoundFiles, without_dots};
 use crate::problem::{Problem, Severity, TextPosition};
 
-/// The longest file name that is accepted, in bytes, folders included; Linux opens no longer path.
+/// The longest file name that is accepted, in bytes, folders included. Linux opens no path that is longer.
 pub const MAX_NAME_BYTES: usize = 4096;
 
 /// The folders that a scene's files may come from.
@@ -129,7 +129,7 @@ impl AssetFolders {
     /// Finds and reads a file that another file names: first beside that file, then in the extra folders.
     ///
     /// # Errors
-    /// As [`Self::find`], and when the file is not a regular one, is over `max_bytes`, or can not be read.
+    /// As [`Self::find`], and when the file is not a regular one, is over `max_bytes`, or cannot be read.
     pub fn open(&self, request: &AssetRequest<'_>) -> Result<Asset, AssetError> {
         let path = self.find(request)?;
         let bytes = read_regular_file(&path, request.max_bytes)?;
@@ -182,7 +182,7 @@ impl AssetFolders {
 /// However large the file claims to be, at most one byte more than the limit is read.
 ///
 /// # Errors
-/// [`AssetError`] when there is no such file, it is not a regular one, is over the limit, or can not be read.
+/// [`AssetError`] when there is no such file, it is not a regular one, is over the limit, or cannot be read.
 pub fn read_regular_file(path: &Path, max_bytes: u64) -> Result<Vec<u8>, AssetError> {
     let unreadable = |source: io::Error| match source.kind() {
         io::ErrorKind::NotFound => {

@@ -62,7 +62,7 @@ fn patch() -> TriangleMesh {
     for ring in 0..=RINGS {
         for step in 0..AROUND {
             let angle = std::f32::consts::TAU * step as f32 / AROUND as f32;
-            // A whole number of waves fits round, so that the border closes.
+            // Each sine makes a whole number of waves round the disc, so that the border closes.
             let uneven = 0.05 * (3.0 * angle + 0.7).sin()
                 + 0.035 * (5.0 * angle + 2.0).sin()
                 + 0.02 * (11.0 * angle).sin();

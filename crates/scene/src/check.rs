@@ -40,8 +40,7 @@ pub struct Finding {
 
 /// All findings about a document by itself: at most [`limits::MAX_PROBLEMS`], and one that counts the rest.
 ///
-/// The time is proportional to the document's size, except that the object of each guide, painted amount and touch is
-/// looked for among all objects, one by one.
+/// The time is proportional to the document's size.
 pub fn check(scene: &Scene) -> Vec<Finding> {
     let mut findings = Findings::default();
     shot::check(scene, &mut findings);

@@ -106,7 +106,8 @@ pub struct Scene {
     /// How the scene is drawn.
     #[serde(default)]
     pub style: Style,
-    /// What EXR files hold beside the colour, such as `["depth", "motion"]` or `["all"]`; `docs/compositing.md` lists them.
+    /// What EXR files hold beside the colour, such as `["depth", "motion"]` or `["all"]`; `docs/compositing.md` lists
+    /// them.
     #[serde(default, skip_serializing_if = "is_default")]
     pub aovs: Vec<String>,
 }
@@ -229,7 +230,8 @@ pub struct CameraKey {
     /// Turns the camera about its gaze, degrees; the picture turns the other way.
     #[serde(default, skip_serializing_if = "is_default")]
     pub roll_deg: f64,
-    /// The lens's field of view from this key on, degrees, from 1 to 170; interpolated between keys. Not for parallel lenses.
+    /// The lens's field of view from this key on, degrees, from 1 to 170; interpolated between keys. Not for parallel
+    /// lenses.
     #[serde(default, skip_serializing_if = "is_default")]
     pub fov_y_deg: Option<f64>,
     /// How the pose moves from this key to the next.
@@ -418,7 +420,7 @@ impl ObjectKey {
 }
 
 impl Scale {
-    /// The same along all axes.
+    /// The same scale along all axes.
     pub fn even(scale: f64) -> Self {
         Self([scale; 3])
     }

@@ -7,9 +7,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// The files that were found while a scene was read. Copies share one list.
 #[derive(Clone, Debug, Default)]
 pub struct FoundFiles {
-    /// For each file, by the path at which it was found: where in the scene's folder it would have to lie so that the
-    /// name in the scene or mesh leads to it without further folders. Relative to the scene's folder; `None` if no place
-    /// in it will do.
+    /// For each file, keyed by the path at which it was found: the place in the scene's folder where it would have to
+    /// lie, so that its name in the scene or mesh leads to it without `--asset-dir`. Relative to the scene's folder;
+    /// `None` if there is no such place.
     places: Arc<Mutex<BTreeMap<PathBuf, Option<PathBuf>>>>,
 }
 
@@ -27,8 +27,8 @@ impl FoundFiles {
     /// between folders.
     pub(crate) fn note(&self, [beside, root]: [&Path; 2], path: &Path, name: &str) {
         let mut places = self.places.lock().unwrap_or_else(PoisonError::into_inner);
-        // A naming file that is in the list itself would lie elsewhere, too: `name` counts from the place that the list
-        // has for it. (Of a place, only the folder matters, so any file name will do.)
+        // If the naming file is itself in the list, `name` is relative to the place that the list has for it. Only the
+        // folder of that place matters, so any file name will do below.
         let naming = places.get(&without_dots(beside)).cloned().unwrap_or_else(|| {
             let root = std::fs::canonicalize(root).ok()?;
             let folder = beside.parent().filter(|folder| !folder.as_os_str().is_empty());
@@ -39,8 +39,9 @@ impl FoundFiles {
         places.insert(path.to_owned(), place);
     }
 
-    /// A copy of the list. For each file, by the path at which it was found: where in the scene's folder it would have to
-    /// lie so that the name in the scene or mesh leads to it without further folders; `None` if no place will do.
+    /// A copy of the list. For each file, keyed by the path at which it was found: the place in the scene's folder
+    /// where it would have to lie, so that its name in the scene or mesh leads to it without `--asset-dir`. Relative to
+    /// the scene's folder; `None` if there is no such place.
     pub fn places(&self) -> BTreeMap<PathBuf, Option<PathBuf>> {
         self.places.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }

@@ -1,5 +1,5 @@
 //! A folder in which prepared scenes are kept from one process to the next. Any number of processes may use one folder
-//! at once, on a network share too: a file appears under its name whole or not at all, and nobody locks or waits.
+//! at once, on a network share too: a file appears under its name whole or not at all, and no process locks or waits.
 
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -14,7 +14,7 @@ const ENDING: &str = ".prepared";
 /// How many digits a key has.
 const DIGITS: usize = 32;
 
-/// An unfinished file of this age is left over from a process that was killed.
+/// An unfinished file older than this is taken to be left over from a process that was killed.
 const LEFT_OVER: Duration = Duration::from_secs(3600);
 
 /// The folder, and how large it may become.
@@ -59,7 +59,7 @@ fn read_at(mut file: &File, from: u64, to: &mut [u8]) -> io::Result<()> {
     file.read_exact(to)
 }
 
-/// What is to be kept.
+/// What to keep, and under which key.
 pub struct ToWrite<'a> {
     /// The key: 32 hexadecimal digits.
     pub key: String,

@@ -7,7 +7,7 @@ pub const MAX_SCENE_BYTES: u64 = 16 << 20;
 /// Values (numbers, texts, lists, fields) in a scene file.
 pub const MAX_VALUES: usize = 1_000_000;
 
-/// Brackets, or comments, inside each other.
+/// Depth to which brackets, or comments, may be nested.
 pub const MAX_NESTING: usize = 64;
 
 /// Characters of one number.
@@ -121,7 +121,7 @@ pub const TOUCH_LENGTH_PX: std::ops::RangeInclusive<f64> = 1.0..=4000.0;
 /// Floods of a scene.
 pub const MAX_FLOODS: usize = 256;
 
-/// Patches that all regions of a scene cover.
+/// Patches of all regions of a scene.
 pub const MAX_PATCHES: usize = 16_384;
 
 /// Numbers without a natural limit in a noise-displaced material.

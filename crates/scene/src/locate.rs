@@ -148,10 +148,10 @@ impl Located {
             let next = match &node.inside {
                 Inside::Nothing => None,
                 Inside::Items(items) => {
-                    // This is the first value that ends at the offset or behind it; it may also start behind it.
+                    // The first value that ends at the offset or behind it. It may even start behind the offset.
                     let index = items.partition_point(|item| (item.end as usize) < offset);
                     items.get(index).filter(|item| holds(item)).inspect(|_| {
-                        // In field paths, what a variant such as `Frame(0)` holds has no index.
+                        // In field paths, a value inside a variant such as `Frame(0)` has no index.
                         let is_variant = node.name_bytes > 0;
                         if !is_variant {
                             path.push_str(&format!("[{index}]"));

@@ -17,7 +17,7 @@ pub struct MeshFile {
     pub materials: Vec<Material>,
     /// What bends it: morph targets and joints, in the file's own space.
     pub bend: Option<Arc<Bend>>,
-    /// The points of the file, for a point cache to move; `None` if nobody asked for them or the file does not have
+    /// The points of the file, for a point cache to move; `None` if they were not asked for, or the file does not have
     /// them.
     pub points: Option<Arc<Points>>,
 }
@@ -35,7 +35,7 @@ impl MeshFile {
 pub struct Points {
     /// How many there are.
     pub count: usize,
-    /// The point at which each vertex of the mesh lies.
+    /// For each vertex of the mesh, the index of its point.
     pub of_vertex: Vec<u32>,
 }
 

@@ -12,14 +12,14 @@ use crate::obj;
 use crate::problem::{Problem, Report};
 use crate::texture;
 
-/// What stands between a mesh file's name and the name of a node in it: `props.glb#Lamp`.
+/// The separator between a mesh file's name and the name of a node in it: `props.glb#Lamp`.
 const NODE: char = '#';
 
 /// A mesh that was read, with the warnings. Nodes that show the same mesh with the same uneven scale and shear share it
 /// in memory.
 pub type MeshRead = Result<(Arc<MeshFile>, Vec<Problem>), Report>;
 
-/// Endings of mesh files, in small letters.
+/// Endings of mesh files, in lower case.
 pub const ENDINGS: [&str; 3] = ["obj", "gltf", "glb"];
 
 /// Whether a file is a mesh file, by its ending.
@@ -109,7 +109,7 @@ impl MeshReader {
         Ok((mesh, warnings))
     }
 
-    /// Reads a glTF file, or gives it again. Its warnings come the first time only.
+    /// Reads a glTF file. A file that was read before is returned again, without its warnings.
     pub fn open(
         &self,
         path: &Path,

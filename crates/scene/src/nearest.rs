@@ -6,7 +6,7 @@ pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) 
     // Long texts are no typing mistakes, and comparing them takes time proportional to the product of their lengths.
     const LONGEST: usize = 128;
     const COMPARED: usize = 1000;
-    /// A common beginning that is shorter than this is chance.
+    /// If the shorter name has fewer bytes than this, a common beginning is chance.
     const BEGINNING: usize = 3;
     /// The least likeness that counts.
     const ALIKE: f64 = 0.5;

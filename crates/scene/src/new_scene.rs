@@ -58,13 +58,14 @@ pub struct NewScene {
     pub up_is_unsure: bool,
 }
 
-/// A scene with one model before a ground, framed with a margin of a tenth whatever its size and position.
+/// A scene with one model in front of a ground. A tenth of the picture stays free at each border, whatever the model's
+/// size and position.
 ///
 /// The model is the first object and is named after the file. If it has no colours and from 2 to 12 groups, each group
-/// is an object, and the first of these is the parent of the others. Objects name the mesh by its bare file name, so the scene must
-/// lie in the same folder. A model without colours gets one, chosen by its name. With [`ViewFrom::Auto`], an open mesh
-/// that would show its back is seen from the side that shows most of its front; if that is from below, there is no
-/// ground, since the floor would hide the mesh.
+/// is an object, and the first of these is the parent of the others. Objects name the mesh by its bare file name, so
+/// the scene must lie in the same folder. A model without colours gets one, chosen by its name. With
+/// [`ViewFrom::Auto`], an open mesh that would show its back is seen from the side that shows most of its front; if
+/// that is from below, there is no ground, since the floor would hide the mesh.
 pub fn for_mesh(path: &Path, mesh: &MeshFile, placing: Placing) -> NewScene {
     let name = object_name(path);
     let name_hash = scheme::name_hash(&name);
@@ -190,7 +191,8 @@ fn significant(value: f64) -> f64 {
     round_at(value, value.abs().max(f64::MIN_POSITIVE).log10().floor() as i32 - 1)
 }
 
-/// Rounds at a decimal place. Dividing by a whole power of ten gives the float nearest to the decimal number.
+/// Rounds to a multiple of 10 to the power `exponent`. Dividing by a whole power of ten gives the float nearest to the
+/// decimal number.
 fn round_at(value: f64, exponent: i32) -> f64 {
     let rounded = if exponent < 0 {
         let scale = 10_f64.powi(-exponent);

@@ -125,7 +125,7 @@ pub fn resolve_with(
     of_scene: &StrokeSettings,
     of_region: Option<&StrokeSettings>,
 ) -> ResolvedStrokes {
-    // Presets are meant for a picture 720 high.
+    // Presets are meant for a picture 720 pixels high.
     let size = scene.size.1 as f32 / 720.0;
     let usual = scene.style.info().preset.unwrap_or(DEFAULT_PRESET);
     let usual = PRESETS.iter().find(|preset| preset.name == usual).unwrap_or(&PRESETS[0]);
@@ -180,7 +180,7 @@ impl ResolvedStrokes {
         self.layer_of(LayerKind::Body)
     }
 
-    /// Takes over what `settings` state: their preset first, then the sizes, then single layers.
+    /// Applies what `settings` state: their preset first, then the sizes, then single layers.
     fn apply(&mut self, settings: &StrokeSettings, preset_size: f32) {
         let named = |preset: &&Preset| Some(preset.name) == settings.preset.as_deref();
         if let Some(preset) = PRESETS.iter().find(named) {

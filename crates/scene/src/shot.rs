@@ -1,7 +1,7 @@
 //! A shot: the objects, camera, lights, motion and frame range that a glTF file brings into a scene.
 //!
-//! Nothing of it is written into the scene file. [`Brought::enter`] adds it to the document in memory, so that all who
-//! read a document find objects, lights and frames where they always are. Before the document is saved,
+//! Nothing of it is written into the scene file. [`Brought::enter`] adds it to the document in memory, so that code
+//! that reads a document finds objects, lights and frames where they always are. Before the document is saved,
 //! [`Brought::left`] takes out what comes from the shot alone. What moves is never turned into keys: [`crate::motion`]
 //! asks the shot for each frame.
 
@@ -37,7 +37,7 @@ pub struct Shot {
     is_chosen: bool,
     /// The lights as they are at rest, each with its node; the ambient light has none.
     lights: Vec<(Light, Option<usize>)>,
-    /// A light's intensity in the scene, over that in the file.
+    /// Factor from a light's intensity in the file to that in the scene.
     exposure: f64,
     /// Intensity of the ambient light, which stands for the light that surfaces reflect onto each other.
     around: f64,
@@ -54,7 +54,7 @@ struct ShotObject {
     unstretched: DMat3,
 }
 
-/// What a scene chooses of a shot's file.
+/// What a scene chooses from a shot's file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Choice {
     /// The name of the node of the camera that is looked through. `None`: the camera of the sidecar's cuts, or else the
@@ -65,7 +65,7 @@ pub(crate) struct Choice {
 }
 
 impl Choice {
-    /// What a scene states of these choices.
+    /// The choices that a scene states.
     pub fn of(scene: &Scene) -> Self {
         Self { camera: scene.camera.of_shot.clone(), animation: scene.timeline.animation.clone() }
     }
@@ -190,7 +190,7 @@ impl Shot {
     }
 }
 
-/// The path alone: whoever prints a scene does not want the numbers of a whole file.
+/// Prints the path alone: with a scene, the numbers of a whole file would be too much.
 impl fmt::Debug for Shot {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.debug_tuple("Shot").field(&self.file.path).finish()

@@ -79,7 +79,7 @@ pub(crate) struct Oddities {
 }
 
 impl Oddities {
-    /// Adds what was met in cutting later faces. The other oddities are found when all faces are cut.
+    /// Adds the oddities that were met while later faces were cut. The other kinds are found once all faces are cut.
     fn join(&mut self, later: &Self) {
         for (tally, later) in [
             (&mut self.flat_faces, later.flat_faces),
@@ -97,7 +97,7 @@ struct Triangle {
     face: u32,
 }
 
-/// Makes a mesh of faces, one after the other.
+/// Makes a mesh of faces.
 pub(crate) struct Builder<'a> {
     geometry: &'a Geometry,
     triangles: Vec<Triangle>,
@@ -158,9 +158,9 @@ impl<'a> Builder<'a> {
         self
     }
 
-    /// Drops triangles that lie on others with the same corners in the same order: they would take strokes that cannot
-    /// show. Does so only if the area of all triangles is far too large for a body of this size, and never if vertices
-    /// are kept apart.
+    /// Drops triangles that lie on others with the same corners in the same order: they would get strokes that cannot
+    /// be seen. Does so only if the area of all triangles is far too large for a body of this size, and never if
+    /// vertices are kept apart.
     fn drop_doubled(&mut self) {
         /// Doubled triangles are looked for if the mesh has at least this many times the area of the box around it.
         const MUCH_AREA: f64 = 16.0;
@@ -224,9 +224,9 @@ impl<'a> Builder<'a> {
         Some(normals.iter().all(|normal| normal.as_dvec3().dot(across).abs() < NEARLY_ALONG))
     }
 
-    /// Cuts a range of the faces. A part of the faces stops when all cores together have `spent` too many tests,
-    /// because [`Self::new`] then starts again. A range of all faces goes on to the end: when its tests are used up, it
-    /// cuts without them.
+    /// Cuts a range of the faces. If the range is only a part of the faces, cutting stops once all cores together have
+    /// `spent` too many tests, because [`Self::new`] then starts again. If it is all faces, cutting goes on to the end,
+    /// without tests once they are used up.
     fn cut(mut self, faces: Range<usize>, spent: &AtomicU64) -> Self {
         self.triangles.reserve(faces.len());
         let ends = &self.geometry.ends;

@@ -37,8 +37,8 @@ pub struct Decoded {
 ///
 /// # Errors
 /// A [`Severity::Limit`] problem when the header claims more than [`MAX_PIXELS`], or when decoding would take too much
-/// memory: none was allocated beyond the limit.
-/// A [`Severity::Warning`] when the picture can not be decoded: go on without it.
+/// memory: none was allocated beyond the limit. A [`Severity::Warning`] when the picture cannot be decoded: go on
+/// without it.
 pub fn decode(path: &Path, bytes: &[u8]) -> Result<Decoded, Problem> {
     let problem = |severity, message: String, mend: &str| Problem {
         severity,

@@ -15,7 +15,7 @@ pub(crate) struct Workers<'a, J, T> {
     pub(crate) own: Worker<'a, J, T>,
     /// How many threads work besides the calling one: the further threads.
     pub(crate) further: usize,
-    /// Makes the worker of a further thread, on that thread. Where it gives `None`, the other threads do the work.
+    /// Makes the worker of a further thread, on that thread. If it returns `None`, the other threads do the work.
     pub(crate) open: &'a (dyn Fn() -> Option<Worker<'a, J, T>> + Sync),
 }
 
@@ -77,7 +77,7 @@ where
                     shared.hand_in(number, job, result);
                 }
             };
-            // Where the system gives no thread, the threads that there are do all the work.
+            // If the system gives no more threads, the existing ones do all the work.
             if std::thread::Builder::new().name("frames".to_owned()).spawn_scoped(scope, run).is_err() {
                 break;
             }
@@ -156,7 +156,7 @@ impl<I: Iterator<Item = J>, J, T> State<I, J, T> {
     }
 }
 
-/// Lets the further threads end, however the work ends.
+/// On drop, gives out no more jobs, so that the further threads end, even after an error or a panic.
 struct Closing<'a, I: Iterator<Item = J>, J: Copy, T>(&'a Shared<I, J, T>);
 
 impl<I: Iterator<Item = J>, J: Copy, T> Drop for Closing<'_, I, J, T> {

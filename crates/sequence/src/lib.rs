@@ -38,7 +38,7 @@ const MAX_PAINTERS: u64 = 4;
 /// Opening a driver and compiling the shaders once more takes about as long as this many frames.
 const FRAMES_PER_PAINTER: u64 = 4;
 
-/// What the pictures of all painters may take together.
+/// The most memory that the pictures of all painters may take together, in bytes.
 const MAX_PICTURE_BYTES: u64 = 1 << 30;
 
 /// What became of a frame's file.
@@ -79,7 +79,7 @@ enum Early<E> {
 
 impl Sequence {
     /// Draws the frames and hands them to `take_in` in their order, on this thread. Ends at the first frame that fails,
-    /// when `take_in` fails, or when `stop`, which is asked again and again, returns true.
+    /// when `take_in` fails, or when `stop`, which is polled, returns true.
     ///
     /// # Errors
     /// The failure at which it ended.
@@ -103,9 +103,9 @@ impl Sequence {
         )
     }
 
-    /// Renders frames into files, each whole or not at all, and reports in their order what became of them, on this
-    /// thread. It goes on after a frame that failed. It ends early when `report` fails, or when `stop`, which is asked
-    /// again and again, returns true.
+    /// Renders frames into files, each whole or not at all. Calls `report` on this thread for each frame, in their
+    /// order. It goes on after a frame that failed. It ends early when `report` fails, or when `stop`, which is polled,
+    /// returns true.
     ///
     /// # Errors
     /// The error of `report`.

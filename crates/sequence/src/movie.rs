@@ -25,13 +25,13 @@ const COLOR_FILTERS: &str = "scale=out_color_matrix=bt709:out_range=tv:flags=acc
 /// Adds a black column and a black row where a side is odd.
 const EVEN_SIDES_FILTER: &str = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=black,";
 
-/// The most that is kept of what ffmpeg says, in bytes.
+/// The most bytes of ffmpeg's messages that are read into memory.
 const MAX_WORDS_BYTES: u64 = 16 << 10;
 
 /// Why a movie cannot be made, in one sentence each.
 #[derive(Debug, thiserror::Error)]
 pub enum MovieError {
-    /// Transparency is wanted, and such a file has none.
+    /// Transparency is wanted, but files of this kind have none.
     #[error("{0}")]
     NoTransparency(String),
     /// ffmpeg is not installed.
@@ -83,7 +83,7 @@ const fn h264(arguments: &'static [&'static str]) -> Encoding {
     }
 }
 
-/// What programs that edit films take. Colour is kept at every pixel (4:4:4): where it is subsampled, as in ProRes 422,
+/// What film editing programs take. Colour is kept at every pixel (4:4:4): where it is subsampled, as in ProRes 422,
 /// the edges of saturated strokes fray.
 const fn prores_4444(pixels: &'static str) -> Encoding {
     let arguments = &["-profile:v", "4", "-vendor", "apl0", "-movflags", "+faststart", "-f", "mov"];
@@ -102,7 +102,7 @@ pub struct Kind {
     /// The ending of its name.
     ending: &'static str,
     opaque: Encoding,
-    /// `None` where such a file holds no transparency.
+    /// `None` where files of this kind hold no transparency.
     transparent: Option<Encoding>,
 }
 
@@ -129,15 +129,15 @@ impl Kind {
         KINDS.iter().find(|kind| kind.ending == ending)
     }
 
-    /// Whether such a file can be transparent.
+    /// Whether files of this kind can be transparent.
     pub fn holds_transparency(&self) -> bool {
         self.transparent.is_some()
     }
 
-    /// How such a file is encoded.
+    /// How a file of this kind is encoded.
     ///
     /// # Errors
-    /// Transparency is wanted, and such a file has none.
+    /// Transparency is wanted, but files of this kind have none.
     pub fn encoding(&'static self, transparent: bool) -> Result<&'static Encoding, MovieError> {
         if !transparent {
             return Ok(&self.opaque);

@@ -18,7 +18,7 @@ pub struct Wanted {
     pub png: Option<PngDepth>,
     /// An EXR file with these AOVs beside the colour, as far as the style has them.
     pub exr: Option<AovSet>,
-    /// How small EXR files are made.
+    /// Whether EXR files are compressed.
     pub packing: Packing,
 }
 

@@ -1,5 +1,5 @@
 //! The state of a frame: one short text that stands for everything that the frame depends on. It is noted in the
-//! frame's file, so that frames of another state are not taken for done.
+//! frame's file, so that a frame of another state is not taken for a finished one.
 
 use impasto_gl_render::ShaderTexts;
 use impasto_painting::FrameOptions;

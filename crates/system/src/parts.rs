@@ -8,7 +8,7 @@ use crate::systems::System;
 pub struct Part {
     /// What it is called in a sentence.
     pub what: &'static str,
-    /// The file by which it is found on a Linux.
+    /// The file by which it is found on Linux.
     pub file: &'static str,
     /// The packages of Debian, Fedora and Arch, in this order; empty where there is none.
     packages: [&'static str; 3],

@@ -5,15 +5,15 @@ use std::path::Path;
 /// A kind of system. Two kinds differ in the names of their packages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum System {
-    /// Debian, Ubuntu and what is made from them, with apt.
+    /// Debian, Ubuntu and their derivatives, with apt.
     Debian,
-    /// Fedora and what is made from it, with dnf.
+    /// Fedora and its derivatives, with dnf.
     Fedora,
-    /// Arch Linux and what is made from it, with pacman.
+    /// Arch Linux and its derivatives, with pacman.
     Arch,
     /// A Linux whose packages are not known here.
     OtherLinux,
-    /// No Linux: Impasto was never tried there.
+    /// Not Linux: Impasto was never tried there.
     NotLinux,
 }
 

@@ -45,7 +45,7 @@ fn linear(byte: u8) -> f64 {
     if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
 
-/// Mean and deviation of the first channel, linear.
+/// Mean and standard deviation of the first channel, linear.
 fn moments(picture: &Picture) -> [f64; 2] {
     let values: Vec<f64> = picture.rgba8.chunks_exact(4).map(|pixel| linear(pixel[0])).collect();
     let mean = values.iter().sum::<f64>() / values.len() as f64;

@@ -58,7 +58,7 @@ fn scene() -> Scene {
     scene
 }
 
-/// The sheet displaced by the ramp, lit by these normals.
+/// The sheet displaced by the ramp, lit with these normals.
 fn displaced(normals: NoiseNormals) -> Arc<LoadedScene> {
     let mut scene = scene();
     let noise = VertexNoise {

@@ -66,7 +66,7 @@ fn drawn_strokes(renderer: &mut Renderer, strokes: Vec<Stroke>) -> (Picture, Vec
     (picture, dark.collect())
 }
 
-/// The ink that a stroke of this darkness lays this many pixels after its middle. It falls linearly from 1.06 of the
+/// The ink that a stroke of this darkness lays this many pixels past its middle. It falls linearly from 1.06 of the
 /// darkness at the start to 0.78 at the end.
 fn carried(dark: f64, after_middle_px: f64) -> f64 {
     let share = 0.5 + after_middle_px * f64::from(FILL / LENGTH_PX);
@@ -89,7 +89,7 @@ fn assert_ink(picture: &Picture, [x, y]: [usize; 2], ink: f64) {
     assert!((found - wanted).abs() <= 2.0, "at {x}, {y}: {found} for {wanted}");
 }
 
-/// How far the middle of a pixel lies after the middle of the picture along an axis, in pixels.
+/// How far the middle of a pixel lies past the middle of the picture along an axis, in pixels.
 fn after_middle_px(at: usize, axis: usize) -> f64 {
     at as f64 + 0.5 - f64::from(SIZE_PX[axis]) * 0.5
 }

@@ -4,7 +4,7 @@
 pub(super) struct Picture {
     pub(super) name: &'static str,
     pub(super) view: View,
-    /// Rendered at the scene's own size instead of the gallery's.
+    /// Whether it is rendered at the scene's own size instead of the gallery's.
     pub(super) own_size: bool,
     /// How many panels a row has.
     pub(super) columns: usize,
@@ -37,7 +37,7 @@ const FRUIT: [usize; 4] = [520, 270, 300, 230];
 /// A part of the still life: jug and wall.
 const JUG: [usize; 4] = [330, 60, 300, 230];
 
-/// A part of the still life with other values in each panel.
+/// A part of the still life with different values in each panel.
 const fn sweep(
     name: &'static str,
     crop: [usize; 4],
@@ -54,7 +54,7 @@ const BROAD: (&str, &str) = ("regions.grass.strokes.width_px", "18");
 /// Lets blades of grass stand apart.
 const SPARSE: (&str, &str) = ("regions.grass.strokes.coverage", "0.3");
 
-/// A part of the meadow with other values in each panel.
+/// A part of the meadow with different values in each panel.
 const fn meadow(
     name: &'static str,
     crop: [usize; 4],

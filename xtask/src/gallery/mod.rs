@@ -1,5 +1,4 @@
-//! `cargo xtask gallery`: renders the pictures of the README and the docs anew. If names are given, only those
-//! pictures.
+//! `cargo xtask gallery`: renders the pictures of the README and the docs anew, or only those whose names are given.
 
 mod list;
 mod noise;

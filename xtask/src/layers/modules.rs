@@ -172,7 +172,7 @@ fn imports(tree: &[TokenTree], before: &Names, public: bool, found: &mut Vec<Imp
     }
 }
 
-/// The name behind the `::` that stands at `at`, if there is one.
+/// The name after the `::` at index `at`, if there is one.
 fn next_name(tokens: &[TokenTree], at: usize) -> Option<String> {
     match (tokens.get(at), tokens.get(at + 1), tokens.get(at + 2)) {
         (first, second, Some(TokenTree::Ident(name))) if is_mark(first, ':') && is_mark(second, ':') => {
@@ -192,7 +192,7 @@ fn is_for_tests(attribute: &TokenStream) -> bool {
     text.starts_with("cfg(test") || text.starts_with("cfg(all(test")
 }
 
-/// The place behind the item that starts at `at`: past its `;` or, except for a `use`, past its braces.
+/// The index after the item that starts at `at`: past its `;` or, except for a `use`, past its braces.
 fn after_item(tokens: &[TokenTree], at: usize) -> usize {
     let mut is_use = false;
     for (place, token) in tokens.iter().enumerate().skip(at) {

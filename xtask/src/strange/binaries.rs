@@ -16,7 +16,7 @@ pub fn picture(chance: &mut Chance, kind: &str) -> Vec<u8> {
     bytes
 }
 
-/// A side of a picture, or a lie.
+/// The length of a side that a header claims: the true one, or an odd one.
 fn side(chance: &mut Chance, true_px: u32) -> u32 {
     if !chance.is_odd() {
         return true_px;
@@ -111,7 +111,7 @@ pub fn cache(chance: &mut Chance, points: u32) -> Vec<u8> {
     bytes
 }
 
-/// A number, or an odd one where that is a number at all.
+/// The usual number, or an odd one. Odd numbers that cannot be parsed give the usual one.
 pub fn float(chance: &mut Chance, usual: f64) -> f64 {
     chance.number(usual).parse().unwrap_or(usual)
 }

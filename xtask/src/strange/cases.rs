@@ -12,7 +12,7 @@ use super::{binaries, damage, models, scenes, shots};
 /// Larger files are not damaged: they are slow to paint, and find nothing more.
 const MOST_BYTES: u64 = 256 << 10;
 
-/// What damaged files come from, and what a scene may hold.
+/// The files that are damaged, and the grammar of scene files.
 pub struct Source {
     page: Page,
     files: Vec<PathBuf>,
@@ -32,12 +32,12 @@ pub struct Case {
 /// Files with their names: the one that is opened comes first.
 type Files = Vec<(String, Vec<u8>)>;
 
-/// Draws the files of a case, and says of what kind they are.
+/// Draws the files of a case, and names their kind.
 type Draw = fn(&Source, &mut Chance) -> (&'static str, Files);
 
 const KINDS: [Draw; 7] = [model, shot, scene, picture, moved, damaged, damaged];
 
-/// What is opened, and what is only read.
+/// Endings of files that a command opens, and of files that such a file may name.
 const OPENED: [&str; 4] = ["obj", "glb", "gltf", "ron"];
 const READ: [&str; 7] = ["mtl", "png", "jpg", "tga", "webp", "bin", "pc2"];
 
@@ -90,7 +90,7 @@ impl Source {
         Case { kind, files, commands, written: ["out.png", "out.csv", "new.ron", "out.exr"] }
     }
 
-    /// A file of one of these kinds, and its name.
+    /// A random file with one of these endings: its path and its bytes.
     fn any(&self, chance: &mut Chance, endings: &[&str]) -> (PathBuf, Vec<u8>) {
         let fitting: Vec<&PathBuf> =
             self.files.iter().filter(|path| ending(path).is_some_and(|end| endings.contains(&end))).collect();
@@ -110,7 +110,7 @@ fn named(name: &str, bytes: Vec<u8>) -> (String, Vec<u8>) {
     (name.to_owned(), bytes)
 }
 
-/// A model from nothing.
+/// A model drawn from nothing.
 fn model(_: &Source, chance: &mut Chance) -> (&'static str, Files) {
     let mut files = vec![named("m.obj", models::obj(chance)), named("m.mtl", models::mtl(chance))];
     files.push(named("t.png", binaries::picture(chance, "png")));
@@ -121,7 +121,7 @@ fn model(_: &Source, chance: &mut Chance) -> (&'static str, Files) {
     ("model", files)
 }
 
-/// A shot from nothing.
+/// A shot drawn from nothing.
 fn shot(_: &Source, chance: &mut Chance) -> (&'static str, Files) {
     let mut files = vec![named("s.glb", shots::glb(chance))];
     if chance.happens(0.3) {
@@ -131,7 +131,7 @@ fn shot(_: &Source, chance: &mut Chance) -> (&'static str, Files) {
     ("shot", files)
 }
 
-/// A scene from nothing.
+/// A scene drawn from nothing.
 fn scene(source: &Source, chance: &mut Chance) -> (&'static str, Files) {
     let mut files = vec![named("a.ron", scenes::scene(chance, &source.page))];
     files.push(named("m.obj", small(chance)));
@@ -208,7 +208,7 @@ fn moved(_: &Source, chance: &mut Chance) -> (&'static str, Files) {
     )
 }
 
-/// A damaged copy of a file that is there, beside sound copies of those that it may name.
+/// A damaged copy of an existing file, beside sound copies of the files that it may name.
 fn damaged(source: &Source, chance: &mut Chance) -> (&'static str, Files) {
     let (path, bytes) = source.any(chance, &OPENED);
     let end = ending(&path).unwrap_or("obj");
@@ -253,7 +253,7 @@ fn beside(path: &Path) -> Files {
         .collect()
 }
 
-/// The tree and the numbers of a GLB file.
+/// The JSON and the binary data of a GLB file.
 fn glb_parts(bytes: &[u8]) -> Option<(Value, Vec<u8>)> {
     let length = u32::from_le_bytes(bytes.get(12..16)?.try_into().ok()?) as usize;
     let tree = serde_json::from_slice(bytes.get(20..20 + length)?).ok()?;

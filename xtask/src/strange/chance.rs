@@ -1,4 +1,4 @@
-//! What strange files are drawn from: odd numbers, odd names, and a chance that a seed repeats.
+//! The source of strange files: odd numbers, odd names, and random choices that a seed repeats.
 
 /// Random choices of one case; the same seed and number always give the same file.
 pub struct Chance {
@@ -84,20 +84,20 @@ const ODD_NAMES: [&str; 28] = [
 ];
 
 impl Chance {
-    /// The chance of case `number` of this seed. A quarter of all cases has nothing odd, so that what only sound
-    /// files reach is reached as well.
+    /// The random choices of case `number` of this seed. A quarter of all cases have nothing odd, so that code that
+    /// only sound files reach runs as well.
     pub fn new(seed: u64, number: u64) -> Self {
         let mut numbers = fastrand::Rng::with_seed(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ number);
         let oddness = *numbers.choice(&[0.0, 0.002, 0.02, 0.15]).unwrap_or(&0.0);
         Self { numbers, oddness }
     }
 
-    /// Whether what happens with this probability happens.
+    /// Returns true with this probability.
     pub fn happens(&mut self, probability: f64) -> bool {
         self.numbers.f64() < probability
     }
 
-    /// Whether something odd comes here.
+    /// Whether something odd is to come next.
     pub fn is_odd(&mut self) -> bool {
         self.happens(self.oddness)
     }
@@ -126,7 +126,7 @@ impl Chance {
         least + (most - least) * self.numbers.f64()
     }
 
-    /// One of these.
+    /// One of these, by chance.
     pub fn of<T: Copy>(&mut self, from: &[T]) -> T {
         from[self.below(from.len())]
     }

@@ -1,14 +1,14 @@
-//! Damage to files that are there: bytes, lines, numbers and branches of JSON are changed, dropped, repeated or taken
-//! from elsewhere.
+//! Damages existing files: bytes, lines, numbers and branches of JSON are changed, dropped, repeated or taken from
+//! elsewhere.
 
 use serde_json::Value;
 
 use super::chance::Chance;
 
-/// The largest file that damage leaves.
+/// The most bytes that a damaged file has.
 const MOST_BYTES: usize = 4 << 20;
 
-/// Damages bytes wherever they stand.
+/// Damages bytes at random places.
 pub fn bytes(chance: &mut Chance, mut bytes: Vec<u8>, other: &[u8]) -> Vec<u8> {
     for _ in 0..chance.count(20) {
         let at = chance.below(bytes.len() + 1);
@@ -77,7 +77,7 @@ pub fn text(chance: &mut Chance, bytes: &[u8], other: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// Puts something odd in the place of one word of a line, the words being what lies between separators.
+/// Replaces one word of a line by something odd. Words lie between separators.
 fn odd_word(chance: &mut Chance, line: &str, is_separator: impl Fn(u8) -> bool) -> String {
     let words: Vec<std::ops::Range<usize>> = line
         .as_bytes()
@@ -98,7 +98,8 @@ fn odd_word(chance: &mut Chance, line: &str, is_separator: impl Fn(u8) -> bool) 
     format!("{}{odd}{}", &line[..word.start], &line[word.end..])
 }
 
-/// Damages branches of JSON: a value becomes another of the tree, an odd one, or goes.
+/// Damages branches of JSON: a value is replaced by another of the tree or by an odd one, repeated in its list, or
+/// removed.
 pub fn json(chance: &mut Chance, root: &mut Value) {
     for _ in 0..chance.count(8) {
         let elsewhere = branch(chance, &mut root.clone(), |value| value.clone());
@@ -123,7 +124,7 @@ pub fn json(chance: &mut Chance, root: &mut Value) {
     }
 }
 
-/// Walks down to a branch by chance, and does something with it.
+/// Walks down to a random branch, and calls `act` with it.
 fn branch<T>(chance: &mut Chance, mut value: &mut Value, act: impl FnOnce(&mut Value) -> T) -> T {
     let mut depth = 1 + chance.below(7);
     loop {

@@ -1,8 +1,8 @@
 //! `cargo xtask strange`: makes files that nobody has seen before, throws them at the program, and judges how each
 //! command ends. Some are drawn from nothing, others are damaged copies of `scenes/` and of the corpus.
 //!
-//! The seed and the number of a case name it for good; `--only NUMBER` runs one case again. What fell over stays in
-//! `target/strange/`.
+//! A seed and a number always give the same case; `--seed SEED --only NUMBER` runs one case again. Cases that fell over
+//! stay in `target/strange/`.
 
 mod binaries;
 mod cases;
@@ -27,7 +27,7 @@ use self::trial::Ended;
 use crate::packages::{self, Install};
 use crate::steps::{Profile, build, target_folder};
 
-/// Minutes, unless `--minutes` says how many.
+/// Minutes of a run, unless `--minutes` says how many.
 const MINUTES: u64 = 10;
 
 /// How many cases that fell over in the same way are kept.
@@ -43,7 +43,7 @@ struct Asked {
     only: Option<u64>,
 }
 
-/// What all cases together came to.
+/// The results of all cases together.
 #[derive(Default)]
 struct Sums {
     /// By kind: how many were painted, painted with a warning, refused.
@@ -65,7 +65,7 @@ pub fn run(root: &Path, own: &[String]) -> anyhow::Result<()> {
     let source = Source::read(root)?;
     let kept = target_folder(root)?.join("strange");
     std::fs::create_dir_all(&kept)?;
-    // A copy, so that what is built meanwhile changes nothing.
+    // A copy, so that a build meanwhile does not replace the program.
     let program = kept.join("impasto");
     std::fs::copy(&built, &program)?;
     println!("seed {}", asked.seed);

@@ -9,7 +9,7 @@ use super::chance::Chance;
 /// The most triangles or corners of a strange body.
 const MOST: usize = 20_000;
 
-/// Points, and faces that name them from 0.
+/// Points, and faces that name points by their index from 0.
 #[derive(Default)]
 struct Body {
     points: Vec<[f64; 3]>,
@@ -77,7 +77,7 @@ fn line_of(text: &mut String, words: &[&str]) {
     text.push('\n');
 }
 
-/// Writes texture coordinates and normals, and says how many of each.
+/// Writes texture coordinates and normals. Returns how many of each.
 fn attributes(chance: &mut Chance, body: &Body, text: &mut String) -> (usize, usize) {
     let uvs = if chance.happens(0.5) { chance.count(body.points.len()) } else { 0 };
     let spread = chance.of(&[1.0, 1e-6, 1e4, 0.0]);
@@ -106,7 +106,7 @@ fn direction(chance: &mut Chance) -> [f64; 3] {
     [flat * turn.cos(), height, flat * turn.sin()]
 }
 
-/// Makes it large or tiny, flat along an axis, and moves it far away, each now and then.
+/// Now and then makes the body large or tiny, flattens it along an axis, or moves it far away.
 fn place(chance: &mut Chance, body: &mut Body) {
     let size = chance.of(&[1.0, 1.0, 1.0, 100.0, 1e4, 1e-3, 1e-6, 1e6]);
     let mut stretch = [size; 3];
@@ -126,7 +126,7 @@ fn anywhere(chance: &mut Chance) -> [f64; 3] {
     [0; 3].map(|_: i32| chance.between(-1.0, 1.0))
 }
 
-/// Triangles anywhere.
+/// Triangles at random places.
 fn soup(chance: &mut Chance) -> Body {
     let count = chance.count(MOST);
     let points = (0..3 * count).map(|_| anywhere(chance)).collect();
@@ -192,7 +192,8 @@ fn ball(chance: &mut Chance) -> Body {
     Body { points, faces: quads(rings, rings, rings) }
 }
 
-/// Quads between `rows + 1` rows of `across` points; the last of a row joins the first.
+/// Quads between `rows + 1` rows of `across` points, `joined` quads a row. With `across` quads, the last one closes the
+/// row.
 fn quads(rows: usize, across: usize, joined: usize) -> Vec<Vec<usize>> {
     (0..rows)
         .flat_map(|row| (0..joined).map(move |column| (row * across, column, (column + 1) % across)))
@@ -216,7 +217,7 @@ fn grid(chance: &mut Chance) -> Body {
     Body { points, faces }
 }
 
-/// Triangles a millionth as wide as they are long.
+/// Triangles at most a thousandth of a unit wide; some have no width.
 fn slivers(chance: &mut Chance) -> Body {
     let mut body = Body::default();
     for _ in 0..chance.count(MOST) {
@@ -229,7 +230,7 @@ fn slivers(chance: &mut Chance) -> Body {
     body
 }
 
-/// Many faces on one edge.
+/// Many faces that share one edge.
 fn fins(chance: &mut Chance) -> Body {
     let mut points = vec![[0.0, -1.0, 0.0], [0.0, 1.0, 0.0]];
     let count = chance.count(MOST);
@@ -279,7 +280,7 @@ fn tube(chance: &mut Chance) -> Body {
     Body { points, faces: quads(steps, sides, sides) }
 }
 
-/// Two small clouds of triangles far from each other.
+/// A cloud of triangles, of which a few points at most stay behind when the rest moves far away.
 fn clusters(chance: &mut Chance) -> Body {
     let mut body = soup(chance);
     let gap = chance.of(&[10.0, 1e4, 1e8]);

@@ -3,7 +3,7 @@
 use super::chance::Chance;
 use super::page::{Page, Row};
 
-/// Names that repeat within a scene, so that what one field names is there as a rule.
+/// Few names, so that a name to which a field refers usually exists in the scene.
 const NAMES: [&str; 4] = ["apple", "ball", "leaf", "wall"];
 const FIRST_NAMES: [&str; 4] = ["apple", "apple", "apple", "ball"];
 const GROUPS: [&str; 4] = ["body", "stem", "leaf", "floor"];
@@ -11,7 +11,7 @@ const BRUSHES: [&str; 7] = ["flat", "round", "knife", "filbert", "fan", "dry", "
 const PRESETS: [&str; 6] = ["oil study", "impressionist", "dry brush", "gouache", "ink", "paper"];
 const LAYERS: [&str; 7] = ["underpainting", "body", "form", "scumble", "accents", "contour", "lights"];
 
-/// How deep groups lie in each other at most.
+/// The deepest nesting of groups.
 const DEEPEST: usize = 7;
 
 /// A scene that reads `m.obj`, `s.glb`, `c.pc2`, `t.png` beside it.
@@ -33,7 +33,7 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    /// A group of fields: those that must be there, and some of the others.
+    /// Writes a group of fields: those that must be there, and some of the others.
     fn group(&mut self, chance: &mut Chance, table: &str, depth: usize) {
         let page = self.page;
         let often = [0.9, 0.5, 0.3, 0.25, 0.15, 0.1, 0.05, 0.0][depth.min(DEEPEST)];
@@ -62,7 +62,7 @@ impl Writer<'_> {
         match (table, &*row.name) {
             _ if chance.is_odd() => chance.happens(0.5),
             ("Scene", "shot") => !self.has_shot,
-            // They take long, and only say how many.
+            // These make painting slow, so they are rare.
             ("Scene", "aovs") | ("RotatingStrokes", "solver" | "samples") => !chance.happens(0.1),
             ("Scene", "camera" | "objects") | ("Camera", "keys") => false,
             ("Object", "mesh") => self.has_shot && chance.happens(0.5),
@@ -110,7 +110,7 @@ impl Writer<'_> {
             "text" | "a brush" => self.word(chance, table, &row.name),
             "a colour" => self.color(chance),
             "`true` or `false`" => {
-                // What is hidden shows nothing.
+                // Hidden things show nothing, so they are rare.
                 let is_true = chance.happens(if row.name == "hidden" { 0.05 } else { 0.5 });
                 self.text.push_str(if is_true { "true" } else { "false" });
             }
@@ -165,7 +165,7 @@ impl Writer<'_> {
         self.text.push(']');
     }
 
-    /// Keys come in the order of their frames: the one that was written from `start` on gets this frame.
+    /// Writes `frame` into the key whose text begins at `start`, so that keys are in the order of their frames.
     fn put_frame(&mut self, chance: &mut Chance, start: usize, frame: i64) {
         let Some(at) = self.text[start..].find("frame: ").map(|at| start + at + 7) else { return };
         let Some(end) = self.text[at..].find(',').map(|end| at + end) else { return };
@@ -193,7 +193,7 @@ impl Writer<'_> {
         }
     }
 
-    /// What stands in brackets behind a word, as the page's sample has it: `"name", […])`.
+    /// Writes what stands in brackets after a word, in the form of the page's sample: `"name", […])`.
     fn arguments(&mut self, chance: &mut Chance, word: &str, sample: &str, depth: usize) {
         self.text.push('(');
         let mut rest = sample;
@@ -241,7 +241,7 @@ impl Writer<'_> {
     }
 
     fn number(&mut self, chance: &mut Chance, [least, most]: [f64; 2], is_whole: bool) {
-        // Close to what is usual, and now and then anything that is allowed.
+        // Usually a common value, now and then any allowed one.
         let usual = if chance.happens(0.8) {
             chance.between(least.max(-2.0), most.min(60.0))
         } else {
@@ -319,8 +319,7 @@ impl Writer<'_> {
     }
 }
 
-/// What a field's numbers are drawn from as a rule, so that a scene is sound and small: what the page says, or what
-/// goes well together.
+/// The range from which a field's numbers are usually drawn: the page's, or one that keeps the scene sound and small.
 fn usual_range(table: &str, row: &Row) -> [f64; 2] {
     match (table, &*row.name) {
         (_, "version") => [1.0, 1.0],

@@ -1,4 +1,4 @@
-//! Strange glTF shots: a small shot with every feature by chance, whose tree and numbers are then damaged.
+//! Strange glTF shots: a small shot whose features are chosen by chance, and whose JSON and numbers are then damaged.
 
 use serde_json::{Value, json};
 
@@ -8,7 +8,7 @@ use super::damage;
 
 const FLOAT: u32 = 5126;
 
-/// What is written so far: the numbers, and who reads them.
+/// The binary data so far, and the views and accessors that read it.
 #[derive(Default)]
 struct Store {
     bytes: Vec<u8>,
@@ -185,7 +185,7 @@ fn node(chance: &mut Chance, index: usize, meshes: usize) -> Value {
     node
 }
 
-/// A ring of triangles with a middle, weights of joints and a shape key.
+/// Triangles from a rim to a middle point, with joint weights and a shape key.
 fn mesh(chance: &mut Chance, store: &mut Store) -> Value {
     let rim = chance.count(200).max(3);
     let mut places = vec![[0.0, 0.0, 0.4]];
@@ -248,7 +248,7 @@ fn animation(chance: &mut Chance, store: &mut Store, nodes: usize) -> Value {
     json!({ "name": chance.name(&["walk", "run"]), "samplers": samplers, "channels": channels })
 }
 
-/// What stands beside a shot: cuts, shifts and caches, by the names of its nodes.
+/// A sidecar: cuts, shifts, caches and more, by the names of the shot's nodes.
 pub fn sidecar(chance: &mut Chance) -> Vec<u8> {
     let mut root = json!({
         "version": 1, "fps": float(chance, 24.0), "frames": [0, chance.count(100)],

@@ -30,7 +30,8 @@ pub struct Ended {
     was_ended: bool,
 }
 
-/// Runs the program in a folder. What it prints goes to a file beside that folder, so that it never waits for us.
+/// Runs the program in a folder. What it prints goes to a file beside that folder, so that the program never waits for
+/// a reader.
 pub fn run(program: &Path, folder: &Path, words: &[&str]) -> anyhow::Result<Ended> {
     let told_at = folder.with_file_name(TOLD);
     let told = std::fs::File::create(&told_at)?;
@@ -121,7 +122,7 @@ impl Ended {
         if self.told.chars().any(|letter| letter.is_control() && !"\n\t".contains(letter)) {
             faults.push("printed control characters".to_owned());
         }
-        // One line of JSON holds all of it.
+        // JSON is printed as one line, however long.
         if self.told.lines().any(|line| line.len() > LONGEST_LINE && !line.starts_with('{')) {
             faults.push("printed a line without an end".to_owned());
         }

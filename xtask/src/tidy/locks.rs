@@ -1,5 +1,5 @@
-//! Checks that the lock files of the packages outside the workspace still know what our crates depend on. Otherwise
-//! `cargo xtask bench` and `cargo xtask fuzz`, which build with `--locked`, refuse to.
+//! Checks that the lock files of the packages outside the workspace still list the dependencies of our crates.
+//! Otherwise `cargo xtask bench` and `cargo xtask fuzz`, which build with `--locked`, would fail.
 
 use std::collections::BTreeSet;
 
@@ -22,7 +22,7 @@ pub fn check(file: &str, lock: &str, manifest: impl Fn(&str) -> Option<String>) 
     findings
 }
 
-/// What a manifest always depends on, by the names of the packages.
+/// The names of the packages that a manifest depends on, without optional and dev-dependencies.
 fn dependencies(manifest: &str) -> Vec<&str> {
     let mut counts = false;
     let mut found = Vec::new();

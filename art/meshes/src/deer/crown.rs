@@ -74,7 +74,7 @@ fn ear(mesh: &mut PolyMesh, side: f64) {
             let half = 0.026 + 0.038 * smoothstep(0.0, 0.45, t);
             let half = half * (1.0 - smoothstep(0.45, 1.06, t)).powf(0.7);
             let bend = 0.030 * t * t;
-            // The edges curl forwards, most at the root in proportion to the ear's width.
+            // The edges curl forwards; relative to the ear's width, they do so most at the root.
             let curl = half * (0.95 - 0.55 * t) * s * s;
             let middle = root + along * (0.235 * t) + right * (half * s) + hollow * (curl + bend - 0.01);
             let thick = 0.007 * (1.0 - s * s) * (1.0 - t) + 0.002;

@@ -23,7 +23,7 @@ pub struct Target<'a> {
 pub enum Bend<'a> {
     /// Nothing does.
     Never,
-    /// The joints of a skin: what each point follows.
+    /// The joints of a skin: for each point, those that it follows.
     Joints(&'a [Influence]),
     /// Morph targets.
     Targets(&'a [Target<'a>]),

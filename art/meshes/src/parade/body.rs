@@ -151,7 +151,7 @@ impl Form {
     }
 }
 
-/// The distance from what two bodies have in common, given the distances from each; the edge between them is rounded.
+/// The distance to the intersection of two bodies, given the distance to each; the edge between them is rounded.
 fn cut(a: f64, b: f64) -> f64 {
     -blend(-a, -b, 0.03)
 }

@@ -133,7 +133,7 @@ pub fn eye_frame(side: f64) -> (DVec3, [DVec3; 3]) {
 /// Half the size of an eye along its axes.
 const BALL: DVec3 = DVec3::new(0.069, 0.075, 0.044);
 
-/// A place round an eye, by angles to its left and up: on the ball, or on a shell `out` further out.
+/// A place round an eye, by angles to its left and up: on a shell `out` outside the ball.
 fn round_eye(side: f64, at: DVec2, out: f64) -> DVec3 {
     let (middle, axes) = eye_frame(side);
     let way = DVec3::new(at.x.sin() * at.y.cos(), at.y.sin(), at.x.cos() * at.y.cos());

@@ -59,7 +59,7 @@ pub fn cache() -> Vec<u8> {
 }
 
 /// The points of the cloth, row by row from the hem up. `time` is a share of the shot, `wind` a strength, at most 1. A
-/// row keeps its length: what waves is its direction.
+/// row keeps its length, because only its direction waves.
 fn points(time: f64, wind: f64) -> Vec<DVec3> {
     /// Integration steps along a row, for each face.
     const FINE: usize = 4;

@@ -27,7 +27,7 @@ const PITCH: [f64; 2] = [20.0, -44.0];
 /// How far the feet point outwards, degrees.
 const OUT: f64 = 7.0;
 
-/// How the giant stands in a frame, seen from a point that moves evenly with it.
+/// The giant's pose in a frame, in a space that moves evenly with it.
 pub struct Pose {
     /// Where the hips are.
     pub hips: DVec3,
@@ -38,7 +38,7 @@ pub struct Pose {
 /// How the head is turned from the way ahead, degrees: to its left, down, and to its right shoulder.
 pub type Look = [f64; 3];
 
-/// The pose in a frame, with the head looking somewhere.
+/// The pose in a frame; `look` turns the head.
 pub fn pose(frame: f64, look: Look) -> Pose {
     let phase = frame / STRIDE_FRAMES;
     let wave = |shift: f64| (TAU * (phase - shift)).cos();

@@ -36,7 +36,7 @@ enum Line {
 /// Frames to be rendered.
 #[derive(Clone, Debug, Deserialize)]
 pub(super) struct RenderOrder {
-    /// Said again in every answer.
+    /// Repeated in every answer.
     #[serde(default)]
     pub id: u64,
     /// Which frames, as `-f` takes them.
@@ -49,7 +49,7 @@ pub(super) struct RenderOrder {
     /// What goes beside the colour, as `--aov` takes it.
     #[serde(default)]
     pub aovs: Vec<String>,
-    /// Whether the background is clear.
+    /// Whether the background is transparent.
     #[serde(default)]
     pub alpha: bool,
     /// Whether files are written without compression.
@@ -102,13 +102,14 @@ impl Current {
     }
 }
 
-/// The orders of standard input.
+/// The orders from standard input.
 pub(super) struct Orders {
     coming: Receiver<(Order, Arc<Current>)>,
 }
 
 impl Orders {
-    /// Begins to read. At the end of the input, as at `quit`, rendering is stopped: nobody waits for it.
+    /// Begins to read. At the end of the input, or at `quit`, rendering is stopped, because nobody waits for its
+    /// frames.
     pub fn from_stdin() -> Self {
         let (send, coming) = channel();
         std::thread::spawn(move || {
@@ -147,7 +148,7 @@ impl Orders {
                     Err(error) => Order::Unread(format!("a line is not understood: {error}")),
                 };
                 if matches!(order, Order::Render(_)) {
-                    // A new order takes the place of one that is under way.
+                    // A new render order stops the one before it.
                     last.stop();
                     last = Arc::default();
                 }
@@ -160,7 +161,7 @@ impl Orders {
         Self { coming }
     }
 
-    /// The next order, with what changes while it is carried out; `None` when there are no more.
+    /// The next order and its [`Current`]; `None` when there are no more.
     pub fn next(&self) -> Option<(Order, Arc<Current>)> {
         self.coming.recv().ok()
     }

@@ -14,12 +14,12 @@ use crate::wide::{Wide, widest};
 /// How many particles one task carries.
 const CHUNK: usize = 4096;
 
-/// How many particles are looked up at a time, before any of them is computed: their vertices lie far apart in memory, and reading many of
-/// them at once lets the processor fetch them in parallel.
+/// How many particles are looked up at a time, before any of them is computed: their vertices lie far apart in memory,
+/// and reading many of them at once lets the processor fetch them in parallel.
 const BATCH: usize = 32;
 
-/// A vertex of the bent surface: its position, and the columns of F, the matrix that takes steps on the surface at rest to
-/// steps now. It fills a line of the processor's cache.
+/// A vertex of the bent surface: its position, and the columns of F, the matrix that takes steps on the surface at rest
+/// to steps now. It fills a line of the processor's cache.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 struct Vertex([f32; 16]);
@@ -124,9 +124,9 @@ impl Carrier {
         CarriedPlace { position: DVec3::new(x, y, z), gradient: DMat3::from_cols_array(&gradient) }
     }
 
-    /// Carries one particle as [`Carrier::carry`] does. Returns its position, its normal and the two columns of its lift
-    /// matrix N' (see [`crate::lift`]) now. `at_rest` has the normal and these columns at rest; `height` is how far it
-    /// stands off the surface.
+    /// Carries one particle as [`Carrier::carry`] does. Returns its position, its normal and the two columns of its
+    /// lift matrix N' (see [`crate::lift`]) now. `at_rest` has the normal and these columns at rest; `height` is how
+    /// far it stands off the surface.
     pub fn particle(
         &self,
         mesh: &TriangleMesh,
@@ -235,7 +235,8 @@ impl Wide for Culling<'_> {
         let mut ordinals = [0.0f32; WORD];
         let mut shows = [0u8; WORD];
         for entries in self.entries.chunks(WORD) {
-            // First each particle is looked up, then all are computed, in arrays, so that the compiler vectorises.
+            // First each particle is looked up. Then all are computed, in arrays, so that the compiler vectorises the
+            // loop.
             for (lane, entry) in entries.iter().enumerate() {
                 let corners =
                     self.mesh.triangles[entry.place.triangle()].map(|vertex| self.carrier.record(vertex));

@@ -56,7 +56,7 @@ impl Stencils {
         Self { lists: samples.points.nearest(particles, 2 * MAX_SAMPLES), spacing: samples.spacing }
     }
 
-    /// The direction and the anchor of one of the particles, from the samples near it for which `sample` gives something.
+    /// The direction and the anchor of one of the particles, from those samples near it that `sample` does not skip.
     ///
     /// The solve has turned each sample away from its stated direction; the particle's own `stated` direction is turned
     /// by the mean of these turns. Where the turns agree less than the samples' solved directions do, as around a

@@ -95,7 +95,7 @@ fn degenerate_bodies_equal_brute_force() {
     check(&body(&|_| Vec3::splat(0.3)), &up, 0.1);
     check(&body(&|index| Vec3::X * index), &up, 40.5);
     check(&body(&|index| Vec3::splat(1e-3 * (index % 7.0))), &up, 0.002);
-    // Two clouds so far apart that the cells between them would fit into no memory.
+    // Two clouds so far apart that no memory could hold all cells between them.
     let (cloud, normals) = scattered(count as u32, Vec3::splat(1e-4));
     let apart: Vec<Vec3> = cloud
         .iter()

@@ -10,9 +10,9 @@ use super::dart_grid::Dart;
 use super::throw::Throw;
 use super::{Particle, Surface};
 
-/// The first `count` candidates of dart throwing as particles, none refused: random, and spread evenly by area. A greater
-/// count begins with the particles of a smaller one. The result depends on the surface, the count and the seed alone. A
-/// surface without faces gives no particles.
+/// The first `count` candidates of dart throwing as particles, none refused: random, and spread evenly by area. A
+/// greater count begins with the particles of a smaller one. The result depends on the surface, the count and the seed
+/// alone. A surface without faces gives no particles.
 pub fn scattered(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Particle> {
     if surface.faces.is_empty() {
         return Vec::new();
@@ -73,8 +73,8 @@ impl<'a> Candidates<'a> {
     }
 
     /// The face in which a candidate lies. `area` is the candidate's place when the areas of all faces are laid end to
-    /// end. `step` narrows the search to the faces between two entries of `guide`: `area` lies in that step or, by rounding,
-    /// just behind it.
+    /// end. `step` narrows the search to the faces between two entries of `guide`: `area` lies in that step or, by
+    /// rounding, just behind it.
     #[inline(always)]
     fn face(&self, area: f64, step: i32) -> usize {
         let Self { surface, guide, .. } = self;

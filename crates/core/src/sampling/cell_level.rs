@@ -1,5 +1,5 @@
-//! A level of dart throwing whose candidates are thrown cell by cell, so that cells in which no particles are needed cost
-//! nothing.
+//! A level of dart throwing whose candidates are thrown cell by cell, so that cells in which no particles are needed
+//! cost nothing.
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -15,10 +15,10 @@ use crate::hash;
 /// `FRONT_LOAD` t (1 − t) of its particles are there.
 const FRONT_LOAD: f64 = 0.157;
 
-/// How many cells a task throws.
+/// In how many cells one task throws candidates.
 const CELLS: usize = 32;
 
-/// A cell with more tries in a level is split.
+/// A cell that would have more tries than this in a level is split.
 const MOST_TRIES: f64 = 48.0;
 
 /// The cells in which the present level is thrown.
@@ -68,14 +68,14 @@ impl<'a> ActiveCells<'a> {
 /// A level.
 pub(super) struct CellLevel {
     pub(super) seed: u32,
-    /// How many particles it is meant to begin and to end with.
+    /// How many particles the order is meant to have when the level begins, and when it ends.
     pub(super) ends: [usize; 2],
-    /// How far the order has come before it.
+    /// The state of the order before the level.
     pub(super) state: ProgressiveState,
     pub(super) radius: f32,
 }
 
-/// What a level adds, in its order.
+/// The particles that a level adds, in its order.
 #[derive(Default)]
 pub(super) struct Added {
     pub(super) particles: Vec<Particle>,
@@ -150,7 +150,7 @@ impl CellLevel {
     fn throw(&self, surface: &Surface<'_>, cell: &Cell, mut take: impl FnMut(Thrown)) {
         let seed = hash::combine(hash::combine(self.seed, cell.bits), self.ends[0] as u32);
         let tries = self.tries() * cell.share;
-        // As many as are the cell's share; chance decides about the fraction that is left.
+        // The cell's share of the level's tries. Chance decides whether the fraction that is left makes one more.
         let count = (tries + f64::from(hash::unit(seed))) as u32;
         for number in 0..count {
             let bits = hash::combine(seed, number);

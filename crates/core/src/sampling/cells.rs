@@ -1,4 +1,5 @@
-//! Cuts a surface into cells, and these into smaller ones, so that particles can be made in some of them and not in others.
+//! Cuts a surface into cells, and these into smaller ones, so that particles can be made in some of them and not in
+//! others.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -15,7 +16,7 @@ const SHARE: f64 = 1.0 / 4096.0;
 /// A face is first cut into at most the square of this many cells.
 const MOST_FIRST_CUTS: f64 = 64.0;
 
-/// A side of a face is cut into at most so many parts.
+/// A side of a face is cut into at most this many parts.
 const MOST_CUTS: u32 = 1 << 16;
 
 /// The first cells of a surface: parts of a large face, or small faces that follow each other in the mesh.
@@ -31,7 +32,7 @@ pub struct Cell {
     pub center: DVec3,
     /// Radius of this sphere.
     pub radius: f64,
-    /// A unit normal of its visible sides, or zero where they have none in common.
+    /// The mean of the flat normals of its visible sides, unit length; zero where these cancel.
     pub normal: DVec3,
     /// How far any normal of its visible sides, smooth or flat, may be from `normal`: the length of the difference.
     pub spread: f64,
@@ -50,11 +51,11 @@ pub struct CellPiece {
     pub normals: [DVec3; 4],
 }
 
-/// What a cell consists of.
+/// The faces, or the part of a face, that a cell consists of.
 #[derive(Clone, Debug)]
 enum Extent {
-    /// Whole faces that follow each other; with a `side`, those on this side of triangles of which both sides can be
-    /// seen: `true` is the back.
+    /// Whole faces that follow each other. With a `side`, both sides of their triangles can be seen, and only the faces
+    /// on this side belong to the cell: `true` is the back.
     Faces { faces: Range<u32>, side: Option<bool> },
     /// One of the small triangles into which a face is cut.
     Part {
@@ -73,7 +74,8 @@ impl Cells {
     pub fn new(surface: &Surface<'_>) -> Self {
         let area = surface.area();
         let mut cells = Vec::new();
-        // Small faces that follow each other; whether both sides of their triangles can be seen; and their share.
+        // A run of small faces that follow each other, whether both sides of their triangles can be seen, and the run's
+        // share of the area.
         let (mut run, mut two_sided, mut run_share) = (0..0u32, false, 0.0);
         let close = |run: &Range<u32>, two_sided: bool, share: f64, cells: &mut Vec<Cell>| {
             if run.start < run.end && two_sided {
@@ -319,34 +321,36 @@ fn normals(surface: &Surface<'_>, face: Face) -> [DVec3; 4] {
     }
 }
 
-/// How far these unit normals, and those that are interpolated between them, may be from one: the length of the
+/// How far these unit normals, and normals interpolated between them, may be from the normal `from`: the length of the
 /// difference.
 fn spread(from: DVec3, normals: impl Iterator<Item = DVec3>) -> f64 {
     let most = normals.map(|normal| normal.distance(from)).fold(0.0, f64::max);
-    // Between normals that differ so much, another one may lie anywhere.
+    // Where normals differ this much, one interpolated between them may point anywhere.
     if most > 1.0 { 2.0 } else { most }
 }
 
-/// How far into a progressive order each cell needs its particles: those whose ordinals are less than a number.
+/// How far into a progressive order each cell needs particles: those whose ordinals are less than the cell's number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Needed {
-    /// The number of each cell: the first cells of the surface come first.
+    /// For each cell, the number that ordinals must be less than. The first cells of the surface come first.
     pub of_cell: Vec<f32>,
-    /// The index of the first of the smaller cells that a cell consists of (see [`Cell::split`]); 0 where these need
-    /// what the cell needs.
+    /// For each cell, the index of the first of the smaller cells that it is split into ([`Cell::split`]); 0 where
+    /// these need what the cell needs.
     pub first_part: Arc<Vec<u32>>,
-    /// Whether the smaller cells are told apart from the first level on. Then none that needs no particle gets any, but
-    /// those that do are not the ones of the whole order. Else cells with few particles stay whole, which is faster.
+    /// Whether all cells are split into the smaller ones listed here, from the first level on that is thrown by cells.
+    /// If so, these levels add no particle where none is needed, but their particles are not those of the whole order.
+    /// If not, cells with few tries stay whole, which is faster.
     pub is_strict: bool,
 }
 
 impl Needed {
-    /// The greatest number of any cell.
+    /// The greatest number in `of_cell`.
     pub(super) fn most(&self) -> f32 {
         self.of_cell.iter().copied().fold(0.0, f32::max)
     }
 
-    /// The index of a smaller cell, from that of the cell and its number among those that this consists of.
+    /// The index of the smaller cell with this number, counted from 0, among those that the cell `of` is split into.
+    /// `of` itself where these are not listed.
     pub(super) fn part(&self, of: u32, number: u32) -> u32 {
         match self.first_part[of as usize] {
             0 => of,

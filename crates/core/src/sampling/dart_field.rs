@@ -50,7 +50,8 @@ impl DartField {
     }
 
     /// Goes through the darts of a level in order of their numbers, and drops each dart that is crowded by an earlier
-    /// one which was kept. Returns the kept darts in this order. `normal_of` finds the normal of the dart with a number.
+    /// one which was kept. Returns the kept darts in this order. `normal_of` finds the normal of the dart with a
+    /// number.
     pub(super) fn thinned(
         &self,
         level: &Range<u32>,

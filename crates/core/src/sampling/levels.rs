@@ -1,5 +1,5 @@
-//! The levels of a progressive order: how many particles each is meant to have, how far apart, and how far an order has
-//! come.
+//! The levels of a progressive order: how many particles each is meant to have, and how far apart; and the state of an
+//! order between two levels.
 
 use super::{Surface, hexagonal_spacing};
 
@@ -10,23 +10,23 @@ const SPACING: f64 = 0.60;
 /// Candidates thrown per particle that a level is meant to add. More is smoother and slower.
 pub(super) const TRIES: usize = 16;
 
-/// A level ends with this many times the particles that it began with.
+/// A level is meant to end with this many times the particles that it is meant to begin with.
 const GROWTH: f64 = 1.08;
 
-/// How many particles a level adds, as a share of those that it is meant to add, on surfaces without folds or borders: a
-/// sheet, a ball and a creased sheet add 1.043 to 1.044, a rod 1.104. (It may be more than 1, because how many are meant
-/// only sets the spacing.)
+/// How many particles a level adds, as a share of those that it is meant to add. Measured: 1.043 to 1.044 on a sheet, a
+/// ball and a creased sheet; 1.104 on a rod. The share may exceed 1, because the level's spacing follows from the
+/// number meant, and nothing stops the level at that number.
 const FILLED: f64 = 1.0433;
 
-/// The least that one task handles: less is not worth another thread.
+/// The fewest darts that one task handles: fewer are not worth another thread.
 pub(super) const LEAST_CHUNK: usize = 1024;
 
-/// How far a progressive order has come.
+/// How much of a progressive order has been made.
 ///
 /// The first levels, up to at least 8,192 particles, are always thrown on the whole surface, and a particle's ordinal
-/// is its index. Later levels may be thrown on a part of the surface only. Then nobody can count the particles that
-/// come before one, so its ordinal is computed from the number of its try. In this way neither a particle nor its
-/// ordinal depends on what is far away.
+/// is its index. Later levels may be thrown on a part of the surface only. Then the particles that come before one
+/// cannot be counted, so its ordinal is computed from its turn among the tries of its level. In this way neither a
+/// particle nor its ordinal depends on what is far away.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProgressiveState {
     /// Candidates thrown so far.
@@ -60,7 +60,7 @@ impl ProgressiveState {
         Some(Self { thrown: u32::try_from(thrown).ok()?, level_end, counted })
     }
 
-    /// Whether an order that lies everywhere may have come so far with this many particles.
+    /// Whether an order on the whole surface may be in this state with this many particles.
     pub fn fits(self, particles: usize) -> bool {
         // Levels are at least half filled; a quarter leaves room for rounding.
         self.counted[0] <= particles && self.level_end / 4 <= particles.saturating_add(1)
@@ -71,14 +71,14 @@ impl ProgressiveState {
         self.counted[0]
     }
 
-    /// The ordinal that belongs to a number of particles that levels are meant to have.
+    /// The ordinal of a particle that is added when the order is meant to have `meant` particles.
     pub(super) fn ordinal_at(self, meant: f64) -> f64 {
         let [count, level_end] = self.counted.map(|number| number as f64);
         count + FILLED * (meant - level_end)
     }
 }
 
-/// Where the level ends that begins here.
+/// How many particles a level is meant to end with that is meant to begin with `level_begin`.
 pub(super) fn next_level_end(level_begin: usize) -> usize {
     (level_begin + 1).max((level_begin as f64 * GROWTH) as usize)
 }

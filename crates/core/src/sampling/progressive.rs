@@ -17,14 +17,14 @@ use super::{Particle, Surface};
 /// stays proportional to the count.
 const LEAST_FILLED: f64 = 0.5;
 
-/// At least so many particles are always made on the whole surface, if they are asked for: see [`ProgressiveState`].
+/// At least this many particles, if they are asked for, are always made on the whole surface: see [`ProgressiveState`].
 const LEAST_COUNTED: usize = 8192;
 
-/// Places on a surface differ by at least about this share of its greatest coordinate.
+/// Distinct places on a surface differ by at least about this share of its greatest coordinate.
 const FINEST: f32 = 0.5 * f32::EPSILON;
 
-/// The most candidates that one task handles. It sorts them by place: the more there are, the better consecutive searches
-/// share the cache.
+/// The most candidates that one task handles. It sorts them by place: the more there are, the better consecutive
+/// searches share the cache.
 const MOST_CHUNK: usize = 1 << 20;
 
 /// `count` particles in progressive blue-noise order: the first `n` of them are spread evenly, for every `n`, and a
@@ -40,8 +40,8 @@ pub fn progressive(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Partic
     order.particles
 }
 
-/// Particles in progressive order, and how far the order has come, so that it can go on later. Going on takes the time
-/// for the added particles, and for one pass over those that are there.
+/// Particles in progressive order, and the state from which the order is continued. Continuing takes the time for the
+/// added particles, and for one pass over those that are there.
 #[derive(Clone, Debug, Default)]
 pub struct ProgressiveOrder {
     /// The particles.
@@ -49,7 +49,7 @@ pub struct ProgressiveOrder {
     /// For each particle its ordinal: about how many particles come before it when the whole surface has all of its
     /// particles. Empty where each ordinal is the particle's index.
     pub ordinals: Vec<f32>,
-    /// How far it has come.
+    /// How much of the order has been made.
     pub state: ProgressiveState,
 }
 
@@ -61,14 +61,14 @@ impl ProgressiveOrder {
             return;
         }
         let mut levels = Levels::new(self, surface, seed, None);
-        // Memory grows as particles are found, never by the count that was asked for.
+        // Memory grows as particles are found. It is not reserved for the count asked for.
         while levels.order.particles.len() < count {
             levels.throw();
         }
     }
 
-    /// A new order that has particles where they are needed, and those whose ordinals are their indices everywhere.
-    /// But for the borders of what is needed, its particles and their ordinals are those of the whole order, unless
+    /// A new order. The particles whose ordinals are their indices lie on the whole surface, all others where they are
+    /// needed. Except near the borders of what is needed, particles and ordinals are those of the whole order, unless
     /// `needed` is strict.
     pub fn where_needed(surface: &Surface<'_>, seed: u32, needed: &Needed) -> Self {
         let mut order = Self::default();
@@ -126,8 +126,8 @@ impl<'a> Levels<'a> {
         }
     }
 
-    /// Whether the next level's spacing is less than what places on the surface differ by: they are f32, and are reckoned
-    /// from f32 weights of the corners.
+    /// Whether the next level's spacing is less than the least distance between distinct places on the surface. Places
+    /// are f32, computed from f32 weights of the corners.
     fn is_too_fine(&self) -> bool {
         spacing(self.surface, next_level_end(self.order.state.level_end)) < self.finest
     }
@@ -194,7 +194,8 @@ impl<'a> Levels<'a> {
         let accepted = Accepted { grid, particles, radius: level.radius };
         let mut added = level.added(surface, cells, field, &accepted);
         if needed.is_none() {
-            // What is missing where there is too little room comes from the even sequence of candidates.
+            // Where there is too little room, the missing particles are taken from the sequence of candidates, which is
+            // even by area.
             let least = (LEAST_FILLED * (level_end - state.level_end) as f64) as usize;
             let missing = least.saturating_sub(added.particles.len());
             let numbers: Vec<u32> =

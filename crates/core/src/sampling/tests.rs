@@ -179,7 +179,7 @@ fn where_it_is_needed_the_order_is_that_of_the_whole() {
     };
     let of_cell = cells.all().iter().map(|cell| needed(cell.center.as_vec3(), cell.normal.z > 0.0));
     let mut needs: Vec<f32> = of_cell.collect();
-    // One cell tells what its parts need.
+    // The needs of one cell's parts are listed.
     let mut first_part = vec![0; needs.len()];
     first_part[0] = needs.len() as u32;
     needs.extend([needs[0]; 4]);
@@ -197,7 +197,7 @@ fn where_it_is_needed_the_order_is_that_of_the_whole() {
         };
         all.filter(within).collect()
     };
-    // Half a cell inside of what is needed, and a few spacings more.
+    // Compares at least half a cell and a few spacings inside the border of what is needed.
     for (least, reach) in [(98_000.0, 0.15), (29_000.0, 0.33)] {
         let [of_sparse, of_whole] = [&sparse, &whole].map(|order| inside(order, least, reach));
         assert!(of_whole.len() > 500);
@@ -216,8 +216,8 @@ fn where_it_is_needed_the_order_is_that_of_the_whole() {
     assert_eq!(sparse.particles.iter().zip(&sparse.ordinals).filter(|&one| far(one)).count(), 0);
 }
 
-/// A triangle of two thousand million units, that is wanted ever more densely towards its near end, as by an eye there.
-/// Its places lie 128 units apart, so a finer order has nothing to add.
+/// A triangle 2³¹ units long, whose near end needs far more particles, as if an eye were there. Its distinct places lie
+/// 128 units apart, so a finer order has nothing to add.
 #[test]
 fn an_order_ends_where_places_are_no_longer_told_apart() {
     let far = 2_147_483_648.0;

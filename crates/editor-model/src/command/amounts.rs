@@ -25,9 +25,9 @@ pub enum Amounts {
     Erase {
         /// The region.
         region: String,
-        /// What was erased.
+        /// Which amount was erased.
         of: Amount,
-        /// What is left of all amounts.
+        /// All amounts of the region, without what was erased.
         left: Vec<PaintedAmount>,
     },
     /// Removes one amount with all its dabs. Holds the region, and the amount's index in the region.

@@ -87,9 +87,9 @@ pub enum Arrange {
         /// Its new value; degrees for turns.
         value: f64,
     },
-    /// Turns a mesh upright that was made with Z up, or turns it back.
+    /// Turns upright a mesh that was made with Z up, or turns it back.
     TurnUpright(String),
-    /// Scales a mesh so that its longest side is as long as this.
+    /// Scales a mesh so that its longest side has this length.
     ScaleTo(String, f64),
     /// Sets or removes the material override of an object.
     SetMaterial(String, Option<MaterialOverride>),

@@ -1,4 +1,4 @@
-//! Commands on directions: guides that gestures leave, base directions of regions, references.
+//! Commands on directions: guides that gestures make, base directions of regions, references.
 
 use impasto_scene::document::{
     Direction, Falloff, Guide, GuideMode, GuidePoint, GuideView, Reference, Region, Scene, Selector, Sense,
@@ -50,9 +50,9 @@ pub struct GuideSettings {
 pub enum Directions {
     /// Adds the guides of one gesture: its pieces and their mirror images.
     Stroke {
-        /// Where.
+        /// The region that the guides belong to.
         region: RegionTarget,
-        /// What was done.
+        /// The kind of the gesture.
         gesture: Gesture,
         /// The guides. After a curve, the last one is selected.
         guides: Vec<Guide>,
@@ -100,14 +100,14 @@ pub enum Directions {
     FlipGuide(String, usize),
     /// States the base direction of a region.
     SetBase {
-        /// Where.
+        /// The region.
         region: RegionTarget,
         /// The direction.
         direction: Direction,
     },
     /// Turns all directions of a region, degrees counter-clockwise.
     Turn {
-        /// Where.
+        /// The region.
         region: RegionTarget,
         /// By how much.
         by_deg: f64,
@@ -288,7 +288,8 @@ pub(crate) fn words_of(direction: &Direction) -> String {
     }
 }
 
-/// Removes points on the line between their neighbours, and guides that a later one covers at full strength.
+/// Removes points within `tolerance` of the line between their neighbours, and guides that a later guide covers at full
+/// strength.
 fn simplify(region: &mut Region, tolerance: f64) -> Result<Done, Refusal> {
     let before = region.guides.len();
     let covers = |later: &Guide, earlier: &Guide| {

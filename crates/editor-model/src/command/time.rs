@@ -32,7 +32,7 @@ pub enum Time {
     PutValue(KeyedValue, f64),
     /// Moves keys by this many frames; a key that lands on another replaces it.
     MoveKeys(Vec<(KeyOf, f64)>, f64),
-    /// Copies keys by this many frames; a copy that lands on another key replaces it.
+    /// Copies keys to places this many frames later; a copy that lands on another key replaces it.
     CopyKeys(Vec<(KeyOf, f64)>, f64),
     /// Deletes keys; refused if the camera would have none left.
     DeleteKeys(Vec<(KeyOf, f64)>),

@@ -235,7 +235,7 @@ impl Document {
         let text = "Read the shot again".to_owned();
         let was_edited = self.is_edited();
         self.history.push(text.clone(), change, [before, self.selection.clone()]);
-        // What comes from a shot is not saved in the scene file, so a change of it is no unsaved edit.
+        // What comes from a shot is not saved in the scene file, so its change does not count as an unsaved edit.
         if !was_edited {
             self.history.mark_saved();
         }

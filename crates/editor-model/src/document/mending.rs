@@ -30,7 +30,7 @@ pub struct ProblemRow {
 /// A repair of a problem.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Repair {
-    /// Lets the user choose a file, and copies it to where a missing file, such as a texture, is looked for.
+    /// Lets the user choose a file, and copies it to the path of a missing one, such as a texture. Not for meshes.
     Bring {
         /// Where the missing file is looked for.
         to: PathBuf,
@@ -126,13 +126,13 @@ impl Document {
         self.fix(&[loss])
     }
 
-    /// Indices of the losses that have a certain repair.
+    /// Indices of the losses whose repair is certain.
     pub fn certain(&self) -> Vec<usize> {
         let is_certain = |loss: &Loss| loss.fix.as_ref().is_some_and(|fix| fix.is_certain);
         self.open_losses().filter(|(_, loss)| is_certain(loss)).map(|(index, _)| index).collect()
     }
 
-    /// Mends all losses that have a certain repair, as one entry.
+    /// Mends all losses whose repair is certain, as one entry of the history.
     ///
     /// # Errors
     /// As [`Document::fix_problem`].
@@ -304,8 +304,8 @@ fn merged_value<T: Clone + PartialEq>(from: &T, left: &T, right: &T, what: &str)
     }
 }
 
-/// Three-way merge of lists of named things: `right`, with what was changed, added and removed between `from` and
-/// `left`. If one of the two removed what the other changed, or both added the same name, `right` wins.
+/// Three-way merge of lists of named things: `right`, with what `left` changed, added and removed since `from`. If one
+/// of the two removed what the other changed, or if both added the same name, `right` wins.
 fn merged_list<T: Clone + PartialEq>(
     from: &[T],
     left: &[T],

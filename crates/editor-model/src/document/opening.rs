@@ -14,8 +14,7 @@ use crate::source::Source;
 use crate::stamp::Stamp;
 
 impl Document {
-    /// Opens a scene as far as it can be read. Until all of its text can be read, saving over its file
-    /// is refused.
+    /// Opens a scene as far as it can be read. Until all of its text can be read, saving over its file is refused.
     ///
     /// # Errors
     /// If nothing of it can be read.

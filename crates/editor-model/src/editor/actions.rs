@@ -16,7 +16,7 @@ use crate::tools::ToolEvent;
 use crate::transform::{Operation, TransformEvent};
 
 impl Editor {
-    /// Does what an action says.
+    /// Carries out an action.
     pub fn act(&mut self, action: Action, view: &View) {
         if self.act_on_keys(action) || self.act_on_tools(action, view) {
             return;

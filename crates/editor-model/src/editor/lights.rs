@@ -23,8 +23,8 @@ const REACH_PX: f64 = 14.0;
 pub struct LightPlace {
     /// The light, as it is at the frame that is shown.
     pub light: Light,
-    /// World space. For a lamp: where it stands. For a sun: a place in the direction that it shines from. For a sky: a
-    /// place above the scene.
+    /// Position of the icon in world space. A lamp or a spot has it where it stands, a sun in the direction that it
+    /// shines from, and a sky above the scene.
     pub position: DVec3,
 }
 
@@ -70,7 +70,7 @@ impl Editor {
     /// The command that moves or turns a light. If the light has keys, the command sets a key at the frame that is
     /// shown. `None` if lights of this kind cannot be moved or turned like that. `delta` is given in `axes`.
     pub(super) fn light_command(&self, name: &str, delta: TransformDelta, axes: DMat3) -> Option<Command> {
-        // As it was at the beginning of the drag, not as it is previewed.
+        // The light without the preview, as it was when the drag began.
         let (stored, frame) = (self.document.scene(), self.session.frame);
         let light = motion::light_at(stored, stored.lights.iter().find(|light| light.name == name)?, frame);
         let middle = self.middle();

@@ -41,13 +41,13 @@ pub enum PointerKind {
 pub struct PointerEvent {
     /// What the pointer does.
     pub kind: PointerKind,
-    /// Where, from the viewport's upper left corner, Y down; `px` here and in [`View`] are points of the window.
+    /// Where, from the viewport's upper left corner, Y down. Here and in [`View`], `px` means logical pixels (points).
     pub at_px: DVec2,
     /// The modifiers that are held.
     pub held: Modifiers,
     /// When, in seconds on any clock.
     pub at_secs: f64,
-    /// How hard a pen presses, 0..=1; 1 without a pen.
+    /// How hard a pen presses, 0..=1; 1 without a pen. For a release, the greatest pressure since the press.
     pub pressure: f64,
 }
 
@@ -220,7 +220,7 @@ impl Editor {
             let hit = self.hit(at_px, view)?;
             Some(Item::Object(self.document.shown().scene.objects[hit.object].name.clone()))
         };
-        // The icons of lights lie over everything.
+        // The icons of lights are drawn over everything.
         self.light_at(at_px, view).or_else(object)
     }
 

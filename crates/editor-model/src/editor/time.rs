@@ -52,7 +52,7 @@ impl Editor {
         }
     }
 
-    /// The frame that should be drawn now: the one that is shown, or the one that playing asks for.
+    /// The frame that should be drawn now: the one that playback asks for, or else the one that is shown.
     pub fn frame_to_draw(&self) -> f64 {
         self.time.playback.asked().unwrap_or(self.session.frame)
     }

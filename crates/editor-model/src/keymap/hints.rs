@@ -16,7 +16,7 @@ impl Keymap {
     /// Hints such as `[F] radius  [Middle] orbit`, with the keys in use in place of the usual ones. If an action has no
     /// key, its hint is left out.
     pub fn in_own_keys(&self, hints: &str) -> String {
-        // Two spaces stand before a hint; a bracket elsewhere belongs to a name.
+        // A bracket begins a hint only after two spaces. Elsewhere it belongs to a name.
         let apart = format!("  {hints}");
         let mut pieces = apart.split("  [");
         let mut words = pieces.next().unwrap_or_default().trim_start().to_owned();

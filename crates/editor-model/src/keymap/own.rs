@@ -21,7 +21,7 @@ pub struct CommandKeys {
     pub is_changed: bool,
 }
 
-/// The keys that the user chose, by command. An empty list: the command has no key.
+/// The keys that the user chose, by command. An empty list means that the command has no key.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct OwnKeys(BTreeMap<CommandId, Vec<Chord>>);
 
@@ -116,7 +116,7 @@ impl OwnKeys {
         self.0.iter().map(|(id, chords)| (*id, chords.as_slice()))
     }
 
-    /// Notes keys as they were read from a file. `Esc` is left out, since it always cancels.
+    /// Stores keys as they were read from a file. `Esc` is left out, since it always cancels.
     pub fn note(&mut self, id: CommandId, mut chords: Vec<Chord>) {
         chords.retain(|chord| chord.key != Key::Escape);
         if id.is_free() {

@@ -35,7 +35,7 @@ impl PointerCurve {
         if let Some(last) = self.points.last_mut()
             && last.at_px.distance(step.at_px) < SAME_PX
         {
-            // A pen that is set down presses harder without moving.
+            // While a pen is set down, its pressure rises without a movement.
             last.pressure = last.pressure.max(step.pressure);
             return Vec::new();
         }

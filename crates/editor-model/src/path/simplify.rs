@@ -27,7 +27,7 @@ pub(crate) fn guide_within(points: &[GuidePoint], tolerance: f64) -> Vec<GuidePo
     points.iter().zip(keep).filter(|(_, keep)| *keep).map(|(point, _)| point.clone()).collect()
 }
 
-/// For each point, whether it stays: those of `ends` do, and those that are needed between them.
+/// For each point, whether it stays: the points with indices `ends` do, and those that `tolerance` needs between them.
 fn needed(places: &[DVec3], ends: &[usize], tolerance: f64) -> Vec<bool> {
     let mut keep = vec![false; places.len()];
     for &end in ends {

@@ -30,7 +30,7 @@ pub enum Rays {
 /// Two views count as equal if the sine of the angle between their gazes is at most this, and (with central rays) their
 /// eyes differ by at most this share of the distance to the target.
 const SAME: f64 = 1e-7;
-/// From an eye that is this many times as far away, rays are practically parallel.
+/// From an eye that is this many times as far from its target, rays are practically parallel.
 const FAR: f64 = 1e5;
 
 impl ObjectView {
@@ -50,7 +50,7 @@ impl ObjectView {
         Self { frame, ..self }
     }
 
-    /// What a guide that was drawn in this view states as its view; `None` if this view is the reference. `middle` is a
+    /// The view that is stored with a guide drawn in this view; `None` if this view is the reference. `middle` is a
     /// point of the guide.
     pub fn guide_view(&self, reference: &Self, middle: DVec3) -> Option<GuideView> {
         if self.is_same_as(reference) {

@@ -27,7 +27,7 @@ pub struct SurfacePoint {
     pub position: DVec3,
     /// Its position now, on the bent surface.
     pub position_now: DVec3,
-    /// Smooth normal, unit, of the painted side. A sheet is painted on both sides: there, the normal of the side that
+    /// Smooth normal, unit, of the painted side. A sheet is painted on both sides: its normal is that of the side that
     /// was asked for.
     pub normal: DVec3,
     /// Normal of the flat triangle, unit, of the same side.

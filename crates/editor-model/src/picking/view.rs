@@ -50,7 +50,7 @@ impl View {
         }
     }
 
-    /// Where a point of the world shows; `None` if it is nearer than the near plane.
+    /// The pixel at which a point of the world appears; `None` if it is nearer than the near plane.
     pub fn project(&self, position_in_world: DVec3) -> Option<DVec2> {
         let map = self.map(DAffine3::IDENTITY);
         let near = match self.camera.lens {
@@ -66,8 +66,8 @@ impl View {
         self.map(DAffine3::IDENTITY).depth(position_in_world)
     }
 
-    /// How many pixels a world unit across the gaze takes at a point's depth. A point nearer than the near plane counts
-    /// as lying on it.
+    /// How many pixels a world unit perpendicular to the gaze takes at a point's depth. A point nearer than the near
+    /// plane counts as lying on it.
     pub fn px_per_unit(&self, position_in_world: DVec3) -> f64 {
         match self.camera.lens {
             Lens::Perspective { near, .. } => self.focal_px() / self.depth(position_in_world).max(near),
@@ -86,7 +86,7 @@ impl View {
         ScreenMap::new(self.camera.view_from_world(), world_from_model, lens).shifted(self.shift_px())
     }
 
-    /// The point that shows at a pixel, at the depth of another point.
+    /// The point that appears at a pixel and has the depth of another point.
     pub fn at_depth_of(&self, at_px: DVec2, position_in_world: DVec3) -> DVec3 {
         let ray = self.ray(at_px);
         let gaze = self.axes()[2];

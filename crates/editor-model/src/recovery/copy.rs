@@ -16,7 +16,7 @@ use crate::stamp::{Stamp, hash};
 const FIRST: &str = "// Impasto: a copy of unsaved work, 1";
 const LAST: &str = "// end of what it is a copy of";
 
-/// What each line begins with: in the text that the scene was read from, and in that text as the user is editing it.
+/// Prefixes of lines: of the text that the scene was read from, and of that text as the user is editing it.
 const SOURCE: &str = "// source| ";
 const UNREAD: &str = "// edited| ";
 

@@ -22,7 +22,7 @@ pub struct LanePosition {
     pub y_px: f64,
     /// The frame there, not rounded.
     pub frame: f64,
-    /// Index of the lane there. Below the last lane it is no lane's index.
+    /// Index of the lane there. Below the last lane it is beyond the last index.
     pub lane: usize,
 }
 

@@ -52,7 +52,7 @@ pub(super) fn short(value: f64, length: f64) -> f64 {
 }
 
 /// The amounts of a region that are left after an eraser of this radius touched these points. A dab of this amount on
-/// this object is gone if the eraser went over its middle.
+/// this object is gone if the eraser went over its middle, on the same side of the surface.
 pub(super) fn erased(
     region: &Region,
     (of, object): (Amount, &str),

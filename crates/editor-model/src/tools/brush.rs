@@ -86,7 +86,7 @@ impl Brush {
             ToolEvent::Release { pressure } => {
                 let stroke = self.stroke.take().map(|on| Stroke { path: on.path.lifted(pressure), ..on });
                 let commit = stroke.as_ref().and_then(|on| on.command(around));
-                // A command selects its region when it is applied. A drag that gives none selects the region it was in.
+                // A command selects its region when it is applied. A drag without one selects the region it was in.
                 let on = stroke.filter(|on| on.on.region.is_some() && commit.is_none());
                 let select = on.map(|on| Item::Region(on.on.name));
                 ToolOutput { commit, select, ..ToolOutput::saying(words(tool, around)) }
@@ -310,8 +310,8 @@ impl Act {
         }
     }
 
-    /// A function that finds the surface under a pixel, if the drag may go there. A drag stays on the object
-    /// where it began, and unless it changes regions, also in the region where it began.
+    /// A function that finds the surface under a pixel, if the drag may go there. A drag stays on the object where it
+    /// began. Unless it changes what a region covers, it also stays in the region where it began.
     fn picks<'a>(
         self,
         on: &'a Paintable,

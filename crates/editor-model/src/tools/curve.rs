@@ -69,7 +69,7 @@ struct Dragging {
 /// The part of a guide that is gripped.
 #[derive(Clone, Debug, PartialEq)]
 struct Grip {
-    /// The region's name, and the guide's place in it.
+    /// The region's name, and the guide's index in it.
     guide: (String, usize),
     object: usize,
     on: GripOn,

@@ -54,7 +54,7 @@ impl Fill {
             }
             ToolEvent::Release { .. } => {
                 let Some(filling) = self.filling.take() else { return ToolOutput::default() };
-                // The needle at rest and the bar show the angle that was dragged.
+                // The dragged angle becomes an option, so that the tool's bar and the needle before a press show it.
                 let options = match filling.direction(around) {
                     Direction::Angle(fill_angle_deg) if filling.needle(around).is_some() => {
                         Some(ToolOptions { fill_angle_deg, ..around.options.clone() })

@@ -58,7 +58,7 @@ impl Hand {
         if tool != Tool::Touch {
             return self.take_as(tool, event, around);
         }
-        // A touch is much narrower than a brush, so it has a radius of its own, which the same keys change.
+        // A touch is much narrower than a brush, so it has a radius of its own. The same keys change it.
         let radius_px = around.options.radius_px;
         let options = ToolOptions { radius_px: around.options.touch_radius_px, ..around.options.clone() };
         let mut output = self.take_as(tool, event, &Surroundings { options: &options, ..*around });

@@ -69,7 +69,7 @@ impl Ring {
         rings
     }
 
-    /// A ring off every surface.
+    /// The ring of a pointer that is over no surface.
     pub(super) fn hollow(at_px: DVec2, radius_px: f64) -> Self {
         let points_px = (0..=PIECES).map(|piece| at_px + angle(piece) * radius_px).collect();
         Self { points_px, half_px: Vec::new(), at_px, hollow: true, mirrored: false }

@@ -30,7 +30,7 @@ enum What {
 }
 
 impl Sizing {
-    /// Begins by the action of F or Shift F; `None` for any other action.
+    /// Begins a resizing for the action of F or Shift F; `None` for any other action.
     pub(super) fn begin(action: Action, options: &ToolOptions, at_px: Option<DVec2>) -> Option<Self> {
         let what = match action {
             Action::SizeRadius => What::Radius,

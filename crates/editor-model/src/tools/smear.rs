@@ -8,7 +8,7 @@ use crate::path::PathPoint;
 const TAKEN_UP: f64 = 0.1;
 
 /// The direction that the brush carries at each stamp: the angle of a line on the screen, radians counter-clockwise.
-/// `shown_rad` gives the direction under each stamp before the smear. Where it gives none, the brush's direction stays.
+/// `shown_rad` gives the direction under each stamp before the smear. Where it is `None`, the brush's direction stays.
 pub(super) fn carried(shown_rad: impl Iterator<Item = Option<f64>>) -> Vec<Option<f64>> {
     // Directions are blended at twice the angle, so that the two directions of a line are the same.
     let mut brush: Option<DVec2> = None;

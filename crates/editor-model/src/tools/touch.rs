@@ -212,7 +212,7 @@ impl Drag {
             at: point.position.to_array().map(|value| short(value, path.radius())),
             normal: point.normal.to_array().map(|value| short(value, 1.0)),
         });
-        // The stroke is as wide as the ring: converts from pixels of the viewport to pixels of the scene's own size.
+        // The stroke is as wide as the ring. Its width is converted from pixels of the viewport to pixels of the scene.
         let scale = f64::from(around.scene().size.1) / around.view.size_px.y.max(1.0);
         let felt = Felt::of_path(path, options);
         let width_px = (2.0 * options.radius_px * felt.radius * scale)
@@ -232,7 +232,7 @@ impl Drag {
         }
     }
 
-    /// Takes the touches under the drag away; where there are none, strokes are thinned to nothing.
+    /// Erases the touches near the drag. If there are none, thins the strokes there to nothing.
     fn erased(&self, path: &SurfacePath, around: &Surroundings) -> Option<Command> {
         let path = path.clone().narrowed(Felt::of_path(path, around.options).radius);
         let touched = path.stamps_apart(STAMP_SHARE);

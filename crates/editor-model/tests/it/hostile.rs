@@ -24,7 +24,7 @@ fn tell(words: &str) {
     writeln!(std::io::stdout(), "\n{words}").expect("told");
 }
 
-/// Opens the listed files as the window does, mends what has a certain repair, undoes that, and prints the outcome.
+/// Opens the listed files as the window does, makes all certain repairs, undoes them, and prints the outcome.
 #[test]
 #[ignore = "the test below starts it"]
 fn opener() {

@@ -11,11 +11,11 @@ use impasto_scene::presets;
 use super::picture::PictureFlow;
 use crate::viewport::overlay::{Comb, CombPreviewStroke};
 
-/// At most this many strokes are looked at.
+/// At most this many strokes under the ring are considered for the preview.
 const MAX_STROKES: usize = 600;
 /// Shown strokes are at least this far apart, so that the picture stays visible.
 const MIN_GAP_PX: f64 = 11.0;
-/// A stroke is shown at the length that its region states, but no longer than this.
+/// A stroke is shown as long as its region states, but at least 6 points and at most this.
 const MAX_LENGTH_PX: f32 = 28.0;
 /// Time to fade in and out, seconds.
 const FADE_S: f32 = 0.15;

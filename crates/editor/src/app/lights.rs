@@ -8,7 +8,7 @@ use impasto_scene::document::{Color, Light, LightKind};
 use crate::theme;
 use crate::viewport::Framing;
 
-/// Half the side of an icon, and the radius of the ring round a selected one, points.
+/// Half the side of an icon, and the radius of the ring round a selected one, in points.
 const ICON: f32 = 14.0;
 const SELECTED: f32 = 17.0;
 
@@ -56,8 +56,8 @@ fn ink(Color(color): Color) -> [f32; 4] {
     [r, g, b, 1.0]
 }
 
-/// The distance at which a lamp or a spot lights a surface that faces it as brightly as a sun of intensity 1, world
-/// units. `None` for other kinds of light, and without intensity.
+/// The distance, in world units, at which a lamp or a spot lights a surface that faces it as brightly as a sun of
+/// intensity 1. `None` for other kinds of light, and without intensity.
 fn range(light: &Light) -> Option<f32> {
     let is_lamp = matches!(light.kind, LightKind::Point | LightKind::Spot);
     (is_lamp && light.intensity > 0.0).then(|| light.intensity.sqrt() as f32)

@@ -65,7 +65,7 @@ struct Key {
     moving: bool,
 }
 
-/// The inputs of the map of visible surfaces. An edit of directions changes none of them, so the map is kept.
+/// The inputs of the map of visible surfaces. An edit of directions changes none of them, so the map stays valid.
 #[derive(PartialEq)]
 struct MapKey {
     bodies: Vec<StandingBody>,

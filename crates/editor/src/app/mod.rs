@@ -180,7 +180,7 @@ impl EditorApp {
         app
     }
 
-    /// Uses the keys, the comb preview and the pressure of the preferences.
+    /// Applies the preferences for keys, comb preview and pen pressure.
     fn keymap(&mut self) {
         self.editor.keymap = Keymap {
             preset: match self.preferences.keys {

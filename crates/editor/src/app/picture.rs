@@ -148,8 +148,8 @@ impl PictureFlow {
         }
     }
 
-    /// The viewport's camera, framed as the first picture, for picking and tools. (In a comparison, that picture itself
-    /// is seen through the reference's camera.)
+    /// The view for picking and tools: the viewport's camera in the framing of the first picture. (In a comparison, the
+    /// first picture itself is drawn with the reference's camera.)
     pub(super) fn view(&self, editor: &Editor) -> View {
         self.layout.framings()[0].view(&self.camera(editor))
     }
@@ -258,7 +258,7 @@ impl PictureFlow {
         self.asked = Some(asked);
     }
 
-    /// The views of the film, from the present frame on.
+    /// The views of the film in the order of playback, beginning with the present frame.
     fn film(&self, editor: &Editor) -> Vec<ViewJob> {
         let course = editor.course();
         let from = (editor.session.frame.floor() as i64).clamp(course.first, course.last);
@@ -303,8 +303,8 @@ pub(super) fn driver_of(choice: DriverChoice) -> Driver {
     }
 }
 
-/// Whether to finish the film while nothing else is drawn: the session says so, the film was played before, and one
-/// picture is shown at rest.
+/// Whether to finish the film while nothing else is drawn. True if the session asks for it, the film was played before,
+/// and a single picture is shown at rest.
 fn finishes(editor: &Editor, views: &[ViewJob]) -> bool {
     let [view] = views else { return false };
     !view.moving && editor.session.finishes && editor.time().has_played()

@@ -30,7 +30,7 @@ const MOST_PICTURES: usize = 40;
 pub(super) struct PresetFlow {
     /// The presets in the user's folder.
     pub(super) own: Vec<OwnPreset>,
-    /// Whose settings are to be saved or replaced, while a file is chosen.
+    /// The scene or region whose settings are to be saved or replaced, while a file is chosen.
     of: Option<StrokesOf>,
     driver: Driver,
     waker: Waker,

@@ -68,7 +68,7 @@ impl EditorApp {
         self.files.dialogs.open(&self.ctx, FileAsk::LocateMesh, &start);
     }
 
-    /// Does what a button of the list says.
+    /// Carries out a button of the list.
     pub(super) fn settle(&mut self, index: usize, settle: Settle) {
         let Some(of) = self.troubles.get(index).map(|trouble| trouble.of.clone()) else { return };
         match (settle, &of) {

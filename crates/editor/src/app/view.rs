@@ -86,7 +86,7 @@ impl EditorApp {
 
     fn take(&mut self, events: ViewportEvents, asks: &mut Vec<Ask>, view: &View) {
         for event in events.pointer {
-            // The event before may have moved the view.
+            // The previous event may have moved the view.
             let view = self.picture_flow.view(&self.editor);
             self.editor.pointer(&event, &view);
         }

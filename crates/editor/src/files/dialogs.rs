@@ -1,8 +1,8 @@
 //! Asks for a file: with the desktop's dialog if there is one, else with a sheet in the window.
 //!
 //! The desktop's dialog can be missing or stuck without reporting it. So it runs on a thread of its own. If it is
-//! cancelled sooner than a user could do it, there is no dialog, and the sheet is shown. After [`PATIENCE`] the
-//! window offers its own sheet instead.
+//! cancelled sooner than a user could do it, the desktop has no dialog, and the sheet is shown. After [`PATIENCE`]
+//! the window offers its own sheet instead.
 
 #[cfg(test)]
 mod tests;
@@ -218,7 +218,7 @@ fn filters(ask: FileAsk) -> Vec<(&'static str, Vec<String>)> {
             &[("Pictures and movies", &[RENDERED, MOVIES]), ("Pictures", &[RENDERED]), ("Movies", &[MOVIES])]
         }
     };
-    // Some desktops tell capitals from small letters.
+    // On some desktops, filters are case-sensitive.
     let both = |ending: &str| [ending.to_owned(), ending.to_ascii_uppercase()];
     let endings = |lists: &[&[&str]]| lists.iter().copied().flatten().copied().flat_map(both).collect();
     filters.iter().map(|(words, lists)| (*words, endings(lists))).collect()

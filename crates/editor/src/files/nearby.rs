@@ -4,8 +4,8 @@ use std::path::Path;
 
 use super::incoming::Kind;
 
-/// Limits of the search. It goes `MAX_DEPTH` levels of folders below the scene's. It reads at most `MAX_FILES` entries
-/// of each folder, and finds at most `MAX_FILES` meshes in all.
+/// Limits of the search. It goes `MAX_DEPTH` levels below the scene's folder. It reads at most `MAX_FILES` entries of
+/// each folder, and finds at most `MAX_FILES` meshes in all.
 const MAX_DEPTH: usize = 4;
 const MAX_FILES: usize = 4000;
 /// Names that differ by more letters than this, or by more than a third of their letters, are not similar.

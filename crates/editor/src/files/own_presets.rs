@@ -76,7 +76,7 @@ pub fn save_preset(
 /// pictures are copied beside the scene.
 ///
 /// # Errors
-/// Why it cannot be applied, in words to show; no file was copied unless a picture is the reason.
+/// Why it cannot be applied, in words to show. Pictures may have been copied only if one of them is the reason.
 pub fn preset_command(document: &Document, of: &StrokesOf, path: &Path) -> Result<Command, String> {
     let mut preset = strokes_file::load(path).map_err(|report| in_words(&report))?;
     let command = |preset: &StrokesFile| {

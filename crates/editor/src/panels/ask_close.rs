@@ -75,7 +75,7 @@ pub enum Question {
     StopRendering {
         /// How many are finished: *47 of 120*.
         count: String,
-        /// Whether these stay; those of a movie do not.
+        /// Whether the finished frames stay; those of a movie do not.
         stays: bool,
     },
     /// Parts of the file could not be read; saving over it would lose them for good.

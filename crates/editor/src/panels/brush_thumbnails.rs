@@ -23,7 +23,7 @@ type Known = BTreeMap<String, (usize, TextureHandle)>;
 pub fn thumbnail(ctx: &Context, name: &str, loaded: &LoadedScene) -> Option<TextureHandle> {
     let known: Arc<Known> = ctx.data_mut(|data| data.get_temp(key())).unwrap_or_default();
     let picture = loaded.brushes.get(name);
-    // A brush whose file was read again has another address, and gets a new thumbnail.
+    // When the file of a brush is read again, its picture has another address, so the brush gets a new thumbnail.
     let version = picture.map_or(0, |picture| Arc::as_ptr(picture).addr());
     if let Some((_, handle)) = known.get(name).filter(|(of, _)| *of == version) {
         return Some(handle.clone());
@@ -39,7 +39,7 @@ pub fn thumbnail(ctx: &Context, name: &str, loaded: &LoadedScene) -> Option<Text
     Some(handle)
 }
 
-/// Gives the thumbnails of one context to another that only lays controls out, and draws nothing itself.
+/// Shares the thumbnails of one context with another, which lays controls out but is never drawn.
 pub(super) fn share(from: &Context, with: &Context) {
     if let Some(known) = from.data(|data| data.get_temp::<Arc<Known>>(key())) {
         with.data_mut(|data| data.insert_temp(key(), known));

@@ -11,7 +11,7 @@ const WIDE: f32 = 1600.0;
 /// In less width than this, in points, the column is not shown.
 const LEAST: f32 = 780.0;
 
-/// The largest share of the column's height that the tree takes.
+/// The largest share of the column's height that the tree may take.
 const MOST_TREE: f32 = 0.6;
 
 /// Whether the column leaves enough of the window for the picture, or for both pictures of a comparison.

@@ -13,7 +13,7 @@ use crate::widgets::{self, Button, Tip, key_of};
 use crate::window::tab_pressed;
 
 const BAR: f32 = 44.0;
-/// The least width that is kept for the scrubbing line, points.
+/// The least width that is left for the scrubbing line, points.
 const LEAST_LINE: f32 = 120.0;
 
 /// What the viewer shows.
@@ -31,7 +31,7 @@ pub struct ViewerShown<'a> {
     pub keymap: &'a Keymap,
     /// The keys of the number pad that were pressed in this pass.
     pub numpad: &'a [(Key, Modifiers)],
-    /// Whether a question is open over the viewer: keys belong to it.
+    /// Whether a question is open over the viewer; it then gets all keys.
     pub is_covered: bool,
 }
 

@@ -34,12 +34,12 @@ enum Doing {
     Listening(CommandId),
     /// As `Listening`, after keys that the command cannot have; the text says why.
     ListeningStill(CommandId, String),
-    /// The command is to get these keys, which belong to the other commands now: the sheet asks whether to take them.
+    /// The command is to get these keys, but the listed commands have them. The sheet asks whether to take them.
     Asking(CommandId, Vec<Chord>, Vec<CommandId>),
-    /// The command works only while a key on a lane is selected. While it works, these keys would no longer reach the
-    /// other commands. The sheet asks whether the command is to get the keys.
+    /// The command works only while a key on a lane is selected. During that time these keys would no longer reach the
+    /// listed commands. The sheet asks whether the command is to get the keys.
     AskingToHide(CommandId, Vec<Chord>, Vec<CommandId>),
-    /// The sheet asks whether all keys are to be the usual ones again.
+    /// The sheet asks whether to reset all keys to the preset's.
     AskingReset,
 }
 
@@ -130,7 +130,7 @@ fn list(ui: &mut Ui, keymap: &Keymap, memory: &mut Memory, keys: MarkKeys, asks:
     memory.marked = keys.mark(memory.marked, found.len());
     // Decided before the lines are shown, because a click on one of them changes `memory.doing`.
     let marked = (memory.doing == Doing::Nothing).then_some(memory.marked);
-    // In a low window the list is shorter, so that what stands under it stays in view.
+    // In a low window the list is shorter, so that the line under it stays in view.
     let room = ui.ctx().content_rect().height() - AROUND_LIST;
     let high = (ROWS * measure::ROW).min(room).max(3.0 * measure::ROW);
     ui.spacing_mut().item_spacing.y = 0.0;
@@ -312,7 +312,7 @@ enum Heard {
     Keys(Chord),
 }
 
-/// The keys that were pressed in this pass. All keys are taken, so that nothing else acts by them.
+/// What was pressed in this pass. All keys are consumed, so that nothing else acts on them.
 fn heard(ui: &Ui, numpad: &[(Key, Modifiers)]) -> Heard {
     let plain = |held: egui::Modifiers| Modifiers { ctrl: held.command, shift: held.shift, alt: held.alt };
     let tab = tab_pressed(ui.ctx()).map(|held| Chord { key: Key::Tab, held: plain(held) });

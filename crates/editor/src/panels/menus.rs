@@ -30,7 +30,7 @@ pub(super) enum Line {
     FirstRun,
     /// Shows the sheet that changes keys.
     KeySheet,
-    /// A menu of its own.
+    /// A submenu, with its name and its lines.
     Sub(&'static str, &'static [Line]),
 }
 
@@ -255,8 +255,7 @@ fn listed_problems(shown: &PanelInput<'_>) -> Result<Ask, &'static str> {
     (problems::count(shown) > 0).then_some(Ask::ShowProblems).ok_or("Nothing is wrong")
 }
 
-/// The entries of the menus that ask for something else than an action: their words, and the request or why it cannot
-/// be made.
+/// The menu entries whose request is not an action. Each has its words, and the request or why it cannot be made.
 pub(super) fn others(shown: &PanelInput<'_>) -> [(&'static str, Result<Ask, &'static str>); 4] {
     [
         (words_of(Problems), listed_problems(shown)),
@@ -317,7 +316,7 @@ fn recent(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     }
 }
 
-/// Whether the thing that an action switches is on.
+/// Whether the state that an action sets or toggles is on.
 pub(super) fn is_on(shown: &PanelInput<'_>, action: Action) -> bool {
     let session = shown.session;
     let scene = shown.document.scene();

@@ -78,12 +78,12 @@ pub struct PanelInput<'a> {
     pub recent: &'a [PathBuf],
     /// What failed in the window and is not settled yet.
     pub troubles: &'a [Trouble],
-    /// The missing meshes for which the scene's folder has a file that is likely meant, each with that file.
+    /// Missing meshes, each with the file in the scene's folder that is probably the right one.
     pub likely_meshes: &'a [(String, String)],
     /// Presets of the user's own.
     pub presets: &'a [OwnPreset],
-    /// Pictures of the scene with each preset, by the name of a built-in one or the file of the user's own; some may
-    /// not be painted yet.
+    /// Pictures of the scene, one for each preset. The key is the name of a built-in preset, or the file of one of the
+    /// user's own. Some may not be painted yet.
     pub preset_pictures: &'a BTreeMap<String, TextureHandle>,
 }
 
@@ -163,7 +163,7 @@ pub struct Numbers<'a> {
     pub pictures_per_second: Option<f64>,
     /// The graphics driver: *llvmpipe*.
     pub driver: &'a str,
-    /// The frames whose exact pictures are kept, in order: they play exactly.
+    /// The frames whose exact pictures are cached, in order: they play exactly.
     pub finished: &'a [i64],
     /// Work that runs in the background.
     pub works: &'a [work::Work],
@@ -250,7 +250,7 @@ fn text_width(ui: &egui::Ui, text: &str, font: egui::FontId) -> f32 {
     ui.painter().layout_no_wrap(text.to_owned(), font, egui::Color32::WHITE).size().x
 }
 
-/// Shows something in `rect` without using room in `ui`: what follows is laid out as if it were not there.
+/// Shows something in `rect` without taking room from `ui`: later widgets are laid out as if it were not there.
 fn within<R>(
     ui: &mut egui::Ui,
     rect: egui::Rect,
@@ -260,17 +260,17 @@ fn within<R>(
     show(&mut ui.new_child(egui::UiBuilder::new().max_rect(rect).layout(layout)))
 }
 
-/// From left to right, in the middle of the height.
+/// From left to right, centred vertically.
 fn row() -> egui::Layout {
     egui::Layout::left_to_right(egui::Align::Center)
 }
 
-/// From right to left, in the middle of the height.
+/// From right to left, centred vertically.
 fn row_from_right() -> egui::Layout {
     egui::Layout::right_to_left(egui::Align::Center)
 }
 
-/// A short upright line between groups of a bar.
+/// A short vertical line between groups of a bar.
 fn divider(ui: &mut egui::Ui) {
     let (rect, _) = ui.allocate_exact_size(egui::vec2(9.0, 20.0), egui::Sense::hover());
     ui.painter().vline(rect.center().x, rect.y_range(), (1.0, crate::theme::Tokens::of(ui).div));

@@ -11,7 +11,7 @@ use crate::widgets::{self, sheet};
 const COLUMN: f32 = 256.0;
 const ROW: f32 = 20.0;
 
-/// The shortcuts that hold in one part of the editor.
+/// The shortcuts that work in one part of the editor.
 struct Group {
     name: &'static str,
     rows: Vec<(&'static str, String)>,

@@ -1,5 +1,5 @@
-//! The status line, at the bottom of the window: what is going on, what the mouse and the keys would do now, work in the
-//! background, a few numbers, and how many problems there are.
+//! The status line, at the bottom of the window: what is going on, what the mouse and the keys would do now, background
+//! work, a few numbers, and how many problems there are.
 
 use egui::{Panel, RichText, Role, WidgetInfo, accesskit};
 

@@ -34,7 +34,7 @@ pub const CHIP: f32 = 32.0;
 pub const PANEL_PADDING: f32 = 12.0;
 /// Space between controls.
 pub const GAP: f32 = 8.0;
-/// Space around what stands in a sheet.
+/// Space around the contents of a sheet.
 pub const SHEET_PADDING: f32 = 24.0;
 /// Corner radius of fields and buttons.
 pub const CORNER: f32 = 4.0;

@@ -49,7 +49,7 @@ pub struct Tokens {
     pub text: Color32,
     /// Labels, notes, units.
     pub weak: Color32,
-    /// What cannot be used now.
+    /// The icon in place of a picture that is not painted yet.
     pub dis: Color32,
     /// Cobalt as a fill: the current mode and tool, the main button of a sheet.
     pub accent: Color32,
@@ -67,7 +67,7 @@ pub struct Tokens {
     pub viridian: Color32,
     /// Direction lines where the trust in the reference is low.
     pub pink: Color32,
-    /// Over everything but the dialog, while one is open.
+    /// The veil over everything else while a dialog is open.
     pub scrim: Color32,
     /// The fill of chips, which float over the picture.
     pub chip: Color32,

@@ -7,9 +7,9 @@ use glam::DVec2;
 /// Rounds of smoothing; each moves a point to the mean of itself and its two neighbours.
 const ROUNDS: usize = 6;
 
-/// The lines that separate the cells in a set from the other cells. Coordinates count cells from the upper left corner,
-/// Y down. The rim of the grid is no border of the set: a line that reaches the rim ends there. All other lines are
-/// closed.
+/// The lines that separate the cells in a set from the other cells. Coordinates are in cells from the upper left
+/// corner, Y down. The rim of the grid is no border of the set: a line that reaches the rim ends there. All other lines
+/// are closed.
 pub fn contours([columns, rows]: [usize; 2], is_in: impl Fn(usize, usize) -> bool) -> Vec<Vec<DVec2>> {
     // Each piece runs along one side of a cell, with the set on its right as seen on the screen. Where two lines meet
     // at a corner, they turn there and do not cross.

@@ -56,8 +56,8 @@ impl Framing {
         CameraPose { lens, shift: camera.shift / more, ..camera.clone() }
     }
 
-    /// The view through a camera in this viewport, for picking and tools; places count in points from its upper left
-    /// corner.
+    /// The view through a camera in this viewport, for picking and tools. Its coordinates are in points from the
+    /// viewport's upper left corner.
     pub fn view(&self, camera: &CameraPose) -> View {
         let size = self.viewport.size();
         View { camera: self.widened(camera), size_px: DVec2::new(f64::from(size.x), f64::from(size.y)) }

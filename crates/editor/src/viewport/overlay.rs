@@ -1,5 +1,5 @@
 //! The overlays: what the editor draws over the picture, such as guides and outlines. Each has a file of its own, with
-//! plain data and a function that draws it. All lengths are points.
+//! plain data and a function that draws it. All lengths are in points.
 
 use egui::{Painter, Pos2, Rect};
 use glam::{DVec2, DVec3};

@@ -1,5 +1,5 @@
-//! Translates egui's pointer events into the editor's, in the same order. The editor's places count in points from the
-//! viewport's upper left corner, Y down.
+//! Translates egui's pointer events into the editor's, in the same order. The editor's coordinates are in points from
+//! the viewport's upper left corner, Y down.
 
 use egui::{Event, MouseWheelUnit, PointerButton, Ui};
 use glam::DVec2;
@@ -81,7 +81,7 @@ impl Pointer {
                     }
                     self.inside = false;
                 }
-                // With Alt the wheel steps through frames. Some systems' wheel events do not tell that Alt is held.
+                // With Alt the wheel steps through frames. On some systems, wheel events do not say that Alt is held.
                 Event::MouseWheel { unit, delta, modifiers, .. } if self.inside && !held.alt => {
                     // Some systems turn the wheel sideways while Shift is held.
                     let turned = if delta.y == 0.0 { delta.x } else { delta.y };

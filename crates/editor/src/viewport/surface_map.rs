@@ -39,7 +39,7 @@ pub struct Face {
 /// A place on a face, as it is seen.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FacePlace {
-    /// Weights of the triangle's second and third corner; the first has what is left of 1.
+    /// Weights of the triangle's second and third corner; the three weights add up to 1.
     pub barycentric: [f32; 2],
     /// Whether the triangle is seen from its back.
     pub flipped: bool,
@@ -187,7 +187,7 @@ impl SurfaceMap {
         let limit = DVec2::new(self.size[0] as f64, self.size[1] as f64);
         let first = (low - 0.5).ceil().clamp(DVec2::ZERO, limit);
         let last = (high - 0.5).floor().clamp(DVec2::NEG_ONE, limit - 1.0);
-        // Most triangles lie between the middles of cells.
+        // Most triangles are so small that their bounding box contains no middle of a cell.
         if first.x > last.x || first.y > last.y {
             return;
         }

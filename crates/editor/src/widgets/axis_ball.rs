@@ -22,7 +22,8 @@ pub struct AxisBall {
 pub struct BallResponse {
     /// The whole ball.
     pub response: Response,
-    /// The world's axis whose end was clicked: the view is to look along it, from that end.
+    /// The end of an axis that was clicked, as a unit vector in world space: the view is to look from there to the
+    /// centre.
     pub clicked_axis: Option<Vec3>,
     /// How far the ball was dragged in this pass, in points: the view is to orbit by as much.
     pub dragged: Vec2,

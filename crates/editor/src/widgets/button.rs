@@ -14,7 +14,7 @@ enum Weight {
     Usual,
     /// What most users want; only one button of a group.
     Primary,
-    /// It takes something away.
+    /// For an action that removes something.
     Danger,
 }
 
@@ -54,7 +54,7 @@ impl<'a> Button<'a> {
         Self { weight: Weight::Plain, ..self }
     }
 
-    /// Words in vermilion: it takes something away.
+    /// Words in vermilion, for an action that removes something.
     pub fn danger(self) -> Self {
         Self { weight: Weight::Danger, ..self }
     }

@@ -10,7 +10,7 @@ use crate::theme::{Tokens, measure, type_face};
 /// Picks one of `choices` from a menu; `chosen` is the index of the one that is picked. With an icon, the control has
 /// no fill at rest, as on a chip.
 ///
-/// The response is changed when another one is picked.
+/// The response is marked as changed when another one is picked.
 pub fn combo(ui: &mut Ui, name: &str, icon: Option<Icon>, choices: &[&str], chosen: &mut usize) -> Response {
     let shown = choices.get(*chosen).copied().unwrap_or_default();
     let mut response = face(ui, name, icon, shown);
@@ -30,7 +30,7 @@ pub fn combo(ui: &mut Ui, name: &str, icon: Option<Icon>, choices: &[&str], chos
     response
 }
 
-/// Shows `shown`, and opens a menu with other controls, which stays until something outside it is clicked.
+/// Shows `shown`. A click opens a menu of other controls, which stays open until the user clicks outside it.
 pub fn drop_down(ui: &mut Ui, name: &str, shown: &str, contents: impl FnOnce(&mut Ui)) -> Response {
     let response = face(ui, name, None, shown);
     let menu = Popup::menu(&response).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
@@ -38,7 +38,7 @@ pub fn drop_down(ui: &mut Ui, name: &str, shown: &str, contents: impl FnOnce(&mu
     response
 }
 
-/// A control that shows `shown`, for a menu that the caller opens on it.
+/// As [`drop_down`], but without the menu: the caller opens one on it.
 pub fn drop_down_face(ui: &mut Ui, name: &str, shown: &str) -> Response {
     face(ui, name, None, shown)
 }

@@ -86,7 +86,7 @@ pub(super) fn width(ui: &Ui, text: &str, font: FontId) -> f32 {
     ui.painter().layout_no_wrap(text.to_owned(), font, Color32::WHITE).size().x
 }
 
-/// Tells screen readers the role and the name of a control. The control can be reached by that name.
+/// Tells screen readers the role and the name of a control. Also lets `reach` find the control by that name.
 pub(super) fn named(response: &Response, role: Role, name: &str) {
     reached(response, name);
     response.widget_info(|| WidgetInfo::labeled(role, response.enabled(), name));

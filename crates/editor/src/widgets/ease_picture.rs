@@ -36,13 +36,13 @@ pub fn ease_picture(painter: &Painter, rect: Rect, ease: Ease, colour: Color32) 
     painter.line(ease_line([rect.left(), rect.right()], [y(0.0), y(1.0)], ease), (1.4, colour));
 }
 
-/// The picture of an ease in front of a row of a menu.
+/// Draws the picture of an ease at the left end of a menu row.
 pub fn ease_before_row(ui: &Ui, row: Rect, ease: Ease) {
     let rect = Rect::from_center_size(row.left_center() + vec2(15.0, 0.0), PICTURE);
     ease_picture(ui.painter(), rect, ease, Tokens::of(ui).text);
 }
 
-/// All eases side by side in rows, one of them on; each is named as in *Ease smooth*. Returns the one that was picked.
+/// All eases in a grid, with `now` on; each is named as in *Ease smooth*. Returns the ease that was picked.
 pub fn ease_choice(ui: &mut Ui, now: Ease) -> Option<Ease> {
     let tokens = Tokens::of(ui);
     let all = eases(Some(now));

@@ -21,14 +21,14 @@ const LETTER: f32 = 11.0;
 
 /// A number in a box whose filled part shows where it lies in its range. It is dragged, typed after a click or `Enter`,
 /// or stepped: by the arrow keys while it has the focus, by the wheel over it while it has the focus or `Ctrl` is held.
-/// Otherwise the wheel scrolls what the field stands in. A double click brings the default back. Typed text that is no
-/// number, or beyond the limits, is marked and rejected.
+/// Otherwise the wheel scrolls the panel that holds the field. A double click brings the default back. Typed text that
+/// is no number, or beyond the limits, is marked and rejected.
 pub struct NumberField<'a> {
     name: &'a str,
     value: &'a mut f64,
     range: RangeInclusive<f64>,
     limits: RangeInclusive<f64>,
-    /// What stands at its left.
+    /// The words at its left, if any.
     label: Option<&'a str>,
     letter: &'a str,
     unit: &'a str,
@@ -104,12 +104,12 @@ impl<'a> NumberField<'a> {
         Self { label: Some(words), ..self }
     }
 
-    /// Leaves out the label: only screen readers say the name.
+    /// Leaves out the label, so that only screen readers say the name. The box is `width` points wide.
     pub fn unlabelled(self, width: f32) -> Self {
         Self { label: None, width: Some(width), ..self }
     }
 
-    /// The numbers that typing, the wheel and the arrows can reach, if these are more than a drag can reach.
+    /// The range for typing, the wheel and the arrow keys, where it is larger than the range of a drag.
     pub fn limits(self, limits: RangeInclusive<f64>) -> Self {
         Self { limits, ..self }
     }
@@ -139,7 +139,7 @@ impl<'a> NumberField<'a> {
         Self { error, ..self }
     }
 
-    /// Says why a number within the limits is refused nevertheless; called for each number that is typed.
+    /// Lets `why` refuse a typed number that is within the limits: it returns the reason, or `None` to accept it.
     pub fn refused(self, why: &'a dyn Fn(f64) -> Option<String>) -> Self {
         Self { refused: Some(why), ..self }
     }
@@ -217,7 +217,7 @@ impl<'a> NumberField<'a> {
         FieldResponse { response, changed, began, ended, stepped: was_step, reset }
     }
 
-    /// The row, and the box in it.
+    /// Takes up the row, and draws the label and the error in it. Returns the row, and the box in it.
     fn place(&self, ui: &mut Ui) -> (Rect, Rect) {
         let Some(label) = self.label else {
             let width = self.width.unwrap_or(78.0);
@@ -447,12 +447,12 @@ impl<'a> NumberField<'a> {
     }
 }
 
-/// How far the wheel turned for the field, in points; `None` if the turn scrolls what the field stands in.
+/// How far the wheel turned for the field, in points; `None` if the turn scrolls the panel that holds the field.
 fn scrolled(input: &mut InputState, has_focus: bool) -> Option<f32> {
     if input.modifiers.command {
         // With Ctrl, egui turns the wheel into a zoom factor: exp(points * `scroll_zoom_speed`).
         return Some(input.zoom_delta().ln() / egui::InputOptions::default().scroll_zoom_speed);
     }
-    // Consumed, so that what the field stands in does not scroll as well.
+    // Consumed, so that the panel does not scroll as well.
     has_focus.then(|| std::mem::take(&mut input.smooth_scroll_delta).y)
 }

@@ -11,7 +11,7 @@ const MODES: [(&str, Icon); 3] =
 const HEIGHT: f32 = 28.0;
 const INSET: f32 = 2.0;
 
-/// Arrange, Paint, Animate; `mode` is 0, 1 or 2. The response is changed when another mode is picked.
+/// Arrange, Paint, Animate; `mode` is 0, 1 or 2. The response is marked as changed when another is picked.
 pub fn mode_switch(ui: &mut Ui, mode: &mut usize) -> Response {
     let tokens = Tokens::of(ui);
     // As wide as the bold words, so that nothing moves when the mode changes.

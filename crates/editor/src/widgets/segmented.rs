@@ -33,7 +33,7 @@ pub fn segmented_of(ui: &mut Ui, of: &str, choices: &[&str], chosen: &mut usize)
     segmented_named(ui, &named, chosen)
 }
 
-/// As [`segmented`], each choice with its words and its name.
+/// As [`segmented`], but each choice is a pair: its words and its name.
 pub fn segmented_named(ui: &mut Ui, choices: &[(&str, &str)], chosen: &mut usize) -> Response {
     let tokens = Tokens::of(ui);
     let widths: Vec<f32> = choices.iter().map(|(words, _)| part_width(ui, words)).collect();

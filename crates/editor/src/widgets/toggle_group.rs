@@ -9,11 +9,11 @@ const HEIGHT: f32 = 26.0;
 const INSET: f32 = 2.0;
 const PART: f32 = 28.0;
 
-/// The width of a [`toggle_group`] of three, points.
+/// The width of a [`toggle_group`], points.
 pub const TOGGLE_GROUP: f32 = 3.0 * PART + 2.0 * INSET;
 
-/// X, Y and Z side by side, each on or off; `names` are for screen readers. The response is changed when one is
-/// switched.
+/// X, Y and Z side by side, each on or off; `names` are for screen readers. The response is marked as changed when one
+/// is switched.
 pub fn toggle_group(ui: &mut Ui, names: [&str; 3], on: &mut [bool; 3]) -> Response {
     let tokens = Tokens::of(ui);
     let (rect, mut whole) = ui.allocate_exact_size(vec2(TOGGLE_GROUP, HEIGHT), Sense::hover());

@@ -20,7 +20,8 @@ use super::numpad::{keep_numpad, numpad_key};
 use super::pen::{Pens, keep_pressures};
 use super::{App, Asks, Frame, Opened, Options, Waker, WindowError};
 
-/// The shortest time between two frames that only an animation asks for. Software drivers do not wait for the screen.
+/// The shortest time between two frames that only an animation asks for. Software drivers do not wait for the screen:
+/// without this limit, an animation would draw without pause.
 const LEAST_FRAME: Duration = Duration::from_millis(8);
 
 /// An app can hold back new frames ([`Frame::hold`]) for at most this long.
@@ -105,7 +106,7 @@ struct Shell<A, M> {
     make: Option<M>,
     proxy: EventLoopProxy<Happening>,
     open: Option<OpenWindow<A>>,
-    /// When the next pass is due, if nothing happens before.
+    /// When the next pass is due, if nothing happens earlier.
     next: Option<Instant>,
     failed: Option<WindowError>,
 }

@@ -1,8 +1,8 @@
 //! Gives memory back to the system.
 
-/// Gives the free memory of the program back to the system. The allocator of glibc keeps what was freed, in an arena of
-/// each thread, and a long day of painting adds up to a gigabyte there. Other allocators give it back by themselves:
-/// nothing is done for them. Takes some milliseconds; what is allocated next must be fetched again.
+/// Gives the free memory of the program back to the system. The allocator of glibc holds freed memory in an arena for
+/// each thread; after a long day of painting that is up to a gigabyte. Other allocators give memory back by themselves,
+/// so nothing is done for them. Takes some milliseconds; later allocations must get memory from the system again.
 pub fn give_back_free_memory() {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     #[expect(unsafe_code, reason = "the allocator of the system is a C function")]
@@ -36,7 +36,7 @@ mod tests {
             let told = String::from_utf8_lossy(&output.stdout);
             return assert!(output.status.success() && told.contains("1 passed"), "{output:?}");
         }
-        // Parts of less than 128 KiB come from the arena, which shrinks by itself at its end only.
+        // Parts of less than 128 KiB come from the arena, which shrinks by itself only at its end.
         let mut parts: Vec<Vec<u8>> = (0..1600).map(|_| vec![1; 100_000]).collect();
         let last = parts.pop();
         drop(parts);

@@ -1,4 +1,4 @@
-//! Passes keys of the number pad to the application: egui does not tell them from those of the main row.
+//! Passes keys of the number pad to the application: egui does not distinguish them from keys of the main row.
 
 use egui::{Context, Id};
 use impasto_editor_model::keymap::{Key, Modifiers};

@@ -125,7 +125,7 @@ impl Pens {
         let count = input.events.iter().filter(|event| is_of_pointer(event)).count();
         let lifts = matches!(event, WindowEvent::Touch(touch) if ends(touch.phase));
         let releases = matches!(event, WindowEvent::MouseInput { state: ElementState::Released, .. });
-        // A pen presses less and less before it is lifted, so a release has the greatest pressure since the press.
+        // A pen presses less and less before it is lifted, so a release gets the greatest pressure since the press.
         let greatest = if lifts || releases { self.greatest.take() } else { None };
         self.samples.resize(count.max(self.samples.len()), greatest.unwrap_or(self.pressure));
         if lifts {

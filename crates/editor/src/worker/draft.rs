@@ -3,7 +3,7 @@
 /// All drafts of one job together should take at most this many seconds. At fifteen jobs a second, that leaves about 12
 /// ms of each for preparing.
 const BUDGET_S: f64 = 0.055;
-/// The width and height of a draft are so many twentieths of the exact picture's, rounded to pixels. With so few sizes,
+/// Drafts come in steps of a twentieth of the exact picture's width and height, rounded to pixels. With so few sizes,
 /// render targets seldom have to be made again.
 const STEPS: u32 = 20;
 /// The smallest draft, in these steps: 0.35 of each side.
@@ -43,7 +43,7 @@ impl DraftSize {
         f64::from(self.steps) / f64::from(STEPS)
     }
 
-    /// Whether exact pictures are so quick that drafts are not needed.
+    /// Whether exact pictures are drawn so quickly that drafts are not needed.
     pub(super) fn is_needless(exact_s: Option<f64>) -> bool {
         exact_s.is_some_and(|seconds| seconds < 0.5 * BUDGET_S)
     }

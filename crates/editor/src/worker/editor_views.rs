@@ -1,4 +1,4 @@
-//! From where the window shows a scene: through the shot's camera or a free one, and with what lies round the shot.
+//! The views from which the window shows a scene: through the shot's camera or free ones, reaching beyond the shot.
 
 use impasto_painting::SeenFrom;
 use impasto_scene::document::{Lens, Scene};
@@ -7,7 +7,7 @@ use impasto_scene::motion::{self, CameraPose};
 use super::ViewJob;
 use super::mailbox::Order;
 
-/// What the views of a job need particles for.
+/// The cameras and the margin for which the views of a job need particles.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct EditorViews {
     /// Cameras besides the shot's, each with a frame.
@@ -16,10 +16,11 @@ pub(super) struct EditorViews {
     margin: f64,
 }
 
-/// Margins are rounded up to this, so that few sizes of the window ask for others.
+/// Margins are rounded up to a multiple of this, so that a change of the window's size seldom changes the margin.
 const MARGIN_STEP: f64 = 0.5;
 
-/// `shot_camera` undoes the widening with rounding; lenses that differ by less than this share are the same.
+/// [`ViewJob::shot_camera`] undoes the widening only up to rounding, so lenses that differ by at most this share count
+/// as the same.
 const SAME_LENS: f64 = 1e-4;
 
 /// Whether a drag or playback is under way.
@@ -28,7 +29,7 @@ pub(super) fn is_moving(order: &Order) -> bool {
 }
 
 impl EditorViews {
-    /// Those of a job.
+    /// The views of a job.
     pub(super) fn of(order: &Order) -> Self {
         let (scene, views) = (&order.job.loaded.scene, &order.job.views);
         let free = views.iter().filter(|view| is_free(view, scene));
@@ -51,7 +52,7 @@ impl EditorViews {
     }
 }
 
-/// Whether the view is not one of the shot's at a whole frame of the timeline, nor that of the reference.
+/// Whether the view is free: neither the shot's view at a whole frame of the timeline, nor the reference's view.
 fn is_free(view: &ViewJob, scene: &Scene) -> bool {
     let [shot, now] = [motion::camera_at(scene, view.frame), view.shot_camera()];
     let near = |a: f64, b: f64| (a - b).abs() <= SAME_LENS * a.abs().max(b.abs());

@@ -9,22 +9,22 @@ use super::ViewJob;
 use super::film_file::FilmFile;
 use crate::files::preferences::film_folder;
 
-/// Pictures in memory take no more than this, bytes, while the disk has room for the others: 32 frames of a window of
-/// 1280x800. Reading such a frame back takes about two milliseconds.
+/// While the disk has room for the other pictures, those in memory take at most this many bytes: 32 frames of a window
+/// of 1280x800. Reading such a frame back takes about two milliseconds.
 const EASY_BYTES: usize = 128 << 20;
 
-/// Where the disk has no room, they take no more than this, bytes: 260 such frames.
+/// If the disk has no room, pictures in memory take at most this many bytes: 260 such frames.
 const MOST_BYTES: usize = 1 << 30;
 
-/// They never take more than the available memory divided by this.
+/// Pictures in memory never take more than the available memory divided by this.
 const SHARE: u64 = 4;
 
 /// How much memory pictures may take, bytes.
 #[derive(Clone, Copy, Debug)]
 struct Room {
-    /// While the disk has room for the others.
+    /// While the disk has room for the other pictures.
     easy_bytes: usize,
-    /// Where it has none.
+    /// If the disk has no room.
     most_bytes: usize,
 }
 
@@ -48,7 +48,7 @@ pub(super) struct Finished {
     pub(super) strokes: (usize, Vec<usize>),
 }
 
-/// What the picture of a view takes, bytes.
+/// The size of a view's picture, in bytes.
 fn bytes_of(view: &ViewJob) -> usize {
     view.size_px.iter().map(|&side| side as usize).product::<usize>() * 4
 }
@@ -122,8 +122,8 @@ impl Film {
         frames
     }
 
-    /// Keeps a picture: in memory up to the easy limit, where pictures that are not `wanted` make way; or else on the
-    /// disk; or else in memory up to the other limit. If there is no room at all, it is not kept, and false is returned.
+    /// Keeps a picture: in memory up to `Room::easy_bytes`, dropping pictures that are not `wanted`; else in the file;
+    /// else in memory up to `Room::most_bytes`. Returns false if there is no room for it at all.
     pub(super) fn keep(&mut self, finished: Finished, wanted: &[ViewJob]) -> bool {
         self.keep_within(finished, wanted, Room::now(), film_folder().as_deref())
     }
@@ -152,7 +152,7 @@ impl Film {
         let Finished { view, serial, image, strokes } = finished;
         let within = |most: usize| (bytes + own <= most).then(|| Place::Memory(Arc::clone(&image)));
         let mut place = within(room.easy_bytes).or_else(|| self.file(&image, folder));
-        // The file only grows: once nothing in it is wanted any more, it begins anew.
+        // The file only grows. If it has no room, and nothing in it is wanted any more, it is emptied.
         if place.is_none() && !self.kept.iter().any(|kept| !in_memory(kept) && is_wanted(kept)) {
             self.kept.retain(in_memory);
             if let Some(file) = &mut self.file {
@@ -221,7 +221,7 @@ mod tests {
         assert!(film.keep_within(finished(&wanted[2], 1), &wanted, room, None));
         assert!(film.of(&view(7.0), 1).is_none());
         assert_eq!(film.frames(&wanted, 1), [1, 2, 3]);
-        // Nothing that is wanted makes way.
+        // No wanted picture is dropped to make room.
         assert!(!film.keep_within(finished(&view(4.0), 1), &wanted, room, None));
         assert!(film.keep_within(finished(&wanted[0], 1), &wanted, room, None), "it is kept already");
         // Another look, another version of the scene.

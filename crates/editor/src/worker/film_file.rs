@@ -1,4 +1,4 @@
-//! Pictures beyond what memory takes easily, in a file without a name: the system deletes it when it is closed, however
+//! Pictures for which memory has no room, in a file without a name: the system deletes it when it is closed, however
 //! the program ends.
 
 use std::fs::File;
@@ -10,7 +10,7 @@ use egui::ColorImage;
 /// The file grows no larger than this, bytes: 2,000 frames of a window of 1280x800.
 const MOST_BYTES: u64 = 8 << 30;
 
-/// What stays free on its disk, bytes.
+/// At least this many bytes stay free on the file's disk.
 const LEFT_FREE: u64 = 2 << 30;
 
 /// Pictures one after the other, as their bytes.
@@ -18,7 +18,7 @@ pub(super) struct FilmFile {
     file: File,
     used: u64,
     most_bytes: u64,
-    /// What stays free on its disk, bytes.
+    /// At least this many bytes stay free on the file's disk.
     left_free: u64,
 }
 
@@ -34,7 +34,7 @@ impl FilmFile {
         })
     }
 
-    /// Appends a picture. Returns where it lies; `None` if the disk has no room for it.
+    /// Appends a picture. Returns its offset in bytes; `None` if there is no room for it.
     pub(super) fn put(&mut self, image: &ColorImage) -> Option<u64> {
         let bytes = image.as_raw();
         let (at, size) = (self.used, bytes.len() as u64);
@@ -49,7 +49,7 @@ impl FilmFile {
         Some(at)
     }
 
-    /// The picture of this size, in pixels, that lies at `at`; `None` if it cannot be read.
+    /// The picture of this size, in pixels, at the offset `at`, in bytes; `None` if it cannot be read.
     pub(super) fn get(&self, at: u64, size_px: [usize; 2]) -> Option<ColorImage> {
         let mut bytes = vec![0; size_px[0] * size_px[1] * 4];
         let mut file = &self.file;

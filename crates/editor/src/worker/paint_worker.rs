@@ -110,7 +110,7 @@ struct Drawn {
     /// What the next draft may recall of this picture; `None` if it has no strokes.
     recall: Option<Arc<Recall>>,
     /// Counts the pictures drawn of the view. [`Recall::of`] uses the count to pick the absent strokes that the next
-    /// draft computes. Each view has its own count: two that are drawn in turn would see every other number only.
+    /// draft computes. Each view has its own count: if two views shared one, each would only get every other number.
     turn: u32,
 }
 
@@ -206,8 +206,8 @@ impl PaintWorker {
         self.finish_film(&painting, order, mailbox, tell);
     }
 
-    /// Shows the kept exact picture of a view, if there is one and the view is not shown exactly already. When playback
-    /// has stopped, icons of lights are to be seen again: until they are drawn, the picture stays without them.
+    /// Shows the film's picture of a view, if there is one and the view is not shown exactly already. The film has no
+    /// icons of lights. When playback stops, its picture is shown until one with the icons is drawn.
     fn show_finished(&mut self, order: &Order, index: usize, tell: Tell<'_>) {
         let (view, serial) = (&order.job.views[index], order.job.serial);
         if self.shows_exactly(order, index) {

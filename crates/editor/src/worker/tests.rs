@@ -316,7 +316,7 @@ fn a_panic_is_told_and_the_next_job_is_drawn() {
     until(&worker, is_exact);
 }
 
-/// Edits come in bursts, as in a drag, from another camera, of another seed, length of strokes or light each time.
+/// Edits come in bursts, as in a drag. Each changes the seed, the length of strokes, the lights or the camera.
 #[test]
 fn after_a_thousand_edits_the_last_is_shown_and_few_are_kept() {
     let loaded = scene();

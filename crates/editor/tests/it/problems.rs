@@ -30,7 +30,7 @@ const TEXT: &str = r#"(
 )
 "#;
 
-/// The window without its viewport. The editor carries out repairs (`Ask::Mend`); the page notes what else is tested.
+/// The window without its viewport. The editor carries out repairs (`Ask::Mend`). The page records the other requests.
 struct Page {
     editor: Editor,
     path: PathBuf,
@@ -91,7 +91,7 @@ impl Page {
         }
         self.is_open &= self.is_open && problems::problems(ui, &shown, &mut asks);
         CentralPanel::default().frame(egui::Frame::new().fill(Tokens::of(ui).app)).show(ui, |_| {});
-        // The window hands keys to the editor before it shows panels. Here only Ctrl Enter is, and after them.
+        // The window hands keys to the editor before it shows panels. This page hands over only Ctrl Enter, after them.
         let typing = ui.ctx().text_edit_focused();
         if ui.input(|input| input.modifiers.command && input.key_pressed(Key::Enter)) {
             let view = View { camera: self.editor.camera(), size_px: glam::DVec2::ONE };

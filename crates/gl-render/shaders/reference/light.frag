@@ -11,7 +11,7 @@ uniform sampler2D openness;      // ambient occlusion: 0 enclosed .. 1 open; hal
 #ifndef DRAFT
 uniform sampler2D fine;          // depth and body id of every sample
 uniform sampler2D root_albedo;   // square root of the colour of every sample, and `is_lit`
-uniform int samples;             // per pixel along each axis; 1: pixels stand for them
+uniform int samples;             // per pixel along each axis; 1: the pixel itself is its only sample
 #endif
 uniform float highlight_in_color; // the share of a strong highlight that `color` has, 0..1
 

@@ -1,4 +1,4 @@
-// The light on every pixel of the surfaces, apart from their colours.
+// The light on every pixel of the surfaces, without their colours.
 #include "shared/lens.glsl"
 #include "reference/lighting.glsl"
 uniform sampler2D albedo_and_lit;

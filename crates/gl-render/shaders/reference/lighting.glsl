@@ -62,9 +62,9 @@ struct LitPoint {
 
 // The light on a point.
 struct Light {
-    vec3 diffuse;                // what arrives, from everywhere; times the albedo it is what a matt surface sends back
-    vec3 highlight;              // what a glazed surface sends back beside that
-    float glint;                 // how strong the highlight is: 0 none; lights that are near or many give more than 1
+    vec3 diffuse;                // what arrives from everywhere; a matt surface reflects this times its albedo
+    vec3 highlight;              // what a glazed surface reflects in addition
+    float glint;                 // how strong the highlight is: 0 none; near lights, or many, give more than 1
     float shadowed;              // how much arrives of the light that casts shadows, 0..1
 };
 

@@ -11,7 +11,8 @@ uniform float is_lit;
 uniform float body_id;
 
 layout(location = 0) out vec2 depth_and_id;
-layout(location = 1) out vec4 root_albedo;  // square root of colour: 8 bits hold darks too; dropped without a target
+// The square root of the colour, so that 8 bits are enough for darks too.
+layout(location = 1) out vec4 root_albedo;  // dropped where no target takes it
 
 void main() {
     cut_out();

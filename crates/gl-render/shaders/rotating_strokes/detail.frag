@@ -84,7 +84,7 @@ void main() {
             if (there.y == 0.0 || there.x > front.x) outline += 0.5;
             continue;
         }
-        // One part of the body stands in front of another: the depth leaps off its slope.
+        // One part of the body stands in front of another: the depth leaps by more than its slope explains.
         float depth = texelFetch(depth_and_id, at, 0).x;
         vec2 before = texelFetch(depth_and_id, clamp(at - outward, ivec2(0), last), 0).xy;
         float leap = there.x - depth - (before.y == front.y ? max(depth - before.x, 0.0) : 0.0);

@@ -45,11 +45,12 @@ const float MELTED_RELIEF = 0.45;
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 
 #ifndef DRAFT
-// The cosines between which strokes fade near an outline until few are left. Round bodies are seen so flat only within
-// less than a pixel of their outline, but ground that runs to the horizon in a wide strip.
+// The cosines between which strokes fade near an outline until few are left. A round body is seen at so flat an angle
+// only within less than a pixel of its outline. Ground that runs to the horizon is, over a wide strip.
 const vec2 FLAT = vec2(0.015, 0.08);
 
-// How flat a surface is seen: 1 where its own colour must stand for the strokes that faded, 0 where they are there.
+// How flat the angle is at which a surface is seen: 1 where its own colour must replace the strokes that faded, 0 where
+// none has faded.
 float flatness(ivec2 at) {
     vec3 facing = texelFetch(normal, at, 0).rgb;
     if (facing == vec3(0.0)) return 0.0;

@@ -1,5 +1,5 @@
 // The layers of paint, numbered as in `LayerKind`: in the order in which they are laid on, unless a scene states
-// another.
+// another order.
 const int UNDERPAINTING = 0;
 const int BODY = 1;
 const int FORM = 2;

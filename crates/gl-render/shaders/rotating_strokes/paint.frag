@@ -31,7 +31,8 @@ layout(location = 1) out vec4 height; // and how wet the paint is
 #endif
 
 #ifdef STORES
-// Every fragment is noted: pixel, counted from the lower left; stroke and alpha; colour. `fragments.rs` reads it.
+// Every fragment is noted: pixel, counted from the lower left; stroke and alpha; colour. `fragments.rs` reads these
+// notes.
 flat in uint number;
 layout(std430, binding = 0) buffer Fragments {
     uint count;
@@ -80,7 +81,7 @@ float past_body(vec2 here, float reach_px) {
     float bias = 2.0 * units_per_px_at_1 * mix(depth, 1.0, orthographic);
     float away_px = length(from_center_px);
     vec2 inward = -from_center_px / max(away_px, 1e-3);
-    // Only a soft edge goes over a body in front of the stroke; more paint over the background and over bodies behind.
+    // Over a body in front of the stroke goes only a soft edge; over the background and bodies behind, more paint.
     if (here.y != 0.0 && here.x < depth - bias) reach_px = 0.35;
 #ifdef DRAFT
     const int PLACES = 2;

@@ -43,8 +43,8 @@ flat out uint number;
 
 out vec2 mark_at;                // place on the mark, 0..1; on a shaped stroke, px along and across it
 out vec2 from_center_px;
-flat out vec4 paint;             // colour and the height at which the mark is cut off
-flat out vec3 half_mixed;        // what the other paint in the brush adds
+flat out vec4 paint;             // colour, and the paint of the mark below which nothing is laid
+flat out vec3 half_mixed;        // other paint in the brush: added to the colour, times the mark's tint
 flat out vec4 picked_up;         // colour from below and how much of it
 flat out vec4 mark;              // number of the mark, level of detail, half the width of its soft edge, bow
 flat out vec4 body;              // opacity, thickness, overrun in px, sign of the flip
@@ -71,8 +71,8 @@ const float BYTE = 1.0 / 255.0;
 #ifndef DRAFT
 // The mean colour below the first half of the stroke (not premultiplied), at twenty places, and how much of it is
 // picked up. Only places on the stroke's own body count, since paint past its border belongs to what lies beside it.
-// The fewer places count, the less is picked up. Where hardly any paint lies, nothing is. The places are far apart, so
-// that what passes in front of the stroke reaches one after the other, over many frames.
+// The fewer places count, the less is picked up; where hardly any paint lies, nothing. The places are far apart, so
+// that a body that passes in front of the stroke covers them one after the other, over many frames.
 vec4 paint_below(vec2 center_px, mat2 turn) {
     const int PLACES = 20;
     vec4 sum = vec4(0.0);

@@ -28,8 +28,8 @@ const float LEAST = 0.25;
 const float LEAST = 0.004;
 #endif
 
-// From this thinness of its face on, a stroke lights its own albedo, since single pixels of a thin body are light or
-// dark by chance. The less thin the face, the more of the colour is that of the picture.
+// From this thinness of its face on, a stroke's colour is its own albedo, lit: single pixels of a thin body are light
+// or dark by chance. The less thin the face, the more the picture's colour counts.
 const float THIN = 0.6;
 
 // Standard deviation, across the stroke, of the Gaussian over which colours are averaged: for each layer in widths of
@@ -51,8 +51,8 @@ const float NEAR_PEAK = 0.7;
 // How far from itself a contour stroke looks for the end of its body, pixels of the scene's own size.
 const float OUTLINE_PX = 20.0;
 
-// How far behind the stroke another body must lie to count as past the end of the stroke's own: in part from the first
-// depth on, wholly from the second.
+// How far behind the stroke another body must lie to count as past the end of the stroke's own body: in part from the
+// first depth on, wholly from the second.
 const vec2 BEHIND_PX = vec2(10.0, 50.0);
 
 // A stroke that other bodies hide in part is wholly there while more than this share of it is visible.
@@ -174,7 +174,7 @@ float fullness(float lightness, float grading) {
 
 // How much a layer of small strokes is wanted here, 0..1.
 float wanted(vec3 detail) {
-    // Full early, so that a highlight that grows as it runs over a bump gets no stronger strokes than before.
+    // Reaches 1 early, so that a highlight that grows as it runs over a bump gets no stronger strokes than before.
     if (kind == LIGHTS) return smoothstep(0.0, 0.14, detail.b);
     // Edges are lost in places.
     float rim = min(1.4 * detail.g, 1.0) * clamp(0.55 * (0.6 + 0.5 * reach.z), 0.0, 1.0);
@@ -200,8 +200,7 @@ vec2 peak_px(float id) {
     return at_px;
 }
 
-// How the stroke's own plane changes `even_depth` per pixel. A plane that faces the gaze by less than a tenth counts as
-// facing it by a tenth.
+// By how much `even_depth` changes per pixel along the stroke's own plane. `facing` counts as at least 0.1 in size.
 vec2 plane_slope() {
     vec3 n = mat3(view_from_world) * normal_and_bow.xyz;
     float facing = facing_at_px(n, place.xy);
@@ -230,7 +229,7 @@ float broken(vec2 halfway_px, float there, vec2 own) {
         if (surface.y == own.y) middle += near.x * near.y * vec2(even_depth(surface.x), 1.0);
         else if (surface.y != 0.0 && surface.x < own.x) in_front += near.x * near.y;
     }
-    // Something in front says nothing; something behind is past the end.
+    // Something in front tells nothing of the body's end; something behind is past it.
     float uneven = abs(1.0 - 2.0 * middle.x / max(middle.y, 1e-4) + there);
     return middle.y * smoothstep(0.5 * LEAP.x, LEAP.y, uneven) + (1.0 - middle.y - in_front);
 }

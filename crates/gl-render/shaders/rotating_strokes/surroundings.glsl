@@ -15,9 +15,9 @@ const float AROUND_PX = 8.0;
 // body, from the second on the stroke's own.
 const vec2 SAME_FACE = vec2(0.8, 0.97);
 
-// How far before the stroke's plane its body must be to cover the stroke: from the first depth on in part, from the
-// second wholly. Smaller depths are mere errors of coarse meshes. In pictures under half the scene's size both shrink
-// with the picture, since grooves have fewer pixels of depth there.
+// How far in front of the stroke's plane its body must be to cover the stroke: from the first depth on in part, from
+// the second wholly. Smaller depths are mere errors of coarse meshes. In pictures under half the scene's size both
+// shrink with the picture, since grooves have fewer pixels of depth there.
 const vec2 COVERS_PX = vec2(2.0, 6.0);
 
 // The least radius of the ring of places that tells whether a stroke is covered, in pictures of half the scene's size
@@ -25,8 +25,8 @@ const vec2 COVERS_PX = vec2(2.0, 6.0);
 const float LEAST_RING_PX = 1.6;
 
 // The stroke's centre. If the centre lies outside the picture: about where the stroke's middle line enters the picture.
-// For strokes along the border, it is the point of the picture nearest to the centre instead, so that it does not leap
-// as they turn.
+// If such a stroke runs along the border: the point of the picture nearest to the centre, so that the result does not
+// leap as the stroke turns.
 vec2 center_in_picture() {
     vec2 first = vec2(0.5);
     vec2 last = vec2(textureSize(depth_and_id, 0)) - 0.5;

@@ -1,4 +1,4 @@
-// The last pass: what a style has painted, as a display shows it.
+// The last pass: encodes what a style has painted for a display.
 #include "shared/encode.glsl"
 uniform sampler2D picture;     // straight alpha, display-linear
 uniform float exposure;        // a factor

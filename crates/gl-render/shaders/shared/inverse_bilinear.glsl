@@ -4,7 +4,7 @@ float wedge(vec2 a, vec2 b) {
     return a.x * b.y - a.y * b.x;
 }
 
-// over / under, at most 10,000 from 0; 0 / 0 is 0.
+// over / under, clamped to -10,000..10,000; 0 / 0 is 0.
 float bounded_ratio(float over, float under) {
     const float FARTHEST = 1e4;
     if (abs(over) < abs(under) * FARTHEST) return over / under;

@@ -1,4 +1,4 @@
-// Ink on the paper: the blurred wash, the strokes over it, and the effect of the paper on both. It reckons in sRGB
+// Ink on the paper: the blurred wash, the strokes over it, and the effect of the paper on both. It computes in sRGB
 // values: wash and strokes each take a share of what is below (the source's mix subtracts instead).
 #include "shared/encode.glsl"
 #include "sumi_e/paper.glsl"

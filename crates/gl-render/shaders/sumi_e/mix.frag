@@ -1,5 +1,5 @@
-// Pass 4 of the source (the effect that `styles/sumi_e.rs` names): adds up how much each picture darkens. It reckons in
-// sRGB values, as they are stored.
+// Pass 4 of the source (the effect that `styles/sumi_e.rs` names): adds up how much each picture darkens. It computes
+// in sRGB values, as they are stored.
 #include "shared/encode.glsl"
 #include "sumi_e/paper.glsl"
 uniform sampler2D interior;

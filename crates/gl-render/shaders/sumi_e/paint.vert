@@ -54,7 +54,7 @@ void main() {
         level = max(level, 0.0);
     }
     mark = vec4(float(marks.w & 65535u), level, soft, normal_and_bow.w);
-    // Less than half of the strokes run dry towards their ends, each by another amount.
+    // Less than half of the strokes run dry towards their ends, each by a different amount.
     float runs_dry = float((marks.x >> 8) & 255u) * BYTE;
     body = vec4(float(bytes.x & 255u) * BYTE, dryness * smoothstep(0.55, 1.0, runs_dry), reach.x,
                 (marks.w & 65536u) == 0u ? 1.0 : -1.0);

@@ -31,7 +31,7 @@ pub struct Context {
 }
 
 impl Context {
-    /// Which driver the context uses, and why the drivers that were tried before it failed.
+    /// Which driver the context uses, and why earlier attempts with other drivers failed.
     pub fn report(&self) -> &ContextReport {
         &self.report
     }

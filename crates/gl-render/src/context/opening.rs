@@ -5,11 +5,11 @@ use crate::gl::Platform;
 /// How to open a context.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct OpenOptions {
-    /// Asks the driver for its debug output; [`crate::Renderer::render`] then fails where the driver complained.
+    /// Asks the driver for its debug output; [`crate::Renderer::render`] then fails if the driver complains.
     pub debug: bool,
 }
 
-/// What a driver hands over: a current context and the way to find its functions.
+/// An opened context, and the way to find its functions.
 pub(super) struct Opened {
     pub(super) platform: Box<dyn Platform>,
     /// The device's name.

@@ -55,7 +55,7 @@ pub(crate) struct Limits {
     pub max_array_layers: u32,
     /// Whether fragment shaders can write into storage buffers (OpenGL 4.3).
     pub has_storage: bool,
-    /// The largest storage buffer that a shader reaches, bytes.
+    /// The largest storage buffer that a shader can access, in bytes.
     pub max_storage_bytes: usize,
 }
 

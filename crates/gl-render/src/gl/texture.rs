@@ -13,7 +13,7 @@ pub(crate) enum Format {
     SrgbAlpha8,
     R16F,
     Rg16F,
-    /// Colours of 11, 11 and 10 bits, without alpha; none is below 0.
+    /// Colours of 11, 11 and 10 bits, without alpha and without negative values.
     R11G11B10F,
     Rg32F,
     Rgba16F,
@@ -47,9 +47,9 @@ impl Format {
 pub(crate) enum Filter {
     /// The nearest texel, clamped at the edges.
     Nearest,
-    /// Four texels of the nearest level, clamped at the edges.
+    /// Four texels of the nearest mipmap level, clamped at the edges.
     LinearInLevel,
-    /// Four texels of each of the two nearest levels, repeated at the edges.
+    /// Four texels of each of the two nearest mipmap levels, repeated at the edges.
     TrilinearRepeat,
     /// The depths of four texels, each compared with a reference value, clamped at the edges.
     ShadowCompare,

@@ -223,7 +223,7 @@ impl<'a> Placed<'a> {
         Self { index, body, depth, bounds: if is_displaced { mesh.bounds } else { bounds } }
     }
 
-    /// Whether its bounding box lies in that of `outer`, which may be exceeded by a twentieth of its size.
+    /// Whether its bounding box lies in that of `outer`, grown on each side by a twentieth of the outer box's size.
     fn is_within(&self, outer: &Self) -> bool {
         let (Some((low, high)), Some((outer_low, outer_high))) = (self.bounds, outer.bounds) else {
             return false;

@@ -1,7 +1,7 @@
 //! Brush strokes that turn with what they lie on.
 //!
-//! Targets: `fine` and `surface` (depth and body of each sample, of each pixel), `detail` (where small strokes are
-//! wanted), `paint` (premultiplied, linear), `height` (of the paint), `below` (the picture before a layer),
+//! Targets: `fine` (depth and body of each sample), `surface` (the same of each pixel), `detail` (where small strokes
+//! are wanted), `paint` (premultiplied, linear), `height` (of the paint), `below` (the picture before a layer),
 //! `soft height`. Passes: coverage (samples, then pixels), detail, spread (twice), resolve (finds colour, presence and
 //! place of each stroke), paint (a billboard per stroke, one layer after the other), soften, finish.
 
@@ -43,7 +43,7 @@ const BLOCK_PX: f32 = 4.0;
 /// How far detail is spread over its body: standard deviation of a Gaussian, pixels at the scene's size.
 const SPREAD_PX: f32 = 16.0;
 
-/// The caller is asked whether to stop after strokes that cover this many pixels.
+/// Whenever strokes that cover this many pixels are drawn, the caller is asked whether to stop.
 const PIECE_PX: f32 = 400_000.0;
 
 /// Draws brush strokes.

@@ -1,4 +1,4 @@
-//! Tests that numbers and triangles are read rightly in every form that they may have in a file.
+//! Tests that numbers and triangles are read correctly in every form that they may have in a file.
 
 use serde_json::{Value, json};
 

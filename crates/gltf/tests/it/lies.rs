@@ -1,4 +1,4 @@
-//! Tests with false statements that we make ourselves: a good file in which one value at a time is spoiled.
+//! Tests with false files that are made here: a good file in which one value at a time is spoiled.
 
 use std::time::{Duration, Instant};
 
@@ -247,7 +247,7 @@ fn json_cut_short_or_deep() {
     }
 }
 
-/// A faulty number deep in the JSON is named by its place, though the text cannot be read.
+/// The error about a faulty number deep in the JSON names its place, although the text as a whole cannot be read.
 #[test]
 fn syntax_errors_have_a_place() {
     let findings = read_alone(br#"{"asset":{"version":"2.0"},"nodes":[{},{"scale":[1,2,1e999]}]}"#.to_vec());

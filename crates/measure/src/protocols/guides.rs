@@ -17,7 +17,7 @@ use crate::versions::SceneVersion;
 /// Strokes within this share of a guide's radius count as lying on it.
 const ON_IT: f64 = 0.05;
 
-/// Strokes are left out if the cosine between their surface's normal and the direction to the eye is smaller.
+/// Strokes are left out if the cosine between their surface's normal and the direction to the eye is smaller than this.
 const FACED: f64 = 0.35;
 
 /// The largest difference allowed between a stroke on a guide and the guide as drawn, degrees.

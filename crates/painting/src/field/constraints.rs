@@ -92,8 +92,8 @@ impl FieldInputs {
         Constraint { target, weight }
     }
 
-    /// Where a rule asks for the curvature, it replaces every constraint that pulls less than it does. The more the two
-    /// principal curvatures differ, the stronger it pulls.
+    /// Where a rule asks for the curvature, a principal direction replaces every constraint that pulls less than it
+    /// does. The more the two principal curvatures differ, the stronger it pulls.
     pub(super) fn with_curvature(
         &self,
         graph: &FieldGraph,

@@ -24,7 +24,7 @@ pub(crate) struct FieldInputs {
     /// The rules that may show on the body.
     pub(crate) used: Arc<Vec<u16>>,
     pub(crate) guides: Arc<Vec<BodyGuide>>,
-    /// What is painted; only flatness matters here.
+    /// The painted amounts; only flatness matters here.
     pub(crate) amounts: Arc<BodyAmounts>,
     /// All rules. Only their directions, senses, seams and flatness matter here.
     pub(crate) rules: Arc<Vec<RegionRule>>,
@@ -35,7 +35,7 @@ pub(crate) struct FieldInputs {
     pub(crate) orthographic: bool,
 }
 
-/// A sample of the field, with what is stated there.
+/// A sample of the field, with the direction that is stated there.
 #[derive(Clone, Copy)]
 pub(super) struct SamplePoint {
     pub(super) point: SurfacePoint,
@@ -79,7 +79,7 @@ impl FieldInputs {
             })
     }
 
-    /// The samples, each with what is stated there.
+    /// The samples, each with the direction that is stated there.
     pub(super) fn points(&self, symmetry: Symmetry) -> Vec<SamplePoint> {
         let stated = DirectionRules {
             rules: &self.rules,
@@ -90,7 +90,7 @@ impl FieldInputs {
         samples.map(|sample| self.point(sample, &stated, symmetry)).collect()
     }
 
-    /// The symmetry of the whole body, in which all its samples are encoded: arrows only where all of them have arrows.
+    /// The symmetry of the whole body, in which all its samples are encoded: arrows only if all of them have arrows.
     pub(super) fn symmetry(&self) -> Symmetry {
         let samples = &self.samples.particles;
         let has_arrows = |sample: &Particle| {

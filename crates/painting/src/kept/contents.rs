@@ -45,7 +45,7 @@ pub(super) struct CoatNumbers {
     pub(super) state: [u64; 4],
     /// The bits of the area, which is a float.
     pub(super) area: u64,
-    /// 0 or 1, as are the next ones: whether the particles lie on the whole surface.
+    /// 0 or 1, as are the next three: whether the particles lie on the whole surface.
     pub(super) is_everywhere: u64,
     /// Whether looks have base angles.
     pub(super) has_angles: u64,
@@ -63,7 +63,7 @@ pub(crate) struct KeptPainting {
     pub(crate) order: PaintingOrder,
 }
 
-/// What was kept of an object.
+/// One object, as it was kept.
 pub(crate) struct KeptObject {
     /// How many particles each layer is to have.
     pub(crate) counts: BodyCounts,
@@ -71,7 +71,7 @@ pub(crate) struct KeptObject {
     pub(crate) coats: [Option<KeptCoat>; LAYERS],
 }
 
-/// What was kept of a coat.
+/// One coat, as it was kept.
 pub(crate) struct KeptCoat {
     /// All particles that were sampled.
     pub(crate) places: Vec<PackedParticle>,
@@ -95,7 +95,7 @@ pub(crate) struct KeptCoat {
     pub(crate) neighbours: Option<Neighbours>,
 }
 
-/// What the bytes must fit.
+/// The surfaces, rules and brushes that the bytes must fit.
 pub(crate) struct Wanted<'a> {
     pub(crate) surfaces: &'a [Arc<BodySurface>],
     /// How many rules there are.

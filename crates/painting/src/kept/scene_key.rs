@@ -23,7 +23,7 @@ use crate::body_shape::BodyShape;
 use crate::context::{Context, ObjectInputs};
 use crate::view::PictureView;
 
-/// What the key of a scene is made of.
+/// The inputs of a scene's key.
 pub(crate) struct SceneKey<'a> {
     pub(crate) loaded: &'a LoadedScene,
     pub(crate) context: &'a Context<'a>,
@@ -48,8 +48,9 @@ impl SceneKey<'_> {
         let mut key = KeyHasher::default();
         key.words(concat!(env!("CARGO_PKG_VERSION"), " ", env!("IMPASTO_SOURCES")));
         key.numbers(&[FORMAT]);
-        // The stage is left out: what a shot brings is in the objects, and in the views, references and shapes that
-        // follow. Touches are left out too, except their brushes: they are laid anew, and only the brushes are kept.
+        // The stage is left out: what a shot brings is in the objects, and in the views, references and shapes that are
+        // hashed below. Touches are left out too, except their brushes: they are laid again, and only the brushes are
+        // kept.
         key.value(&Scene { stage: Stage::default(), touches: Vec::new(), ..Scene::clone(scene) });
         scene.touches.iter().for_each(|touch| key.value(&touch.brush));
         rules.iter().for_each(|rule| key.value(rule));
@@ -92,7 +93,7 @@ impl SceneKey<'_> {
     }
 }
 
-/// The hash of each of these; what occurs several times is hashed once.
+/// The hash of each of these; a value that occurs several times is hashed once.
 fn digests<'a, T: Send + Sync + 'a>(
     all: impl Iterator<Item = &'a Arc<T>>,
     feed: impl Fn(&T, &mut KeyHasher) + Sync,

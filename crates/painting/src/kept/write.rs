@@ -12,7 +12,7 @@ use crate::counts::Counted;
 use crate::painting::Painting;
 use crate::paper::KeptPolygons;
 
-/// What is to be kept of a painting, ready to be written.
+/// The arrays of a painting that are to be kept, ready to be written.
 pub struct ToKeep<'a>(ArraysToWrite<'a>);
 
 impl ToKeep<'_> {
@@ -31,8 +31,8 @@ impl ToKeep<'_> {
 }
 
 impl Painting {
-    /// What is to be kept for another process that prepares the same scene. `None` if there was a fault (a point cache
-    /// that could not be read any more), because the wrong results would be kept too.
+    /// The arrays to be kept for another process that prepares the same scene. `None` if there was a fault (a point
+    /// cache that could not be read any more), because the wrong results would be kept too.
     pub fn to_keep(&self) -> Option<ToKeep<'_>> {
         if !self.faults().is_empty() {
             return None;

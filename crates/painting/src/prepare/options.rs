@@ -82,7 +82,7 @@ impl Default for PrepareOptions<'_> {
 /// How long a step of preparing took.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
-    /// What was done.
+    /// The name of the step.
     pub name: &'static str,
     /// Wall clock seconds.
     pub seconds: f64,

@@ -30,10 +30,10 @@ pub enum SeenFrom<'a> {
 }
 
 impl SeenFrom<'_> {
-    /// An editor shows what lies round the shot, and pictures may be wider than the scene states.
+    /// The usual margin: an editor shows what lies round the shot, and pictures may be wider than the scene states.
     pub const MARGIN: f64 = 1.5;
 
-    /// Margins are cut to this.
+    /// Greater margins are cut to this.
     pub const MOST_MARGIN: f64 = 8.0;
 
     /// By the scene's camera alone.
@@ -48,7 +48,8 @@ impl SeenFrom<'_> {
     }
 }
 
-/// With more frames than this, or with more poses of objects at all frames, a painting is made to be seen from anywhere.
+/// With more frames than this, or with more poses of objects at all frames, a painting is made to be seen from
+/// anywhere.
 const MOST_FRAMES: usize = 4096;
 const MOST_POSES: usize = 200_000;
 
@@ -109,7 +110,7 @@ impl<'a> Seen<'a> {
         matches!(self.from, SeenFrom::AsBefore)
     }
 
-    /// Whether the text of the scene tells all views.
+    /// Whether all views follow from the text of the scene.
     pub(crate) fn follows_from_scene(&self) -> bool {
         matches!(self.from, SeenFrom::Shot { also: [], .. })
             && self.margin() == SeenFrom::MARGIN

@@ -1,5 +1,5 @@
 //! Checks the document against its meshes: that guides and dabs lie on surfaces, groups and materials have triangles, a
-//! morph has the topology of its mesh, and a point cache has as many points.
+//! morph has the topology of its mesh, and a point cache has as many points as its mesh.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
@@ -137,7 +137,7 @@ impl<'a> Covered<'a> {
                 }
             }
             let mut empty = HashSet::new();
-            // Of several with one name, the first counts.
+            // If several have the same name, the first counts.
             let mut seen = HashSet::new();
             for (name, is_used) in names.into_iter().zip(is_used) {
                 if seen.insert(name) && !is_used {

@@ -18,10 +18,10 @@ pub enum Ease {
     Out,
     /// Falls to the next key like a ball, and bounces back from it three times, lower each time.
     Bounce,
-    /// A cubic Bézier curve from (0, 0) to (1, 1) with these two handles, like `cubic-bezier` in CSS: `x` is the share of
-    /// the time that has passed, and `y` how far the value has come. A handle's `x` is from 0 to 1, its `y` from -2 to 3.
-    /// Where the curve goes below 0 or above 1, places and rotations overshoot, while sizes, colours and strengths stop
-    /// at their limits.
+    /// A cubic Bézier curve from (0, 0) to (1, 1) with these two handles, like `cubic-bezier` in CSS: `x` is the share
+    /// of the time that has passed, and `y` how far the value has come. A handle's `x` is from 0 to 1, its `y` from -2
+    /// to 3. Where the curve goes below 0 or above 1, places and rotations overshoot, while sizes, colours and
+    /// strengths stop at their limits.
     Curve([f64; 2], [f64; 2]),
 }
 
@@ -29,8 +29,9 @@ impl Ease {
     /// The curve that is offered for a key that has none of its own yet: `ease` of CSS.
     pub const USUAL_CURVE: Self = Self::Curve([0.25, 0.1], [0.25, 1.0]);
 
-    /// How far the value has come: 0 at the key, 1 at the next one. `time` is the share of the time between them
-    /// that has passed. The result is exactly 0 up to time 0, and exactly 1 from time 1 on. Only [`Ease::Curve`] leaves the range from 0 to 1.
+    /// How far the value has come: 0 at the key, 1 at the next one. `time` is the time since the key, as a share of the
+    /// time between the two keys. The result is exactly 0 up to time 0, and exactly 1 from time 1 on. Only
+    /// [`Ease::Curve`] leaves the range from 0 to 1.
     pub fn share(self, time: f64) -> f64 {
         if time <= 0.0 {
             return 0.0;
@@ -80,8 +81,9 @@ impl Ease {
     }
 }
 
-/// How far a ball has fallen: 0 where it is let go, 1 on the floor. It bounces to 1/4, 1/16 and 1/64 of its first height.
-/// Gravity stays the same, so the bounces take 1, 1/2 and 1/4 of the time of the first fall (R. Penner, *Motion, Tweening and Easing*, 2002).
+/// How far a ball has fallen: 0 where it is let go, 1 on the floor. It bounces to 1/4, 1/16 and 1/64 of its first
+/// height. Gravity stays the same, so the bounces take 1, 1/2 and 1/4 of the time of the first fall (R. Penner,
+/// *Motion, Tweening and Easing*, 2002).
 fn bounced(time: f64) -> f64 {
     // Time in units of the first fall; the whole takes 1 + 1 + 1/2 + 1/4 of them.
     let falls = 2.75 * time;
@@ -123,7 +125,8 @@ fn part_at(time: f64, first_x: f64, second_x: f64) -> f64 {
             high = part
         }
         let newton = part - off / bezier_slope(part, first_x, second_x);
-        // Where a step would leave the bounds, or 12 steps have not been enough, the bounds are halved instead.
+        // Where Newton's step would leave the bounds, or 12 steps have not been enough, the interval between the bounds
+        // is halved instead.
         let next = if step < 12 && newton > low && newton < high { newton } else { 0.5 * (low + high) };
         if next == part {
             break;

@@ -8,7 +8,7 @@ use super::numbers::usual_fields;
 use crate::limits::{MAX_NOISE_INTENSITY, MAX_STRENGTH, NOISE_RATE};
 
 usual_fields! {
-    /// Noise that moves the vertices of an object, and noise that it is coloured by.
+    /// Noise that moves the vertices of an object, and noise that colours it.
     pub struct NoiseDisplace {
         /// What moves the vertices; `None` leaves them at rest.
         pub vertex: Option<VertexNoise> = Some(VertexNoise::default()),

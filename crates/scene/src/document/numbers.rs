@@ -1,5 +1,5 @@
-//! How the scene file's numbers are declared, in tables: each has its name, range and effect stated once. Reading,
-//! checking, saving, the editor's inspector and `docs/scene_file.md` all follow from the tables.
+//! Tables that declare the numbers of a scene file, each with its name, range and effect. Reading, checking, saving,
+//! the editor's inspector and `docs/scene_file.md` all follow from the tables.
 
 use std::ops::RangeInclusive;
 

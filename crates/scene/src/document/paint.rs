@@ -57,7 +57,7 @@ macro_rules! layer_numbers {
             /// Whether the layer is left out of the picture.
             pub hidden: bool,
             $($(#[doc = $effect])+ pub $field: f32,)+
-            /// Factor on the pixels of [`Edges::Overrun`], by which this layer runs past the border of its body.
+            /// How far this layer runs past the border of its body: a factor on the pixels of [`Edges::Overrun`].
             pub overrun: f32,
         }
     };

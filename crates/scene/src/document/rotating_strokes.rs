@@ -31,7 +31,7 @@ usual_fields! {
     }
 }
 
-/// How many samples a side a pixel may have.
+/// The numbers of samples that a pixel may have along each side.
 pub const SAMPLES: [u32; 3] = [1, 2, 4];
 
 /// What is painted on.

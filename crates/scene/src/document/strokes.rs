@@ -28,7 +28,7 @@ pub struct Shown {
     pub label: &'static str,
     /// Shown behind the value.
     pub unit: &'static str,
-    /// The value shown, times this, is the value of the file.
+    /// Factor from the value shown to the value in the file.
     pub file_per_shown: f64,
     /// The range of a drag, as shown. Typed values may go as far as the limits of a scene file.
     pub drag: RangeInclusive<f64>,

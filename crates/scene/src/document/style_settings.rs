@@ -1,4 +1,4 @@
-//! What every style tells about itself, so that all other code can treat styles alike.
+//! What every style says about itself, so that all other code can treat styles alike.
 
 use std::ops::RangeInclusive;
 

@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{Color, is_default, is_one, one};
 
-/// One stroke that was placed by hand. It lies where it was put, over all other paint of its object, and moves with the surface.
+/// One stroke that was placed by hand. It lies where it was put, over all other paint of its object, and moves with the
+/// surface.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Touch {

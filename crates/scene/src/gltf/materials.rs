@@ -13,7 +13,7 @@ use crate::texture;
 /// The colour (sRGB) of whatever has no material, as in OBJ files.
 const GREY: [f32; 3] = [0.8; 3];
 
-/// By what share of its colour fully smooth metal is drawn darker.
+/// Share of its colour by which fully smooth metal is darkened.
 const METAL_DARK: f32 = 0.2;
 
 /// A surface glows if its emission is brighter than its colour times this. It is then drawn by its emission alone.

@@ -1,4 +1,4 @@
-//! Reads glTF files (`.gltf`, `.glb`) as mesh files: the whole file as it rests, or one node of it. `crate::shot` reads
+//! Reads glTF files (`.gltf`, `.glb`) as mesh files: the whole file at rest, or one node of it. `crate::shot` reads
 //! them as shots.
 //!
 //! A node's mesh includes the uneven scale and shear of the node's place in the world at rest. Turn, place and even
@@ -49,8 +49,8 @@ pub(crate) struct GltfFile {
 /// Reads a glTF file with the files that it names. These must lie in `root`, the scene's folder, or in `folders`.
 ///
 /// # Errors
-/// All errors that [`impasto_gltf::read`] finds, each with its JSON pointer; or an error that the file or its sidecar
-/// cannot be read.
+/// All errors that [`impasto_gltf::read`] finds, each with its JSON pointer; or that the file or its sidecar cannot be
+/// read.
 pub(crate) fn open(
     path: &Path,
     root: &Path,
@@ -223,8 +223,8 @@ pub fn is_gltf(path: &Path) -> bool {
     matches!(ending.as_deref(), Some("gltf" | "glb"))
 }
 
-/// A mesh of the file, and the bits of the stretch that is applied to it.
+/// The index of a mesh in the file, and the bits of the stretch that is applied to it.
 pub(crate) type InstanceKey = (usize, [u64; 9]);
 
-/// A file that was read, shared by all who name it in one scene.
+/// A file that was read, shared by everything in a scene that names it.
 pub(crate) type Shared = Arc<GltfFile>;

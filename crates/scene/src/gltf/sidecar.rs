@@ -1,5 +1,5 @@
-//! The sidecar of a glTF file: what the file itself cannot say. `shot.impasto.json` lies beside `shot.glb`; `docs/from_blender.md`
-//! describes it.
+//! The sidecar of a glTF file: what the file itself cannot say. `shot.impasto.json` lies beside `shot.glb`;
+//! `docs/from_blender.md` describes it.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -178,7 +178,8 @@ impl Sidecar {
         self.cuts.get(after.saturating_sub(1)).map(|cut| cut.camera.as_str())
     }
 
-    /// The shift of a camera's lens at a frame: half widths and half heights of its own picture, Y up. Linear between frames.
+    /// The shift of a camera's lens at a frame: half widths and half heights of its own picture, Y up. Linear between
+    /// frames.
     pub fn shift_at(&self, camera: &str, frame: f64) -> DVec2 {
         let Some(shift) = self.shifts.get(camera) else { return DVec2::ZERO };
         let last = shift.ndc.len() - 1;

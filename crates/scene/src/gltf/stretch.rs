@@ -11,7 +11,7 @@ const STEPS: usize = 60;
 
 /// The symmetric stretch S of `matrix` = Q S with a turn Q (polar decomposition, Higham 1986). For a mirroring matrix
 /// it is −S, so that Q stays a turn. It is the identity for a matrix that only turns and scales evenly, which is left
-/// to the pose, and for a singular matrix, which has no Q.
+/// to the pose, and for a singular matrix, for which Q is not unique.
 pub(crate) fn stretch_of(matrix: DMat3) -> DMat3 {
     let determinant = matrix.determinant();
     let size = matrix.to_cols_array().iter().fold(0.0f64, |most, value| most.max(value.abs()));

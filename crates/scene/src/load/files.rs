@@ -16,7 +16,7 @@ pub(super) type TextureRead = Result<(Arc<Texture>, Vec<Problem>), Problem>;
 
 /// How the files of one scene are read. Names are as the document writes them.
 pub(super) struct Readers<'a> {
-    /// With `true`, the mesh's points are wanted, since a cache moves them.
+    /// `true` asks for the mesh's points too, since a cache moves them.
     pub(super) mesh: &'a dyn Fn(&str, bool) -> MeshRead,
     pub(super) cache: &'a dyn Fn(&str) -> Result<Arc<PointCache>, Problem>,
     pub(super) texture: &'a dyn Fn(&str) -> TextureRead,

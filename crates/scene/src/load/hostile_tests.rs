@@ -27,7 +27,7 @@ const SEED: &str = r##"#![enable(implicit_some)]
 )
 "##;
 
-/// What is put in place of parts of the scene.
+/// Texts that replace parts of the scene.
 const NASTY: [&str; 44] = [
     "",
     "(",
@@ -75,7 +75,7 @@ const NASTY: [&str; 44] = [
     "version: 2,",
 ];
 
-/// A small generator of numbers (xorshift), so that every run makes the same cases.
+/// A small random number generator (xorshift), so that every run makes the same cases.
 struct Dice(u64);
 
 impl Dice {

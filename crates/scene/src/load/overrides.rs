@@ -12,7 +12,7 @@ use crate::locate::{Inside, Located, Node, Step};
 use crate::nearest::nearest;
 use crate::problem::{Problem, Report};
 
-/// A value that was put in.
+/// A value that was put into the document.
 #[derive(Debug)]
 pub(super) struct Applied {
     /// As a check would name the field: `objects[0].particles`.

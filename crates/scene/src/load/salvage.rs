@@ -210,7 +210,7 @@ impl Reading<'_> {
         }
     }
 
-    /// Ends the text before what cannot be read.
+    /// Ends the text before the part that cannot be scanned, and closes the open brackets.
     fn cut(&mut self, refused: crate::locate::Refused) -> Result<(), Report> {
         let cut = cut::before(&self.left, refused.offset.min(self.left.len()));
         let place = |offset| {

@@ -35,7 +35,7 @@ pub fn light_at(scene: &Scene, light: &Light, frame: f64) -> Light {
     }
 }
 
-/// A light as its keys have it at a frame.
+/// A light with the values that its keys give at a frame.
 fn keyed(light: &Light, frame: f64) -> Light {
     let Some(span) = Span::at(&light.keys, frame) else { return light.clone() };
     let still = Light { keys: Vec::new(), ..light.clone() };
@@ -106,14 +106,14 @@ impl ResolvedStrokes {
     }
 }
 
-/// What keys of a light state at a moment.
+/// The keys of a light, and where a frame lies between them.
 struct Stated<'a> {
     keys: &'a [LightKey],
     span: &'a Span,
 }
 
 impl Stated<'_> {
-    /// A value at this moment. `own` is the light's own value, which holds until a key states one.
+    /// A value at this frame. `own` is the light's own value, which holds until a key states one.
     fn mixed<T: Copy>(&self, own: T, of: fn(&LightKey) -> Option<T>, mix: impl Fn(T, T) -> T) -> T {
         let at = |index: usize| self.keys[..=index].iter().rev().find_map(of).unwrap_or(own);
         mix(at(self.span.left), at(self.span.right))
@@ -171,7 +171,7 @@ mod tests {
             LightKey { intensity: Some(1.0), ..LightKey::at(30.0) },
         ]);
         assert_eq!(light_at(&new_scene::empty(), &light, 0.0).intensity, 2.0);
-        // Before the first key the light is as that key has it.
+        // Before the first key, the light has that key's values.
         assert_eq!(light_at(&new_scene::empty(), &light, 0.0).direction, Some([0.0, -1.0, 0.0]));
         assert_eq!(light_at(&new_scene::empty(), &light, 15.0).intensity, 4.0);
         assert_eq!(light_at(&new_scene::empty(), &light, 29.9).intensity, 6.0);

@@ -44,7 +44,7 @@ const GAP: f64 = 0.15;
 /// Adds an object with this mesh, named `mesh_name` in the scene, and its regions ([`regions_of`]). Returns the
 /// object's name, which is the file's, made unique.
 ///
-/// The first object stays where its file puts it. A later one stands to the right of all others, on the height of their
+/// The first object stays where its file puts it. A later one stands to the right of all others, at the height of their
 /// lowest point in the reference pose. `meshes` are those of the scene; objects whose mesh is not among them, and
 /// built-in meshes, are ignored.
 pub fn add_mesh(

@@ -22,8 +22,8 @@ const BACKDROP_SCALE: f64 = 3.0;
 const PATCH_SCALE: f64 = 0.52;
 const PATCH_SHIFT: f64 = 0.14;
 
-/// Length of the shadow on the floor over the height of what casts it, and the share of that length that is framed with
-/// the model. The end of a long shadow may leave the picture.
+/// Length of the shadow on the floor, divided by the height of what casts it, and the share of that length that is
+/// framed with the model. The end of a long shadow may leave the picture.
 const SHADOW_SLOPE: f64 = 1.2;
 const FRAMED_SHADOW: f64 = 0.3;
 
@@ -101,7 +101,7 @@ impl View {
 }
 
 impl Footing {
-    /// Under a model with these bounds, world space.
+    /// The footing under a model with these bounds, world space.
     pub fn of_bounds(low: DVec3, high: DVec3, axes: Axes, light_goes: f64) -> Self {
         let center = (low + high) / 2.0;
         Self { axes, foot: center.with_y(low.y), size: diagonal(low, high), light_goes }
@@ -122,7 +122,7 @@ impl Footing {
     fn under_the_mesh(&self, object: Object, scale: f64, shift: f64) -> Object {
         let yaw_deg = self.axes.back.x.atan2(self.axes.back.z).to_degrees();
         let right = self.axes.right.with_y(0.0).normalize_or_zero();
-        // A little below, so that a flat mesh lies on it.
+        // A little below the mesh, so that a flat mesh lies on it.
         let at = self.foot - DVec3::Y * (0.002 * self.size) + right * (shift * self.light_goes * self.size);
         Object {
             scale: Scale([significant(scale * self.size); 3]),
@@ -208,7 +208,7 @@ impl Framing {
         }
         let [right, left, top, bottom] = reach;
         let distance = ((right + left) / (2.0 * slope_x)).max((top + bottom) / (2.0 * slope_y));
-        // The eye stays a little before the nearest point, also if the mesh is a single point.
+        // The eye stays a little in front of the nearest point, even if the mesh is a single point.
         let distance = distance.max(depth.1 + 0.05);
         let eye = DVec3::new((right - left) / 2.0, (top - bottom) / 2.0, distance);
         Self { eye, nearest: distance - depth.1, farthest: distance - depth.0 }

@@ -1,4 +1,4 @@
-//! What a model stands on: laid in its new scene, or chosen later.
+//! The ground that a model stands on: laid in its new scene, or chosen later.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::path::Path;
@@ -27,7 +27,7 @@ pub enum Ground {
     /// A floor and a wall that fill the picture.
     #[default]
     Backdrop,
-    /// A patch of floor before a plain background.
+    /// A patch of floor in front of a plain background.
     Vignette,
     /// Nothing: one colour.
     Plain,
@@ -127,7 +127,8 @@ impl Ground {
         let mut colored = chosen.clone();
         colored.ground = color.unwrap_or(chosen.ground);
         let keeps_background = is_of_no_ground(scene.background, [&chosen, &colored]);
-        // A plain ground always gets the chosen colour. So it is recognized later as a colour that nobody set.
+        // A plain ground ignores `color` and gets the scheme's own. So it is recognized later as a colour that nobody
+        // set.
         let scheme = if self == Self::Plain { chosen } else { colored };
         let taken: Vec<&str> = scene.objects.iter().map(|object| object.name.as_str()).collect();
         let laid = self.lay(&footing, &scheme, &taken, name_hash);

@@ -17,7 +17,7 @@ const NO_COLOR: [f32; 3] = [0.8; 3];
 /// should.
 const BODY_LIGHT: f64 = 0.52;
 const MOST_BODY_LIGHT: f64 = 0.66;
-/// The light that the floor should reflect, and the floor under a dark model.
+/// The light that the floor should reflect: under a light model, and under a dark one.
 const FLOOR_LIGHT: f64 = 0.15;
 const PALE_FLOOR_LIGHT: f64 = 0.28;
 
@@ -133,7 +133,7 @@ impl Scheme {
         ]))
     }
 
-    /// What shows between strokes: the ground in shadow.
+    /// The colour that shows between strokes: that of the ground in shadow.
     pub fn background(&self) -> Color {
         let reflected = EXPOSURE * self.light * (0.25 * KEY + SKY);
         srgb(self.ground.0.map(|channel| linear_from_srgb(channel) * reflected as f32))
@@ -231,7 +231,7 @@ fn linear([lightness, chroma, hue_deg]: [f32; 3]) -> [f32; 3] {
     .map(|channel| channel.clamp(0.0, 1.0))
 }
 
-/// The linear colour of this chroma and hue that reflects this much light.
+/// The linear colour with this chroma and hue whose luminance is `wanted`.
 fn of_luminance([_, chroma, hue]: [f32; 3], wanted: f64) -> [f32; 3] {
     let (mut low, mut high) = (0.0f32, 1.0f32);
     for _ in 0..24 {

@@ -40,7 +40,7 @@ const BACK: f64 = 0.25;
 pub(super) struct Stance {
     /// Which axis of the file points up.
     pub up: Up,
-    /// From the model to the eye, the model standing upright.
+    /// The direction from the upright model to the eye.
     pub view: DVec3,
     /// Whether another axis could as well be up.
     pub up_is_unsure: bool,
@@ -128,7 +128,7 @@ impl Samples {
         Stance { up: found, view, up_is_unsure, light_goes }
     }
 
-    /// How much of what faces the eye is lit by a light that goes to this side.
+    /// The share of the surface facing the eye that is lit by a light that goes to this side.
     fn lit_share(&self, view: DVec3, light_goes: f64) -> f64 {
         let axes = Axes::looking_from(view);
         let to_light = -axes.to_world(scheme::from_sun(light_goes)).normalize();

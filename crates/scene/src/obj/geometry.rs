@@ -20,9 +20,9 @@ const MOST_EXTENT: f64 = 1e7;
 /// precision has too few digits so far out.
 const FAR: f64 = 1000.0;
 
-/// Reads the cleaned text of `checked`, in which the linter must have found no error. Each different triple of a
-/// corner's indices is a vertex. With `with_points`, a point cache moves the model, which then must keep the size and
-/// the place that it has in the file.
+/// Reads the cleaned text of `checked`, in which the linter must have found no error. Each different triple of indices
+/// that a corner has becomes a vertex. With `with_points`, a point cache moves the model, which then must keep the size
+/// and the place that it has in the file.
 ///
 /// # Errors
 /// Those of tobj. The linter should have found any of them before.
@@ -91,9 +91,9 @@ fn bounds(positions: &[[f64; 3]]) -> (DVec3, DVec3) {
     points.fold((DVec3::MAX, DVec3::MIN), |(low, high), at| (low.min(at), high.max(at)))
 }
 
-/// Moves a model that lies far from the origin to the origin, and returns from where; `None` if it stays. It moves by
-/// whole steps, each a power of 2 not smaller than the model, so that a model that was changed a little moves as
-/// before.
+/// Moves a model that lies far from the origin to the origin, and returns from where; `None` if it stays. It moves by a
+/// whole number of steps. A step is a power of 2 not smaller than the model, so a model that was changed a little moves
+/// as far as before.
 fn bring_near(positions: &mut [[f64; 3]]) -> Option<DVec3> {
     let (low, high) = bounds(positions);
     let (extent, middle) = ((high - low).max_element(), (low + high) * 0.5);

@@ -228,8 +228,8 @@ impl<'a> MaterialLibrary<'a> {
             }
             Err(mut problem) => {
                 self.unfound += 1;
-                // If the picture cannot be opened, the problem is a line of the MTL file. Else it is in the picture, which
-                // has no lines.
+                // If the picture cannot be opened, the problem gets the place in the MTL file where the picture is
+                // named. Otherwise the problem is in the picture itself, which has no lines.
                 if problem.path == *beside {
                     problem.place = place;
                 }

@@ -83,7 +83,7 @@ pub(crate) fn read_for(
 /// that the OBJ file names and that are found in `root`. Pictures are not opened.
 ///
 /// # Errors
-/// A [`Report`] where the file can not be read or has errors.
+/// A [`Report`] where the file cannot be read or has errors.
 pub fn companions(path: &Path, root: &Path) -> Result<BTreeSet<PathBuf>, Report> {
     let bytes = assets::read_regular_file(path, MAX_FILE_BYTES)
         .map_err(|error| Report(vec![unread(path, &error)]))?;

@@ -13,7 +13,7 @@ use super::text::{Lines, finite};
 /// precision.
 pub(super) const MAX_COORDINATE: f64 = 1e9;
 
-/// Texture coordinates from here on count as unusable.
+/// Texture coordinates of this size or more count as unusable.
 pub(super) const MAX_UV: f64 = 1e30;
 
 /// The smallest size of a piece of text, in bytes: smaller pieces would not make scanning quicker.
@@ -30,7 +30,7 @@ pub(super) enum Kind {
 /// Indices of a corner, counted from 1, by [`Kind`]; 0 where the corner has none.
 pub(super) type Indices = [u32; 3];
 
-/// How much has been read up to some line.
+/// How many values, faces and corners a piece has before some line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Counts {
     /// Positions, texture coordinates and normals, by [`Kind`].
@@ -39,11 +39,11 @@ pub(super) struct Counts {
     pub corners: u32,
 }
 
-/// Lines that are not plain, one after the other.
+/// Consecutive lines that are not plain.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Rest {
     pub text: Range<usize>,
-    /// What the piece held before these lines.
+    /// What the piece holds before these lines.
     pub before: Counts,
 }
 

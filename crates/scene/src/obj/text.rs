@@ -39,8 +39,8 @@ pub(super) fn finite(word: &[u8]) -> Option<f64> {
     std::str::from_utf8(word).ok()?.parse::<f64>().ok().filter(|number| number.is_finite())
 }
 
-/// Makes text of a file's bytes, and tells whether they were UTF-16. UTF-16 becomes UTF-8, a byte order mark is left
-/// out, and every line ends in a line feed.
+/// Turns a file's bytes into text, and returns whether they were UTF-16. UTF-16 becomes UTF-8, a byte order mark is
+/// left out, and every line ends in a line feed.
 pub(super) fn to_utf8(bytes: Vec<u8>) -> (Vec<u8>, bool) {
     let wide = |to_unit: fn([u8; 2]) -> u16| {
         let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| to_unit([pair[0], pair[1]])).collect();
@@ -77,7 +77,7 @@ impl<'a> Lines<'a> {
         Self { text, at: 0 }
     }
 
-    /// The lines of a part of a text: both ends are ends of lines, or of the text.
+    /// The lines of a part of a text. `start` and `end` lie between two lines, or at an end of the text.
     pub fn between(text: &'a [u8], start: usize, end: usize) -> Self {
         Self { text: &text[..end], at: start }
     }

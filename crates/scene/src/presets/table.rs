@@ -1,4 +1,4 @@
-//! The presets, as numbers. Pixels are those of a picture 720 high.
+//! The presets, as numbers. Pixels are those of a picture 720 pixels high.
 
 use super::{DEFAULT_PRESET, INK_PRESET, PAPER_PRESET};
 use crate::document::{Edges, PresetNumbers, ResolvedLayer, ResolvedStrokes};

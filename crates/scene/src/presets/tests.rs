@@ -43,7 +43,7 @@ fn body(strokes: &ResolvedStrokes) -> (f32, f32, f32) {
 fn a_scene_without_settings_is_an_oil_study_of_its_own_height() {
     let mut plain = scene(StrokeSettings::default(), StrokeSettings::default());
     let strokes = resolve(&plain, None);
-    // Presets are stated for a height of 720; this scene is 360 high.
+    // Presets are stated for a height of 720 pixels; this scene is 360 high.
     assert_eq!(body(&strokes), (39.0, 12.5, 2.7));
     assert!((strokes.angle_jitter_rad.to_degrees() - 7.0).abs() < 1e-5);
     assert_eq!(strokes.edges, Edges::Overrun(1.5));

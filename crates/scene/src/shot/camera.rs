@@ -7,7 +7,7 @@ use super::Shot;
 use crate::document::{Lens, Seen};
 use crate::gltf::GltfFile;
 
-/// The far depth of a camera that states none, over its near depth.
+/// The far depth of a camera that states none, as a multiple of its near depth.
 const FARTHEST: f64 = 1e5;
 
 /// The lens for a picture of this size in pixels. The picture shows at least all that the camera's own picture shows.
@@ -33,7 +33,7 @@ struct HalfSize {
     y: f64,
 }
 
-/// Half of what a lens shows: at depth 1 in perspective, at any depth in parallel projection.
+/// Half the size of what a lens shows: at depth 1 in perspective, at any depth in parallel projection.
 fn half_size(lens: ShotLens) -> HalfSize {
     match lens {
         ShotLens::Perspective { yfov_rad, aspect, .. } => {

@@ -42,9 +42,9 @@ fn luma(color: [f64; 3]) -> f64 {
 }
 
 impl Shot {
-    /// A light's intensity in the scene over that in the file, and the intensity of the ambient light. A shot is as
-    /// bright as in the program that made it, within limits: it is dimmed where whites would burn out, and lifted where
-    /// it is dark.
+    /// The factor from a light's intensity in the file to that in the scene, and the intensity of the ambient light. A
+    /// shot is as bright as in the program that made it, within limits: it is dimmed where whites would burn out, and
+    /// lifted where it is dark.
     pub(super) fn found_exposure(&self) -> (f64, f64) {
         let [suns, lamps] = self.light_at_middle().map(|lux| lux / LUX_PER_WATT * OF_WATT);
         // Ambient light reaches a surface from half of the sphere, which makes π times the radiance.
@@ -104,7 +104,7 @@ impl Shot {
         brought
     }
 
-    /// What shows behind the shot: the world that the sidecar states, or else a plain sky, as bright as the shot.
+    /// The background of the shot: the world that the sidecar states, or else a plain sky, as bright as the shot.
     /// `None` for a shot without lights.
     pub(super) fn sky(&self) -> Option<Color> {
         const OF_DAY: [f32; 3] = [0.66, 0.735, 0.80];
@@ -159,7 +159,7 @@ impl Shot {
         Light { color, intensity, ..Light::new("ambient", LightKind::Ambient) }
     }
 
-    /// The brightness of the shot's light, over that in the program that made the shot.
+    /// The factor from the brightness of light in the program that made the shot to that in the scene.
     fn scale(&self) -> f64 {
         self.exposure * LUX_PER_WATT / OF_WATT
     }

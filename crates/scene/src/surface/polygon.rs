@@ -178,7 +178,7 @@ struct Grid {
 }
 
 impl Grid {
-    /// With at most about three times as many cells as corners.
+    /// A grid with at most about three times as many cells as corners.
     fn new(points: &[DVec2], corners: &[usize]) -> Self {
         let of_corners = || corners.iter().map(|&corner| points[corner]);
         let low = of_corners().fold(DVec2::INFINITY, DVec2::min);
@@ -204,7 +204,7 @@ impl Grid {
     /// Column and row of the cell at a point; of the nearest cell for a point beside the grid.
     fn place(&self, point: DVec2) -> [usize; 2] {
         let at = (point - self.low) / self.cell_size;
-        // What is no number becomes 0.
+        // The casts turn NaN and negative numbers into 0.
         [(at.x as usize).min(self.columns - 1), (at.y as usize).min(self.rows - 1)]
     }
 
@@ -219,8 +219,8 @@ impl Grid {
 mod tests {
     use super::*;
 
-    /// A round polygon with waves on it, where long ears pass many corners; the same with one corner far off; a comb; and
-    /// all of them wound the other way.
+    /// A round polygon with waves on it, where long ears pass many corners; the same with one corner far off; a comb;
+    /// and all of them wound the other way.
     #[test]
     fn large_polygons_are_cut_whole_with_few_tests_for_each_corner() {
         let count = 20_000;

@@ -1,4 +1,5 @@
-//! Tests that `docs/compositing.md` lists what EXR files can hold, as the source does. `IMPASTO_BLESS=1` rewrites its table.
+//! Tests that the table in `docs/compositing.md` of what EXR files can hold agrees with the source. `IMPASTO_BLESS=1`
+//! rewrites the table.
 
 use std::fmt::Write;
 

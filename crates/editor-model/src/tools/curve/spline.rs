@@ -52,7 +52,7 @@ mod tests {
 
     use super::*;
 
-    /// At its ends a curve goes on straight, so one through evenly spaced points of a line is evenly spaced itself.
+    /// Beyond its ends a curve goes straight on. So a curve through evenly spaced points of a line is evenly spaced.
     #[test]
     fn through_points_of_a_line_it_is_that_line() {
         let at = |x: f64| PathPoint {

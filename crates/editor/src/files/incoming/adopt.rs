@@ -129,7 +129,7 @@ fn ending(file: &Path) -> String {
 }
 
 /// How a scene in `folder` names a file inside it; none if the file is elsewhere, or the scene could not find it by
-/// its name.
+/// that name.
 fn name_within(file: &Path, folder: &Path) -> Option<String> {
     let (file, folder) = (fs::canonicalize(file).ok()?, fs::canonicalize(folder).ok()?);
     let name = file.strip_prefix(&folder).ok()?.to_str()?.to_owned();

@@ -61,8 +61,8 @@ impl EditedLayer {
         }
     }
 
-    /// The command that shows the layer if it is hidden, else hides it. It states nothing here if the layer would have
-    /// the wanted state anyway.
+    /// The command that shows the layer if it is hidden, else hides it. It leaves `hidden` unstated if the layer has
+    /// the wanted state without it.
     pub(super) fn toggle(self, asker: &Asker<'_, '_>, place: &EditedStrokes<'_>) -> Command {
         let wanted = !self.is_hidden(&place.resolved[1], place.own[1]);
         let unstated = self.without(place.own[1], |layer| layer.hidden = None);
@@ -78,7 +78,7 @@ impl EditedLayer {
         })
     }
 
-    /// Shows one of its numbers. Returns whether it is stated here.
+    /// Shows one of its numbers. Returns whether the edited region or scene states it.
     pub(super) fn number(
         self,
         ui: &mut Ui,
@@ -100,7 +100,7 @@ impl EditedLayer {
         is_own
     }
 
-    /// The command that states one of its numbers, or leaves it to the scene and its preset.
+    /// The command that states one of its numbers, or with `None` leaves it to the scene and its preset.
     pub(super) fn with(self, place: &EditedStrokes<'_>, of: &LayerNumber, to: Option<f64>) -> Command {
         let mut stated = self.stated(place.own[1]);
         *(of.number.of)(&mut stated) = to;

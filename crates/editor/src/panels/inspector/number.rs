@@ -71,8 +71,8 @@ impl<'a> Number<'a> {
 }
 
 impl Asker<'_, '_> {
-    /// Draws a number that is `shown` now and `stored` in the history, and asks for what the user does to it.
-    /// `command` gets the new value, or none for the reset icon.
+    /// Draws a number that is `shown` now and `stored` in the history, and asks for the user's changes to it. `command`
+    /// gets the new value, or none for the reset icon.
     pub(super) fn number(
         &mut self,
         ui: &mut Ui,

@@ -219,7 +219,7 @@ fn parent_row(ui: &mut Ui, asker: &mut Asker<'_, '_>, object: &Object) {
     });
 }
 
-/// Whether an object is `name`, or a descendant of it. Also true if its parents form a circle.
+/// Whether an object is `name`, or a descendant of it. Also true if its parents form a cycle.
 fn is_under(scene: &Scene, object: &Object, name: &str) -> bool {
     let mut next = Some(object);
     for _ in 0..=scene.objects.len() {

@@ -14,7 +14,7 @@ struct Row {
     label: &'static str,
     effect: &'static str,
     unit: &'static str,
-    /// The value in the file is the shown one times this.
+    /// The shown value times this is the value in the file.
     file_per_shown: f64,
     /// The least and the greatest value, as shown.
     range: [f64; 2],
@@ -66,8 +66,8 @@ const ROWS: [Row; 4] = [
     },
 ];
 
-/// How the strokes of a region, or of the scene, are changed at the frame that is shown. A changed number keys this
-/// frame.
+/// How the strokes of a region, or of the scene, are changed at the frame that is shown. Changing a number sets a key
+/// at this frame.
 pub(super) fn of_strokes(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: &StrokesOf) {
     let frame = asker.shown.session.frame;
     let keys = keys_of(asker.stored(), of);

@@ -25,7 +25,7 @@ pub(super) struct Picture<'a> {
 }
 
 impl Asker<'_, '_> {
-    /// Draws the row. An empty name takes the picture away, as the reset icon does.
+    /// Draws the row. An empty name removes the picture, as the reset icon does.
     pub(super) fn picture(&mut self, ui: &mut Ui, picture: &Picture<'_>) {
         let Picture { label, name, effect, of, file } = picture;
         let key = egui::Id::unique(("picture", of));

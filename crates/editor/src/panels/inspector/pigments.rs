@@ -70,7 +70,7 @@ fn pigment_square(
     let name = format!("Pigment {}", index + 1);
     let response = asker.colour(ui, &name, seen(pigment), with);
     let mut is_taken_out = false;
-    // The menu needs an id of its own: the picker has that of the square.
+    // The menu needs an id of its own, because the colour picker uses the square's.
     let menu = Popup::context_menu(&response).id(response.id.with("menu"));
     menu.show(|ui| {
         let row = MenuRow { words: "Take out", ..MenuRow::default() };

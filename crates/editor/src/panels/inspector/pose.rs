@@ -15,7 +15,7 @@ use super::parts::{axes, note, section};
 use crate::panels::Ask;
 use crate::widgets::{self, Button};
 
-/// Width of the label before three fields.
+/// Width of the label before three fields, points.
 pub(super) const NARROW_LABEL: f32 = 48.0;
 
 /// The numbers of an object's pose. In Animate, a changed number keys this frame (with Auto key off, the pose stays
@@ -140,7 +140,7 @@ pub(super) fn key_rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: KeyOf, ease: 
     asker.number(ui, &number, [frame, frame], |to| {
         Command::Time(Time::MoveKeys(vec![(of.clone(), frame)], to.unwrap_or(frame) - frame))
     });
-    // Not previewed: a key that moved to another frame would vanish from this section during the drag. It moves
+    // Not previewed: a key that moved to another frame would vanish from this section during the drag. The key moves
     // on release.
     asker.asks.retain(|ask| !matches!(ask, Ask::Preview(Command::Time(Time::MoveKeys(..)))));
     // The key was moved, by a drag that ended, by typing or by a step: go to its new frame.

@@ -15,7 +15,7 @@ const AS_SCENE: &str = "As the scene";
 
 /// Cards in a row.
 const CARDS: usize = 3;
-/// The gap between cards, and the most height of the list of presets in the menu, points.
+/// The gap between cards, and the greatest height of the list of presets in the menu, points.
 const GAP: f32 = 4.0;
 const LIST: f32 = 480.0;
 

@@ -14,7 +14,7 @@ use crate::panels::Ask;
 use crate::panels::tree::region_color;
 use crate::widgets::{self, Button, Tip};
 
-/// Width of the label before three fields.
+/// Width of the label before three fields, points.
 const NARROW_LABEL: f32 = 54.0;
 
 /// The names of the base directions, in the order of [`kind`].

@@ -78,8 +78,8 @@ fn number(
     });
 }
 
-/// Shows what is seldom set: more numbers, edges, a region's preset, the seed, and buttons to copy and
-/// paste strokes.
+/// Shows the settings that are seldom changed: more numbers, edges, a region's preset, the seed, and buttons to copy
+/// and paste strokes.
 pub(super) fn advanced(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<&str>) {
     let Some(place) = EditedStrokes::new(asker, region) else { return };
     section(ui, "Advanced", "edges, seed", false, |ui| {

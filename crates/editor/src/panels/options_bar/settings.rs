@@ -22,7 +22,7 @@ pub(super) struct Setting {
     pub(super) control: Control,
     /// Whether a line separates it from the setting before.
     pub(super) apart: bool,
-    /// Why it can do nothing now.
+    /// Why it is disabled now, if it is.
     pub(super) off: Option<&'static str>,
 }
 
@@ -123,8 +123,8 @@ fn steady() -> Setting {
     at(BarPlace::Wide, "Steady", Control::Number(number))
 }
 
-/// What a pen's pressure changes. The setting is on the bar once a pen was seen. Before that, it is in the menu, where
-/// it says why it is off.
+/// What a pen's pressure changes. Once a pen was seen, the setting is on the bar of a wide window. Before that, it is
+/// in the menu, disabled, and says why.
 fn pressure(has_pen: bool) -> Setting {
     let control = choice!(pressure: [
         Pressure::Off => "Off", "Pressure off";

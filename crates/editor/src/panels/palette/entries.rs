@@ -24,7 +24,7 @@ pub(super) struct Entry {
     pub(super) ask: Result<Ask, &'static str>,
 }
 
-/// Something of the session that is on or off.
+/// A setting of the session that is on or off.
 struct Switch {
     name: &'static str,
     is_on: fn(&Session) -> bool,
@@ -114,7 +114,7 @@ pub(super) fn entries(ctx: &Context, shown: &PanelInput<'_>, controls: &[Control
         })
         .collect();
     all.extend(menus::others(shown).map(|(words, ask)| plain(words, ask)));
-    // The import of a mesh is a command already.
+    // Importing a mesh is already among the commands.
     let additions = tree::additions(shown).into_iter();
     all.extend(additions.filter(|addition| !matches!(addition.ask, Ask::Act(_))).map(|addition| {
         let mut words = addition.words;

@@ -1,4 +1,4 @@
-//! The list of problems: each with its place, its words over as many lines as they need, and what mends it.
+//! The list of problems: each with its place, its words (on as many lines as they need), and what mends it.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -18,9 +18,9 @@ use crate::panels::{Ask, PanelInput, row_from_right, within};
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::Button;
 
-/// The least height of a row.
+/// The least height of a row, points.
 const ROW: f32 = 44.0;
-/// Where the words of a row begin.
+/// Where the words of a row begin, points from its left end.
 const WORDS: f32 = 94.0;
 /// Buttons that take more than this share of a row stand under its words.
 const MOST_BUTTONS: f32 = 0.45;
@@ -147,7 +147,7 @@ fn verb_of(repair: &Repair, missing: &Path) -> Verb {
     }
 }
 
-/// The item that a problem is about, where it can be selected.
+/// The item that a problem is about, if it can be selected.
 fn concerned(row: &ProblemRow) -> Option<Item> {
     row.repairs.iter().find_map(|repair| match repair {
         Repair::Locate { object } => Some(Item::Object(object.clone())),

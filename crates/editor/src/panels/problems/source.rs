@@ -13,7 +13,7 @@ use crate::panels::{Ask, PanelInput, row_from_right, within};
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::Button;
 
-/// The height of a line of the source.
+/// The height of a line of the source, points.
 const LINE: f32 = 18.0;
 /// A longer text is shown only around its problem, and cannot be edited here.
 const MAX_EDITED_BYTES: usize = 256 << 10;

@@ -41,8 +41,8 @@ pub enum TroubleOf {
 }
 
 impl TroubleOf {
-    /// Whether saving the document settles the trouble. Saving also settles a change by another program, because what
-    /// that program wrote is then no longer the document's file.
+    /// Whether saving the document settles the trouble. Saving also settles a change by another program, because the
+    /// document's file then no longer holds what that program wrote.
     pub fn is_settled_by_saving(&self) -> bool {
         matches!(self, Self::Save(_) | Self::Copy | Self::ChangedOutside(News::Scene))
     }

@@ -13,7 +13,7 @@ use crate::widgets::{self, Tip};
 /// The most AOVs in a column; a larger group has several columns.
 const COLUMN: usize = 6;
 
-/// Width of a column, points: the longest name, and some space.
+/// Width of a column, points: room for the longest name, and some space.
 const COLUMN_WIDTH: f32 = 104.0;
 
 /// Shows the row.
@@ -68,7 +68,7 @@ fn menu(ui: &mut Ui, scene: &Scene, choice: &mut AovChoice) {
 /// The label of an AOV within its group, and the AOV.
 type Named = (&'static str, &'static AovRow);
 
-/// The columns of a group; the first has its label.
+/// The columns of a group; the first one carries the group's label.
 fn columns_of(group: AovGroup) -> Vec<(&'static str, Vec<Named>)> {
     let rows: Vec<Named> = group.rows().collect();
     let labels = std::iter::once(group.label).chain(std::iter::repeat(""));

@@ -77,7 +77,7 @@ fn bar(ui: &Ui, words: Rect, progress: &RenderProgress) {
 /// The current stage, or how rendering ended.
 fn state(ui: &Ui, at: egui::Pos2, right: f32, progress: &RenderProgress) {
     let tokens = Tokens::of(ui);
-    // No file was written so far: the first frame is being drawn, or a movie, which has no file before its end.
+    // No file has been written yet: the first frame is being drawn, or a movie, whose file appears only at its end.
     let no_file = progress.last.is_none() && progress.stage == Stage::Drawing && !progress.stopping;
     let is_without = no_file && progress.outcome.is_none();
     let (icon, colour) = match (&progress.outcome, progress.stage) {

@@ -122,7 +122,7 @@ pub(in crate::panels) fn drops(ui: &Ui, across: FrameScale, top: f32, shown: &Pa
     }
 }
 
-/// Draws a line along the frames whose exact pictures are kept.
+/// Draws a line along the frames whose exact pictures are cached.
 pub(in crate::panels) fn finished(ui: &Ui, clip: Rect, across: FrameScale, y: f32, shown: &PanelInput<'_>) {
     let half = (across.right - across.left) / across.span() as f32 / 2.0;
     let (painter, colour) = (ui.painter().with_clip_rect(clip), Tokens::of(ui).viridian);

@@ -1,5 +1,5 @@
-//! Remembers the lane whose name was clicked last. The background and the scene's strokes are no items that can be
-//! selected, so this is how the user chooses to see their curves.
+//! Remembers the lane whose name was clicked last. The background and the scene's strokes cannot be selected as items,
+//! so the user clicks the names of their lanes to see their curves.
 
 use egui::{Id, Ui};
 use impasto_editor_model::command::KeyOf;

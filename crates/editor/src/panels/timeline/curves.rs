@@ -1,4 +1,4 @@
-//! The curves of the timeline: for one lane, how far its values have come from key to key, with handles to drag.
+//! The curves of the timeline: for one lane, the progress of its values from key to key, with handles to drag.
 
 use egui::{
     Align2, CursorIcon, EventFilter, Id, Key, PointerButton, Popup, Pos2, Rect, Response, Role, Sense, Shape,
@@ -27,7 +27,7 @@ const STEP: f64 = 0.01;
 /// The names of the handles.
 const HANDLES: [&str; 2] = ["First handle", "Second handle"];
 
-/// Maps frames and shares to the window. A share is how far a value has come from one key (0) to the next (1).
+/// Maps frames and shares to the window. A share is a value's progress from one key (0) to the next (1).
 #[derive(Clone, Copy)]
 struct Plot {
     area: Rect,
@@ -66,7 +66,7 @@ fn kept([time, share]: [f64; 2]) -> [f64; 2] {
     [rounded(time.clamp(0.0, 1.0)), rounded(share.clamp(*limits::EASE_Y.start(), *limits::EASE_Y.end()))]
 }
 
-/// The ease with one handle put elsewhere. If this makes both handles straight, the ease is linear and not a curve.
+/// The ease with one handle moved. If both handles then lie where those of a linear ease do, the ease is linear.
 fn with_handle(ease: Ease, index: usize, handle: [f64; 2]) -> Ease {
     let mut handles = match ease {
         Ease::Curve(first, second) => [first, second],
@@ -89,7 +89,7 @@ struct Drag {
     off: Vec2,
     /// The ease at the press.
     before: Ease,
-    /// The shares at the bottom and the top at the press; the scale stays while the drag lasts.
+    /// The shares at the bottom and the top at the press. This scale does not change during the drag.
     shares: [f64; 2],
 }
 
@@ -102,7 +102,7 @@ struct Memory {
     menu: Option<KeyMenu>,
 }
 
-/// Two neighbouring keys, of which the first has the ease.
+/// Two neighbouring keys. The ease between them is stored in the left one.
 #[derive(Clone, Copy)]
 struct Segment {
     left: LaneKey,
@@ -115,7 +115,7 @@ impl Segment {
     }
 }
 
-/// The id of the curves, under which their memory is kept.
+/// The id of the curves, under which their memory is stored.
 fn memory_id() -> Id {
     Id::unique("curves of the timeline")
 }
@@ -189,8 +189,8 @@ pub(super) fn curves(ui: &mut Ui, layout: &LaneLayout<'_>, shown: &PanelInput<'_
     ui.data_mut(|data| data.insert_temp(id, memory));
 }
 
-/// Called while keys show instead of curves. If a shortcut hid the curves during the drag of a handle, takes that drag
-/// back.
+/// Called while keys are shown instead of curves. Takes back the drag of a handle if a shortcut hid the curves during
+/// it.
 pub(super) fn leave(ui: &Ui, asks: &mut Vec<Ask>) {
     let id = memory_id();
     let memory = ui.data(|data| data.get_temp::<Memory>(id)).filter(|memory| memory.drag.is_some());
@@ -200,8 +200,8 @@ pub(super) fn leave(ui: &Ui, asks: &mut Vec<Ask>) {
     }
 }
 
-/// Chooses the segment that begins at the key in frame `left`, or else the one under the pointer; a right click also
-/// opens its menu.
+/// Chooses the segment that begins at the key in frame `left`, or with `None` the one under the pointer. A right click
+/// also opens its menu.
 fn choose(whole: &Response, layout: &LaneLayout<'_>, lane: &Lane, left: Option<f64>, memory: &mut Memory) {
     let (at, opens_menu) =
         whole.ctx.input(|input| (input.pointer.interact_pos(), input.pointer.secondary_released()));
@@ -326,7 +326,7 @@ struct Handle<'a> {
     plot: Plot,
     segment: Segment,
     lane: &'a Lane,
-    /// 0 for that of the left key, 1 for that of the right one.
+    /// 0 for the handle of the left key, 1 for that of the right key.
     index: usize,
 }
 

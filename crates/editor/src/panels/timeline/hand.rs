@@ -15,7 +15,7 @@ use crate::widgets::press_closes_menu;
 pub(super) struct LaneLayout<'a> {
     /// The visible part of the lanes.
     pub(super) area: Rect,
-    /// Top of the first lane.
+    /// Y of the top of the first lane.
     pub(super) top: f32,
     /// Height of a lane.
     pub(super) lane: f32,
@@ -28,7 +28,7 @@ pub(super) struct LaneLayout<'a> {
 impl LaneLayout<'_> {
     fn place(&self, at: Pos2) -> LanePosition {
         let y = at.y - self.top;
-        // A place above the first lane counts as in the first.
+        // A place above the first lane counts as in the first lane.
         let lane = (y / self.lane).floor().max(0.0) as usize;
         LanePosition { x_px: f64::from(at.x), y_px: f64::from(y), frame: self.across.place(at.x), lane }
     }
@@ -108,7 +108,7 @@ pub(super) fn hand(ui: &mut Ui, layout: &LaneLayout<'_>, shown: &PanelInput<'_>,
     ui.data_mut(|data| data.insert_temp(id, memory));
 }
 
-/// Of the two keys on either side of a place, the left one.
+/// Of the two keys of a lane between which a place lies, the left one; `None` if it does not lie between two keys.
 fn between(layout: &LaneLayout<'_>, at: Pos2) -> Option<KeyAt> {
     let place = layout.place(at);
     let lane = layout.lanes.get(place.lane)?;

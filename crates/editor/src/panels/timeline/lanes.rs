@@ -18,7 +18,7 @@ use crate::widgets::{self, Tip, ease_line};
 /// How far the curve between two keys reaches above and below the middle, in points.
 const SWING: f32 = 3.0;
 
-/// How far it may reach where the ease overshoots.
+/// How far it may reach from the middle where the ease overshoots, in points.
 const MOST_SWING: f32 = 11.0;
 
 /// Where a lane is drawn.
@@ -208,7 +208,7 @@ fn mark(painter: &egui::Painter, at: Pos2, ease: Ease, colour: Color32) {
 
 /// The curve from one key to the next, in the shape of the ease.
 fn curve([from, to]: [f32; 2], middle: f32, ease: Ease) -> Vec<Pos2> {
-    // A short curve is no steeper than a long one.
+    // A short curve swings less, so that it is no steeper than a long one.
     let swing = SWING.min((to - from) / 12.0);
     let mut line = ease_line([from, to], [middle + swing, middle - swing], ease);
     // An overshoot stays within the lane.

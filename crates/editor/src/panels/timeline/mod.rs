@@ -34,7 +34,7 @@ pub fn height(session: &Session, window_width: f32) -> f32 {
     if session.shows_lanes() { measures(window_width).0 } else { measure::STRIP }
 }
 
-/// Takes back the drag of a curve's handle, if the curves were hidden during that drag.
+/// Takes back the drag of a curve's handle if the curves were hidden during it.
 pub(super) fn leave_curves(ui: &Ui, asks: &mut Vec<Ask>) {
     curves::leave(ui, asks);
 }

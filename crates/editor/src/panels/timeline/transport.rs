@@ -17,7 +17,7 @@ use crate::widgets::{self, Button, FieldResponse, NumberField, Tip};
 /// The frames per second that can be typed.
 const FPS: std::ops::RangeInclusive<f64> = 0.001..=1e6;
 
-/// In a window narrower than this, in points, the bar leaves out the time and the shortcut of *Set key*, which are no
+/// In a window narrower than this, in points, the bar leaves out the time and the shortcut of *Set key*, which are not
 /// controls.
 const NARROW: f32 = 1080.0;
 

@@ -15,7 +15,7 @@ struct VisibleFrames {
 }
 
 /// Handles the input of a pass, and returns the visible frames. `Ctrl` and the wheel zoom about the pointer, `Shift`
-/// and the wheel move along, and a double click on the ruler shows all frames. The visible part follows the playhead.
+/// and the wheel pan, and a double click on the ruler shows all frames. The visible part follows the playhead.
 pub(super) fn seen(ui: &Ui, area: Rect, ruler: Rect, whole: FrameScale, frame: f64) -> FrameScale {
     let id = Id::unique("frames that are seen");
     let mut seen = ui.data_mut(|data| data.get_temp::<VisibleFrames>(id)).unwrap_or_default();

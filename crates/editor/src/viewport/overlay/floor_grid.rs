@@ -8,7 +8,7 @@ use super::ink::{self, OVER_PAINT};
 
 /// Lines on each side of the middle one.
 const REACH: i32 = 20;
-/// Each half of a line is drawn in so many pieces; pieces behind the eye are left out.
+/// Each half of a line is drawn in this many pieces; pieces behind the eye are left out.
 const PIECES: i32 = 10;
 /// Lines are at least this far apart at the camera's target, points.
 const LEAST_GAP: f64 = 12.0;

@@ -87,7 +87,7 @@ fn segment_within([from, to]: [Pos2; 2], area: Rect) -> Option<[Pos2; 2]> {
             last = last.min(room / way);
         }
     }
-    // What is not cut keeps its exact ends, so that the next segment joins on.
+    // An end that is not cut stays exact, so that the next segment joins it.
     let at = |share: f64| {
         let place = |axis: usize| {
             (f64::from(from[axis]) + (f64::from(to[axis]) - f64::from(from[axis])) * share) as f32
@@ -99,7 +99,7 @@ fn segment_within([from, to]: [Pos2; 2], area: Rect) -> Option<[Pos2; 2]> {
     (first < last).then_some([start, end])
 }
 
-/// The unit vector (Y down) of an angle that counts counter-clockwise with Y up.
+/// The unit vector (Y down) at an angle that is measured counter-clockwise with Y up.
 pub(super) fn along(angle_rad: f32) -> Vec2 {
     let (sin, cos) = angle_rad.sin_cos();
     egui::vec2(cos, -sin)

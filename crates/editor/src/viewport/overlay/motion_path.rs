@@ -26,8 +26,8 @@ pub fn motion_path(sheet: &Sheet<'_>, path: &MotionPath) {
     let points: Vec<Option<Pos2>> = path.places.iter().map(|&place| sheet.project(place)).collect();
     for run in points.split(Option::is_none).filter(|run| run.len() > 1) {
         let run: Vec<Pos2> = run.iter().flatten().copied().collect();
-        // A path that passes close to the eye leads far out of the window. Dots all the way would freeze it, so only what
-        // is in sight gets dots.
+        // A path that passes close to the eye leads far out of the window. Dots all along it would freeze the editor,
+        // so only the parts in sight get dots.
         for run in ink::runs_in_sight(sheet.painter, &run) {
             sheet.painter.extend(Shape::dotted_line(&run, ink::black(0.6), 6.0, 1.9));
             sheet.painter.extend(Shape::dotted_line(&run, OVER_PAINT.key, 6.0, 1.3));

@@ -24,7 +24,7 @@ impl NumberField<'_> {
         let line = Stroke::new(2.0, if is_wrong { tokens.vermilion } else { tokens.accent_text });
         ui.painter().rect(frame, draw::corner(), tokens.field, line, StrokeKind::Inside);
         let mut inside = ui.new_child(UiBuilder::new().max_rect(frame));
-        // The typed text begins where the number stands when it is only shown.
+        // The typed text begins where the number is drawn while it is not being edited.
         let before = if self.centred || self.letter.is_empty() { 0 } else { super::LETTER as i8 };
         self.draw_letter(ui, frame);
         let align = if self.centred { egui::Align::Center } else { egui::Align::Min };
@@ -106,7 +106,7 @@ impl NumberField<'_> {
         is_here
     }
 
-    /// What is wrong with what was typed, in words.
+    /// What is wrong with the typed text, in words; `None` if nothing is.
     fn wrong_in(&self, typed: &str) -> Option<String> {
         match self.read(typed).filter(|number| self.limits.contains(number)) {
             Some(number) => self.refused.and_then(|why| why(number)),
@@ -135,7 +135,7 @@ fn is_double_click_in(ui: &Ui, frame: Rect) -> bool {
     })
 }
 
-/// The number in what was typed, with a comma or a point, and with or without the unit.
+/// Reads a number from typed text, with a decimal comma or point, and with or without the unit.
 pub(super) fn number_of(typed: &str, unit: &str) -> Option<f64> {
     let text = typed.trim();
     let text = text.strip_suffix(unit).unwrap_or(text).trim();

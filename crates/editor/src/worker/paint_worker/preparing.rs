@@ -1,4 +1,4 @@
-//! Prepares the scenes of jobs, and again where a free camera finds large surfaces without particles.
+//! Prepares the scenes of jobs, and prepares them again for views in which large surfaces may lack particles.
 
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ impl PaintWorker {
         self.prepare_for(order, views, mailbox, tell)
     }
 
-    /// The views of an order at rest, if its scene was prepared for others, so that large surfaces may lack particles.
+    /// The views of an order at rest, if its scene was prepared for others: then large surfaces may lack particles.
     pub(super) fn lacking(&self, order: &Order) -> Option<EditorViews> {
         let known = self.prepared.as_ref().filter(|known| known.serial == order.job.serial)?;
         if is_moving(order) || !known.painting.depends_on_views() {
@@ -30,7 +30,7 @@ impl PaintWorker {
         (known.seen_from.as_ref() != Some(&views)).then_some(views)
     }
 
-    /// Prepares an order's scene for these views; during a drag for `None`.
+    /// Prepares an order's scene for these views. During a drag, `views` is `None`.
     pub(super) fn prepare_for(
         &mut self,
         order: &Order,
@@ -40,7 +40,7 @@ impl PaintWorker {
     ) -> Option<Painting> {
         let serial = order.job.serial;
         let is_again = self.prepared.as_ref().is_some_and(|known| known.serial == serial);
-        // A painting of this scene is there already, so a newer job may interrupt.
+        // If there is a painting of this scene already, a newer job may interrupt.
         let give_up = || mailbox.gives_up(order) || is_again && mailbox.is_stale(order);
         let options = PrepareOptions {
             give_up: &give_up,
@@ -52,7 +52,7 @@ impl PaintWorker {
             Ok(painting) => {
                 let is_same = |known: &Prepared| known.painting.has_particles_of(&painting);
                 if is_again && !self.prepared.as_ref().is_some_and(is_same) {
-                    // Pictures of the painting before lack strokes.
+                    // Pictures of the previous painting lack strokes.
                     self.drawn.iter_mut().flatten().for_each(|drawn| drawn.exact = false);
                     self.film.clear();
                     self.ahead = Ahead::default();
@@ -66,7 +66,7 @@ impl PaintWorker {
             }
             Err(PrepareError::GivenUp) => None,
             Err(error) => {
-                // The painting that is there still serves.
+                // A painting of this scene that is there already stays in use.
                 if !is_again {
                     tell(Report::Failed(error.to_string()));
                 }

@@ -222,7 +222,7 @@ fn fields_shift_the_motion_in_arrange_and_key_it_in_animate() {
 fn double_click(harness: &mut Harness<'_, Column>, name: &str) {
     // The test's clock moves in large steps, so the delay has to be long.
     harness.ctx.options_mut(|options| options.input_options.max_double_click_delay = 2.0);
-    // Waits, so that these clicks and earlier ones are no triple click.
+    // Waits, so that these clicks and earlier ones do not make a triple click.
     harness.run_steps(20);
     let middle = harness.get_by_role_and_label(Role::SpinButton, name).rect().center();
     for _ in 0..2 {

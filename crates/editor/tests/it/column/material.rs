@@ -63,7 +63,7 @@ fn name_file(harness: &mut Harness<'_, Column>, field: &str, file: &str) {
 
 /// Opens the picker of a square of colour by a click, drags over its field of colours, and closes it.
 fn pick_colour(harness: &mut Harness<'_, Column>, square: &str) {
-    // A button of egui's picker has a sign that no font of the window has. This draws an empty box for it.
+    // A button of egui's picker has a glyph that no font of the window has. This draws an empty box in its place.
     harness.ctx.set_missing_glyph_policy(egui::MissingGlyphPolicy::Tofu);
     let at = harness.get_by_label(square).rect();
     click(harness, square);

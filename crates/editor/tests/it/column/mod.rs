@@ -40,7 +40,7 @@ pub struct Column {
     pub own_presets: Vec<OwnPreset>,
     /// What was asked about presets, in words.
     pub asked_presets: Vec<String>,
-    /// What the menu at the pointer is about, if one was asked for in this pass; the inner `None` is the view.
+    /// The item that the menu at the pointer was asked for in this pass; an inner `None` stands for the view.
     pub menu: Option<Option<Item>>,
     /// The control that was asked to have the focus.
     pub reach: Option<Control>,

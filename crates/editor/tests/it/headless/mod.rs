@@ -23,7 +23,7 @@ impl Headless {
     }
 }
 
-/// A harness that draws a page in this theme. It has run until the page settled. `ui` is one pass of the page.
+/// A harness that draws a page in this theme, and has already run until the page settled. `ui` is one pass of the page.
 pub fn harness<P: 'static>(
     size: Vec2,
     theme: Theme,

@@ -119,7 +119,7 @@ fn escape_takes_a_drag_back() {
     assert!(matches!(eases(harness.state(), 37.0)[1], Ease::Curve(..)));
     harness.key_press(Key::Escape);
     harness.step();
-    // With the focus the key is the handle's; without it the window would use it up.
+    // With the focus, the handle gets the key; without it, the window would consume the key.
     assert!(harness.ctx.memory(|memory| memory.focused()).is_some(), "Esc took the focus from the handle");
     harness.run();
     assert_eq!(eases(harness.state(), 37.0), [Ease::Smooth; 2]);
@@ -192,7 +192,7 @@ fn a_double_click_straightens_and_arrows_step() {
     let mut harness = curves_of(curved());
     harness.ctx.options_mut(|options| options.input_options.max_double_click_delay = 2.0);
     let double_click = |harness: &mut Harness<'_, Page>, name: &str| {
-        // Waits, so that these clicks and earlier ones are no triple click.
+        // Waits, so that these clicks and earlier ones do not make a triple click.
         harness.run_steps(20);
         let at = place(harness, name);
         for _ in 0..2 {

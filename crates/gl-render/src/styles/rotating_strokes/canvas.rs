@@ -11,7 +11,7 @@ const PITCH_PX: f32 = 3.6;
 
 /// How much threads differ in thickness: a standard deviation, as a share of the mean.
 const THREAD_JITTER: f32 = 0.18;
-/// How far threads stray from a straight line, in distances from thread to thread.
+/// How far threads stray from a straight line, in units of [`PITCH_PX`].
 const WANDER: f32 = 0.35;
 
 /// How often a thread strays and returns in one tile.
@@ -55,7 +55,7 @@ fn height(x: usize, y: usize) -> f32 {
     warp.max(weft)
 }
 
-/// How far a thread strays here, in distances from thread to thread; repeats with the tile.
+/// How far a thread strays here, in units of [`PITCH_PX`]; repeats with the tile.
 fn wander(which: u32, x: f32, y: f32) -> f32 {
     let scale = WANDER_CYCLES as f32 / SIDE as f32;
     let (u, v) = (x * scale, y * scale);

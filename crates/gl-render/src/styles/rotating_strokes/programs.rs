@@ -119,7 +119,7 @@ impl DataPrograms {
     }
 }
 
-/// The shader files that the style's own may include.
+/// The files that the style's shaders may include.
 pub(super) const FILES: &[&[ShaderFile]] = &[SHARED, REFERENCE, ROTATING_STROKES];
 
 pub(super) const DETAIL: ProgramSource<'static> = ProgramSource::screen(

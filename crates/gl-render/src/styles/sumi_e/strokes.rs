@@ -14,7 +14,7 @@ use crate::stroke_buffers::StrokeBuffers;
 use crate::style_renderer::StyleInput;
 use crate::watch::Watch;
 
-/// After this many strokes, the caller is asked whether to stop.
+/// Whenever this many strokes are drawn, the caller is asked whether to stop.
 const PIECE: u32 = 4096;
 
 /// Draws the strokes of a frame.

@@ -87,7 +87,7 @@ fn a_curve_is_solved_for_its_time() {
     // The steepest curve of all, vertical in its middle: x = 1/2 + 4 (part − 1/2)³.
     let steep = Ease::Curve([1.0, 0.0], [0.0, 1.0]);
     assert!((steep.share(0.5) - 0.5).abs() < 1e-5);
-    // `ease` of CSS, as browsers have it.
+    // `ease` of CSS, as browsers compute it.
     assert!((Ease::USUAL_CURVE.share(0.5) - 0.802_403_387).abs() < 1e-8, "{}", Ease::USUAL_CURVE.share(0.5));
 }
 

@@ -77,7 +77,8 @@ macro_rules! stroke_numbers {
             /// What differs from the preset in single layers of paint, by name.
             #[serde(skip_serializing_if = "is_default")]
             pub layers: Vec<LayerSettings>,
-            /// All seven layers of paint by name, in the order in which they are laid: the lowest first. For the whole scene alone.
+            /// All seven layers of paint by name, in the order in which they are laid: the lowest first. For the whole
+            /// scene alone.
             #[serde(skip_serializing_if = "is_default")]
             pub order: Vec<String>,
             /// Changes over time, frames strictly increasing; those of a region replace the scene's.
@@ -131,7 +132,7 @@ macro_rules! stroke_numbers {
                 }
             }
 
-            /// Takes over the stated numbers that are not sizes.
+            /// Applies the stated numbers that are not sizes.
             pub(crate) fn apply_numbers(&mut self, stated: &StrokeSettings) {
                 $(self.$form_resolved = stated.$form.map_or(self.$form_resolved, $form_kind::of_file);)+
                 $(self.$color_resolved = stated.$color.map_or(self.$color_resolved, $color_kind::of_file);)+

@@ -22,8 +22,8 @@ struct Open {
     has_colon: bool,
 }
 
-/// Ends a text before the offset `fault`, or earlier where a closing bracket must have been forgotten. If the bracket
-/// at `fault` is never closed, the text may go on to its own end. `None` if no bracket opens before the cut, or if
+/// Ends a text before the offset `fault`, or earlier where a closing bracket must have been forgotten. If `fault` is at
+/// a bracket that is never closed, the text after it may be kept too. `None` if no bracket opens before the cut, or if
 /// nothing would be cut or closed.
 pub(super) fn before(text: &str, fault: usize) -> Option<Cut> {
     let bytes = text.as_bytes();
@@ -55,7 +55,7 @@ pub(super) fn before(text: &str, fault: usize) -> Option<Cut> {
                 at += length + 2;
                 continue;
             }
-            // What stands before the scene: `#![enable(…)]`.
+            // An attribute before the scene: `#![enable(…)]`.
             b'#' if open.is_empty() => {
                 at += text[at..].find(']').map_or(1, |length| length + 1);
                 continue;

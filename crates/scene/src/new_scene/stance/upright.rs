@@ -38,7 +38,7 @@ impl Samples {
             let in_file = (turn.transpose() * DVec3::Y).abs();
             let axis = [0, 1, 2].into_iter().find(|&axis| in_file[axis] > 0.5).unwrap_or(1);
             let others = [mirrors[(axis + 1) % 3], mirrors[(axis + 2) % 3]];
-            // A plane that mirrors a living thing or a vehicle is upright.
+            // The mirror plane of a living thing or a vehicle is upright.
             let is_mirrored = others[0].max(others[1]) > MIRRORED;
             // Left and right are alike, front and back often are, top and bottom are not.
             let is_unlike = if is_mirrored {

@@ -113,8 +113,8 @@ fn default_of(kind: &str) -> String {
     .to_owned()
 }
 
-/// A Rust expression as a scene file would write it; empty for no value. Of the path of an enum variant, the variant's
-/// name stays.
+/// A Rust expression as a scene file would write it; empty for no value. Of the path of an enum variant, only the
+/// variant's name is kept.
 fn in_file(expression: &str) -> String {
     let expression = expression.trim();
     if expression == "None" || expression == "Vec::new()" {
