@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use crate::hash;
 use crate::sampling::{self, Surface, hexagonal_spacing};
+use crate::wide::{Wide, widest};
 
 /// At most this many samples measure a surface, since all pairs of them are compared.
 const MOST_SAMPLES: usize = 2048;
@@ -46,10 +47,10 @@ const ASKED: usize = 64;
 /// cylinder. The two sides of a plate are measured separately, so a thin plate is as large as it looks.
 #[derive(Clone, Debug, Default)]
 pub struct FormSize {
-    /// In the order of their buckets.
-    samples: Vec<Sample>,
-    /// Where the samples of each bucket begin, and the end of the last. A bucket holds the cells of a grid that have
-    /// its hash.
+    /// The samples, in the order of their buckets.
+    blocks: Vec<Block>,
+    /// Where the blocks of each bucket begin, and the end of the last. A bucket holds the cells of a grid that have its
+    /// hash.
     starts: Vec<u32>,
     smoothing_radius: f32,
     least: f32,
@@ -61,6 +62,18 @@ struct Sample {
     normal: Vec3,
     /// ln of the size, model units.
     size_ln: f32,
+}
+
+/// How many samples a block holds.
+const LANES: usize = 16;
+
+/// Samples of a bucket side by side, so that they are weighed in wide registers.
+#[derive(Clone, Copy, Debug)]
+struct Block {
+    /// By axis and sample. What fills up the last block of a bucket lies infinitely far away, so it has no weight.
+    positions: [[f32; LANES]; 3],
+    normals: [[f32; LANES]; 3],
+    sizes_ln: [f32; LANES],
 }
 
 /// The samples' positions and normals, an array for each axis, so that pairs are compared in wide registers.
@@ -92,57 +105,49 @@ impl FormSize {
             )
             .collect();
         let smoothing_radius = (SMOOTHING_RADIUS * spacing).min(radius_of_neighbours(&samples));
-        let buckets = samples.len().next_power_of_two();
-        let bucket = |sample: &Sample| bucket_of(cell_of(sample.position, smoothing_radius), buckets);
-        samples.sort_by_cached_key(bucket);
-        let mut starts = vec![0; buckets + 1];
-        for sample in &samples {
-            starts[bucket(sample) + 1] += 1;
-        }
-        for index in 0..buckets {
-            starts[index + 1] += starts[index];
-        }
-        let mut field = Self { samples, starts, smoothing_radius, least: 0.0 };
+        let rough = Self::with(&samples, smoothing_radius);
         let smooth: Vec<f32> =
-            field.samples.par_iter().map(|sample| field.at(sample.position, sample.normal).ln()).collect();
-        for (sample, smooth) in field.samples.iter_mut().zip(smooth) {
+            samples.par_iter().map(|sample| rough.at(sample.position, sample.normal).ln()).collect();
+        for (sample, smooth) in samples.iter_mut().zip(smooth) {
             sample.size_ln = smooth;
         }
-        field.least =
-            field.samples.iter().fold(f32::INFINITY, |least, sample| least.min(sample.size_ln)).exp();
+        let least_ln = samples.iter().fold(f32::INFINITY, |least, sample| least.min(sample.size_ln));
+        Self { least: least_ln.exp(), ..Self::with(&samples, smoothing_radius) }
+    }
+
+    /// With these samples.
+    fn with(samples: &[Sample], smoothing_radius: f32) -> Self {
+        let buckets = samples.len().next_power_of_two();
+        let mut in_bucket = vec![Vec::new(); buckets];
+        for sample in samples {
+            in_bucket[bucket_of(cell_of(sample.position, smoothing_radius), buckets)].push(*sample);
+        }
+        let mut field = Self { smoothing_radius, starts: vec![0], ..Self::default() };
+        for samples in in_bucket {
+            field.blocks.extend(samples.chunks(LANES).map(Block::of));
+            field.starts.push(field.blocks.len() as u32);
+        }
         field
     }
 
     /// The size of the form at a point of the surface with this unit normal, model units; infinite on a surface without
     /// area.
     pub fn at(&self, position: Vec3, normal: Vec3) -> f32 {
-        if self.samples.is_empty() {
+        if self.starts.is_empty() {
             return f32::INFINITY;
         }
-        let radius_sq = self.smoothing_radius * self.smoothing_radius;
-        let (mut sum, mut weights) = (0.0, 0.0);
-        for bucket in self.buckets_round(position) {
-            let [start, end] = [self.starts[bucket], self.starts[bucket + 1]];
-            for sample in &self.samples[start as usize..end as usize] {
-                let near = 1.0 - position.distance_squared(sample.position) / radius_sq;
-                if near > 0.0 {
-                    // A sample that faces away counts only where there is no other.
-                    let weight = near * near * near * normal.dot(sample.normal).max(1e-4);
-                    sum += weight * sample.size_ln;
-                    weights += weight;
-                }
-            }
-        }
+        let [sum, weights] = widest(Weighing { form: self, position, normal });
         // A shell too small to have a sample gets the least size.
         if weights > 0.0 { (sum / weights).exp() } else { self.least }
     }
 
     /// The least size anywhere, model units.
     pub fn least(&self) -> f32 {
-        if self.samples.is_empty() { f32::INFINITY } else { self.least }
+        if self.starts.is_empty() { f32::INFINITY } else { self.least }
     }
 
     /// The buckets of the two by two by two cells that hold all samples within the smoothing radius, each once.
+    #[inline(always)]
     fn buckets_round(&self, position: Vec3) -> impl Iterator<Item = usize> {
         let buckets = self.starts.len() - 1;
         let corner = cell_of(position - 0.5 * CELL * self.smoothing_radius, self.smoothing_radius);
@@ -151,6 +156,59 @@ impl FormSize {
             bucket_of(cell, buckets)
         });
         (0..all.len()).filter(move |&index| !all[..index].contains(&all[index])).map(move |index| all[index])
+    }
+}
+
+impl Block {
+    fn of(samples: &[Sample]) -> Self {
+        let mut block = Self {
+            positions: [[f32::INFINITY; LANES]; 3],
+            normals: [[0.0; LANES]; 3],
+            sizes_ln: [0.0; LANES],
+        };
+        for (lane, sample) in samples.iter().enumerate() {
+            for axis in 0..3 {
+                block.positions[axis][lane] = sample.position[axis];
+                block.normals[axis][lane] = sample.normal[axis];
+            }
+            block.sizes_ln[lane] = sample.size_ln;
+        }
+        block
+    }
+}
+
+/// The weights of the samples round a point, and their sum weighed with the ln of the sizes.
+struct Weighing<'a> {
+    form: &'a FormSize,
+    position: Vec3,
+    normal: Vec3,
+}
+
+impl Wide for Weighing<'_> {
+    /// The weighed sum, and the sum of the weights.
+    type Output = [f32; 2];
+
+    #[inline(always)]
+    fn run(self) -> [f32; 2] {
+        let Self { form: FormSize { blocks, starts, smoothing_radius, .. }, position, normal } = self;
+        let per_radius_sq = 1.0 / (smoothing_radius * smoothing_radius);
+        let (mut sums, mut weights) = ([0.0f32; LANES], [0.0f32; LANES]);
+        for bucket in self.form.buckets_round(position) {
+            for block in &blocks[starts[bucket] as usize..starts[bucket + 1] as usize] {
+                let ([xs, ys, zs], [normal_xs, normal_ys, normal_zs]) = (&block.positions, &block.normals);
+                for lane in 0..LANES {
+                    let [x, y, z] = [xs[lane] - position.x, ys[lane] - position.y, zs[lane] - position.z];
+                    let near = (1.0 - (x * x + y * y + z * z) * per_radius_sq).max(0.0);
+                    let facing =
+                        normal.x * normal_xs[lane] + normal.y * normal_ys[lane] + normal.z * normal_zs[lane];
+                    // A sample that faces away counts only where there is no other.
+                    let weight = near * near * near * facing.max(1e-4);
+                    sums[lane] += weight * block.sizes_ln[lane];
+                    weights[lane] += weight;
+                }
+            }
+        }
+        [sums.iter().sum(), weights.iter().sum()]
     }
 }
 
@@ -375,14 +433,14 @@ mod tests {
         }
         let size = FormSize::of(&Surface::new(&mesh, |_| true), 7);
         let radius_sq = size.smoothing_radius * size.smoothing_radius;
-        let near = |at: &Sample| {
-            size.samples
-                .iter()
-                .filter(|other| other.position.distance_squared(at.position) < radius_sq)
-                .count()
+        let of_block = |Block { positions: [xs, ys, zs], .. }: &Block| -> [Vec3; LANES] {
+            std::array::from_fn(|lane| Vec3::new(xs[lane], ys[lane], zs[lane]))
         };
-        let mean = size.samples.iter().map(near).sum::<usize>() / size.samples.len();
-        assert!(size.samples.len() > 2000 && (100..=160).contains(&mean), "{mean} near");
+        let mut places: Vec<Vec3> = size.blocks.iter().flat_map(of_block).collect();
+        places.retain(|place| place.is_finite());
+        let near = |at: &Vec3| places.iter().filter(|other| other.distance_squared(*at) < radius_sq).count();
+        let mean = places.iter().map(near).sum::<usize>() / places.len();
+        assert!(places.len() > 2000 && (100..=160).contains(&mean), "{mean} near");
         let found = size.at(mesh.positions[0], mesh.normals[0]);
         assert!((0.001..10.0).contains(&found), "{found}");
     }
