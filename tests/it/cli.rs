@@ -618,3 +618,19 @@ fn a_model_is_placed_as_the_command_says_and_a_scene_is_not() {
     let told = words(&output.stderr);
     assert!(code(&output) != 0 && told.contains("--up, --view and --ground place a model"), "{told}");
 }
+
+#[test]
+fn files_beside_a_relative_path_are_told_by_relative_paths() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("sub")).unwrap();
+    std::fs::write(folder.path("sub/cube.obj"), format!("mtllib cube.mtl\nusemtl a\n{CUBE}")).unwrap();
+    std::fs::write(folder.path("sub/cube.mtl"), "newmtl a\nmap_Kd gone.png\n").unwrap();
+    let told = words(&folder.run(&["check", "sub/cube.obj"]).stderr);
+    assert!(told.contains("sub/cube.mtl:2:1: warning: \"gone.png\" was not found"), "{told}");
+    let inside = Command::new(impasto()).args(["check", "cube.obj"]).current_dir(folder.path("sub")).output();
+    let told = words(&inside.unwrap().stderr);
+    assert!(told.starts_with("cube.mtl:2:1: warning") || told.contains("\ncube.mtl:2:1: warning"), "{told}");
+    let whole = folder.path("sub/cube.obj");
+    let told = words(&folder.run(&["check", &whole.to_string_lossy()]).stderr);
+    assert!(told.contains(&format!("{}:2:1: warning", folder.path("sub/cube.mtl").display())), "{told}");
+}

@@ -212,22 +212,18 @@ fn at_the_reference_strokes_lie_as_their_region_states() {
         let frame = painting.at(0.0, &FrameOptions::new([640, 360]));
         let body = frame.layers.iter().find(|run| run.kind == LayerKind::Body).unwrap();
         let strokes = body.first as usize..(body.first + body.count) as usize;
-        let mut off: Vec<f64> = strokes
+        let off: Vec<(f64, f32)> = strokes
             .filter(|&index| frame.sources[index].region as usize == still)
             // Twice the angle, since a line has no beginning.
             .map(|index| {
                 let angle_rad = f64::from(frame.strokes[index].angle_rad);
-                0.5 * degrees_apart(2.0 * angle_rad, 2.0 * 50f64.to_radians())
+                let off_deg = 0.5 * degrees_apart(2.0 * angle_rad, 2.0 * 50f64.to_radians());
+                (off_deg, frame.sources[index].facing)
             })
             .collect();
-        off.sort_by(f64::total_cmp);
-        // On faces that it sees at a slant, the reference decides angles only in part. So a quarter of the strokes may
-        // be off.
-        assert!(
-            off.len() > 200 && off[off.len() * 3 / 4] < 8.0,
-            "{solver}: {} of {}",
-            off[off.len() * 3 / 4],
-            off.len()
-        );
+        // On faces that it sees at a slant, the reference decides angles only in part.
+        let seen_well = || off.iter().filter(|(_, facing)| *facing >= 0.5).map(|(off_deg, _)| *off_deg);
+        let most = seen_well().fold(0.0, f64::max);
+        assert!(seen_well().count() > 200 && most < 0.2, "{solver}: {most} of {}", seen_well().count());
     }
 }

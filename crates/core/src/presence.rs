@@ -18,7 +18,7 @@ pub fn of_facing(facing: f32) -> f32 {
 }
 
 /// Width of the fade in ln(D/u). With 1.2, the presence of strokes near the outline of a body that turns in perspective
-/// changes by up to 0.21 per degree; with 1.4 by less than 0.2, and the density stays within 5 % of what is wanted.
+/// changes by up to 0.21 per degree; with 1.4 by less than 0.2, and the density stays within 8 % of what is wanted.
 const FADE: f32 = 1.4;
 
 /// The value of S below which a stroke is left out.

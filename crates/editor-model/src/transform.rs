@@ -292,8 +292,8 @@ impl Transforming {
         }
     }
 
-    /// Sets a constraint. If the same axis comes a second time, it means the object's own axis (or the world's axis, if
-    /// the object's was first). If it comes a third time, there is no constraint.
+    /// Sets a constraint. The same one a second time in a row means the object's own axes (or the world's, if the
+    /// object's were first). A third time removes it.
     fn hold(&mut self, constraint: Constraint) {
         let other = if self.first_space == Axes::Local { Axes::World } else { Axes::Local };
         if self.constraint != constraint {
@@ -424,7 +424,8 @@ impl TransformDelta {
     }
 
     /// Where each point of the world goes, with turns and scalings about a pivot. The columns of `world_from_space` are
-    /// the axes of the delta. Commands on poses take one factor for all axes: uneven ones are for `Arrange::Stretch`.
+    /// the axes of moves and turns. Factors apply along the world's axes: uneven ones, which commands on poses cannot
+    /// take, are for `Arrange::Stretch`.
     pub fn world_from_world(&self, pivot: DVec3, world_from_space: DMat3) -> DAffine3 {
         let about_pivot = |linear: DMat3| DAffine3::from_mat3_translation(linear, pivot - linear * pivot);
         match *self {
@@ -433,9 +434,7 @@ impl TransformDelta {
                 let axis = (world_from_space * axis).normalize_or(DVec3::Y);
                 about_pivot(DMat3::from_quat(DQuat::from_axis_angle(axis, angle_rad)))
             }
-            Self::Scale(by) => {
-                about_pivot(world_from_space * DMat3::from_diagonal(by) * world_from_space.transpose())
-            }
+            Self::Scale(by) => about_pivot(DMat3::from_diagonal(by)),
         }
     }
 }

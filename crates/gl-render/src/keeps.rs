@@ -6,8 +6,9 @@ use impasto_painting::frame::Style;
 /// keeping all targets to the end of the picture takes twice the memory.
 const HUGE_PX: u64 = 16 << 20;
 
-/// What can be read of a drawn picture, besides its colour, its depth and its bodies. Keeping less saves memory,
-/// because each target is freed after its last use. The picture itself is the same.
+/// What can be read of a drawn picture, besides its colour, its depth and its bodies. Strokes, and paint that was
+/// gathered, can be read in any case. Keeping less saves memory, because each target is freed after its last use. The
+/// picture itself is the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Keeps {
     /// Everything. The targets also stay for the next picture.
@@ -20,8 +21,9 @@ pub enum Keeps {
 }
 
 impl Keeps {
-    /// What to keep of a picture of this size whose paint will not be read: everything, unless the picture is huge.
-    /// `surfaces` says whether its surfaces will be read.
+    /// What to keep of a picture of this size: everything, unless the picture is huge. It is not for callers of
+    /// [`Renderer::read_paint`](crate::Renderer::read_paint), which needs `Everything`. `surfaces` says whether surfaces
+    /// will be read.
     pub fn of_size(size_px: [u32; 2], surfaces: bool) -> Self {
         match (Self::is_huge(size_px), surfaces) {
             (false, _) => Self::Everything,
@@ -39,10 +41,10 @@ impl Keeps {
     /// each axis.
     pub fn bytes_per_px(self, style: &Style, samples: u32) -> u64 {
         let fine = if samples > 1 { u64::from(samples * samples) * 12 } else { 0 };
-        // Counted only in `Everything`: for a huge picture, the colours of samples are not drawn.
+        // The colours of samples. They are drawn only for pictures that are not huge, and these keep everything.
         let colors = if samples > 1 { u64::from(samples * samples) * 4 } else { 0 };
         // Bytes of the target that is computed from the samples: depth and body at the middle of each pixel, and the
-        // share of the pixel that shows something else.
+        // share of the pixel that does not show this body.
         let surface = if samples > 1 { 8 } else { 0 };
         // The ink style reads the unlit targets of the reference pass.
         let (paint, reads_unlit) = match style {

@@ -71,7 +71,7 @@ impl MotionPass {
         let state = DrawState { depth_test: true, clear: Some([0.0; 4]), ..DrawState::default() };
         self.gpu.begin_pass(&target, state);
         for (index, DrawnBody { body, mesh, .. }) in bodies.iter().enumerate() {
-            if body.hidden {
+            if !body.shows() {
                 continue;
             }
             let body_then = then.bodies.get(index).unwrap_or(body);

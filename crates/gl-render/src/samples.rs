@@ -70,7 +70,7 @@ impl SamplePass {
         self.program.prepare(frame)?;
         let state = DrawState { depth_test: true, clear: Some([0.0; 4]), ..DrawState::default() };
         self.gpu.begin_pass(&targets.pass, state);
-        let visible = bodies.iter().enumerate().filter(|(_, drawn)| !drawn.body.hidden);
+        let visible = bodies.iter().enumerate().filter(|(_, drawn)| drawn.body.shows());
         for (index, drawn) in visible {
             for part in &drawn.mesh.parts {
                 let bound = set_color(self.program.bind(drawn.body, part), drawn.body, part)

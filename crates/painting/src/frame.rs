@@ -195,6 +195,14 @@ pub struct FrameBody {
     pub noise: Option<FrameNoise>,
 }
 
+impl FrameBody {
+    /// Whether it is drawn: not where it is hidden, nor where its noise is wholly transparent.
+    pub fn shows(&self) -> bool {
+        let layers = self.noise.as_ref().and_then(|noise| noise.noise.layers.as_ref());
+        !self.hidden && layers.is_none_or(|layers| layers.opacity > 0.0)
+    }
+}
+
 /// The marks of the brushes in use.
 #[derive(Debug, Default, PartialEq)]
 pub struct Brushes {

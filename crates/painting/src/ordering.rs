@@ -1,5 +1,5 @@
-//! Puts particles in the order in which they are painted: by the regions' layers, then by the layers of paint in the
-//! scene's order, then by rank from high to low.
+//! Puts particles in the order in which they are painted: by the number `layer` of their regions from low to high, then
+//! by the layers of paint in the scene's order, then by rank from high to low.
 
 use std::cmp::Reverse;
 use std::collections::binary_heap::PeekMut;
@@ -20,7 +20,7 @@ pub(crate) struct OrderInputs {
     /// The layers of paint, the lowest first.
     kinds: [LayerKind; 7],
     coats: Vec<OrderedCoat>,
-    /// The layer that the region of each rule states; empty if all regions have the same.
+    /// For each rule, the number `layer` of its stroke settings. Empty if all rules have the same.
     layers: Vec<i32>,
 }
 
@@ -30,7 +30,7 @@ struct OrderedCoat {
     particles: Particles,
     /// See [`crate::coat::Sampled::count_on_whole`].
     count_on_whole: usize,
-    /// Tells the region of each particle; `None` if all regions have the same layer.
+    /// Tells the region of each particle; `None` if all rules have the same number `layer`.
     traits: Option<Arc<Traits>>,
 }
 
@@ -147,7 +147,8 @@ impl Queue<'_> {
 /// the name, then the least particle, then the least index of the queue.
 type Head = (u64, Reverse<(u32, u32, usize)>);
 
-/// The numbers of the particles of queues, the highest rank first; each queue is sorted already.
+/// Merges queues, each of which has its highest rank at its end, into one list with the highest rank first. Returns the
+/// particles' numbers, as in [`PaintingOrder`].
 fn merged(mut queues: Vec<Queue<'_>>) -> Vec<u32> {
     let mut order = Vec::with_capacity(queues.iter().map(|queue| queue.len()).sum());
     let mut heads: BinaryHeap<Head> = BinaryHeap::new();

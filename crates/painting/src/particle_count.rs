@@ -36,7 +36,7 @@ const MARGIN: f64 = 1.1;
 /// Faces that cover the picture more often than this, one behind the other, give their object no more particles: nearly
 /// all of them are hidden, as in a heap of thousands of large triangles. Groups of one mesh that are objects of their
 /// own share this limit, but the limit of each is at least `LEAST_DEEP`.
-const DEEPEST: f64 = 16.0;
+const DEEPEST: f64 = 6.0;
 const LEAST_DEEP: f64 = 4.0;
 
 /// For each object, how many groups of its mesh are objects, itself included; 1 where it is the whole mesh.
@@ -396,9 +396,9 @@ mod tests {
             assert!((found.deepness / f64::from(floors) - 1.0).abs() < 0.3, "{floors}: {}", found.deepness);
             found.needed[0]
         };
-        let [one, some, many, more] = [1, 8, 64, 128].map(counted);
-        assert!((some / one / 8.0 - 1.0).abs() < 0.1, "8 floors need {some}, one needs {one}");
-        assert!(many < 24.0 * one && more < 1.2 * many, "1 floor needs {one}, 64 {many}, 128 {more}");
+        let [one, some, many, more] = [1, 5, 64, 128].map(counted);
+        assert!((some / one / 5.0 - 1.0).abs() < 0.1, "5 floors need {some}, one needs {one}");
+        assert!(many < 9.0 * one && more < 1.2 * many, "1 floor needs {one}, 64 {many}, 128 {more}");
     }
 
     #[test]
@@ -417,7 +417,7 @@ mod tests {
         ];
         let scene = Scene { objects, ..impasto_scene::new_scene::empty() };
         assert_eq!(groups_of_meshes(&scene), [2, 2, 2, 1, 1]);
-        assert_eq!([1, 2, 3, 100].map(deepest), [DEEPEST, DEEPEST / 2.0, DEEPEST / 3.0, LEAST_DEEP]);
+        assert_eq!([1, 2, 100].map(deepest), [DEEPEST, LEAST_DEEP, LEAST_DEEP]);
     }
 
     #[test]

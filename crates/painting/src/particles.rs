@@ -73,7 +73,8 @@ impl Particles {
         Self { count: count.min(sampled.places.len()), sampled: Arc::new(sampled), ..self.clone() }
     }
 
-    /// Whether one is the beginning of the other.
+    /// Whether both are the first particles of one order, so that the shorter is the beginning of the longer. Orders that
+    /// were made separately never count as one.
     pub(crate) fn same_order(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.order, &other.order)
     }
@@ -88,8 +89,8 @@ impl Particles {
         &self.sampled
     }
 
-    /// The ordinals of all particles; empty where they are the particles' indices. An ordinal says about how many
-    /// particles come before its own when the whole surface has all of its particles.
+    /// The ordinals of all particles; empty where they are the particles' indices. Later particles may lie on a part of
+    /// the surface only. The ordinal says about how many would come before this particle if they lay on all of it.
     pub(crate) fn ordinals(&self) -> &[f32] {
         self.sampled.ordinals.get(..self.count).unwrap_or_default()
     }
@@ -100,8 +101,8 @@ impl Particles {
         self.sampled.ordinals.get(index).copied().unwrap_or(index as f32)
     }
 
-    /// Random bits of a particle: by its index where this is its ordinal too, else by its place. They stay the same
-    /// however many other particles there are.
+    /// Random bits of a particle. They stay the same however many other particles there are: they are made from its
+    /// index if it is one of the first, whose ordinals are their indices, else from its place.
     #[inline]
     pub(crate) fn random_bits(&self, index: usize, seed: u32) -> u32 {
         let SampledPlaces { places, ordinals, state } = &*self.sampled;

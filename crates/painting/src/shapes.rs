@@ -10,7 +10,8 @@ use impasto_scene::motion;
 
 use crate::body_shape::{BodyNoise, BodyShape, FrameNoise};
 
-/// The bends, morphs and cache frames of all objects at one frame. Noise is left out.
+/// What moves the vertices of every object at one frame, without noise: the pose of the joints and targets of its mesh
+/// file (`None` where the shot gives none), its morph weight, and the frame of its point cache.
 pub(crate) struct BodyShapes<'a> {
     loaded: &'a LoadedScene,
     bends: Vec<Option<BendPose>>,
@@ -18,7 +19,7 @@ pub(crate) struct BodyShapes<'a> {
     cache_frames: Vec<f64>,
 }
 
-/// The bend in the mesh file of an object.
+/// The joints and morph targets in the mesh file of an object; `None` where it has none.
 pub(crate) fn file_bend<'a>(loaded: &'a LoadedScene, object: &Object) -> Option<&'a Bend> {
     loaded.meshes.get(&object.mesh)?.bend.as_deref()
 }
@@ -42,7 +43,7 @@ impl<'a> BodyShapes<'a> {
         self
     }
 
-    /// The shape of one object. `bend` is the bend in its mesh file.
+    /// The shape of one object, without noise. `bend` is its [`file_bend`].
     pub(crate) fn of(&self, object: usize, bend: Option<&Bend>) -> BodyShape {
         let stated = &self.loaded.scene.objects[object];
         let cache = stated.cache.as_ref().and_then(|name| self.loaded.caches.get(name));

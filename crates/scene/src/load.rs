@@ -18,6 +18,7 @@ use crate::problem::{Problem, Report, Severity};
 use crate::shot::{Choice, Shot};
 
 mod edited;
+mod field_words;
 mod files;
 mod overrides;
 mod parse;
@@ -75,7 +76,8 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
             Err(Report(vec![error_in(path, None, "this is neither a scene nor a mesh", mend)]))
         }
     };
-    let mut loaded = loaded?;
+    let mut loaded = loaded.map_err(|Report(problems)| Report(beside(path, problems)))?;
+    loaded.warnings = beside(path, loaded.warnings);
     if mesh_format::is_mesh(path) {
         // A scene that is saved beside the mesh will still read it.
         let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -442,6 +444,19 @@ fn read_brush(scene: &Path, name: &str, folders: &AssetFolders) -> PictureRead {
         severity: Severity::Error,
         ..error_in(scene, None, format!("{name}: the picture is of one grey; it holds no brush mark"), mend)
     })
+}
+
+/// Names the files of problems as `path` was named: those beside a relative path by relative paths.
+fn beside(path: &Path, mut problems: Vec<Problem>) -> Vec<Problem> {
+    let given = path.parent().unwrap_or(Path::new(""));
+    if let Some(real) = folder_of(path).canonicalize().ok().filter(|_| path.is_relative()) {
+        for problem in &mut problems {
+            if let Ok(rest) = problem.path.strip_prefix(&real) {
+                problem.path = given.join(rest);
+            }
+        }
+    }
+    problems
 }
 
 /// The folder that a file is in.

@@ -82,3 +82,27 @@ fn extreme_but_allowed_values_give_a_picture() {
         assert!(paint.iter().flatten().all(|value| value.is_finite()), "{noise}");
     }
 }
+
+/// The plain render leaves it out, so nothing else may see it either: edges behind it are as sharp, and motion is that of
+/// what shows.
+#[test]
+fn a_wholly_transparent_body_is_as_if_hidden() {
+    let painted = |field: &str, value: &str| {
+        let set = [
+            (field, value),
+            (
+                "objects.ball.keys",
+                "[(frame: 0, translation: (0.85, 0.7, 1.2)), (frame: 24, translation: (0, 0.7, 1.2))]",
+            ),
+            ("style", "RotatingStrokes(solver: Tangent)"),
+        ];
+        let painting = scenes::painting_with("noise_displace", &set);
+        let mut renderer = renderer(Driver::Egl);
+        renderer.render(&painting.at(7.0, &FrameOptions::new([256, 144]))).unwrap();
+        renderer.read_paint()
+    };
+    let transparent = painted("objects.ball.material.noise_displace.surface.opacity", "0");
+    let hidden = painted("objects.ball.hidden", "true");
+    let differ = transparent.iter().zip(&hidden).filter(|(one, other)| one != other).count();
+    assert_eq!(differ, 0, "pixels of {}", hidden.len());
+}

@@ -284,7 +284,8 @@ fn tube(chance: &mut Chance) -> Body {
 fn clusters(chance: &mut Chance) -> Body {
     let mut body = soup(chance);
     let gap = chance.of(&[10.0, 1e4, 1e8]);
-    for point in body.points.iter_mut().skip(chance.below(9)) {
+    let near = chance.below(body.points.len());
+    for point in body.points.iter_mut().skip(near) {
         point[0] += gap;
     }
     body

@@ -113,7 +113,8 @@ pub enum Arrange {
         /// What changed, in words: *brighter*.
         what: String,
     },
-    /// Sets the lens of the shot and removes the fields of view from the camera's keys.
+    /// Sets the lens of the shot. Unless only its near and far depths change, removes the fields of view from the
+    /// camera's keys.
     SetLens(Lens),
     /// Gives the shot's camera this pose at a frame, by shifting all its keys.
     SetCamera {
@@ -152,10 +153,12 @@ impl Arrange {
             }
             Self::TurnUpright(name) => {
                 let object = unlocked_object(scene, name)?;
-                let old = object.model_from_file();
-                object.up = if object.up == Up::Y { Up::Z } else { Up::Y };
-                // Each size stays with the axis that it belonged to.
-                object.scale.0.swap(1, 2);
+                let (old, old_up) = (object.model_from_file(), object.up);
+                object.up = if old_up == Up::Y { Up::Z } else { Up::Y };
+                // Each axis of the file keeps its factor: the factors are turned with the axes, without their signs.
+                let new_from_old = object.up.y_up_from_file() * old_up.y_up_from_file().transpose();
+                let factors = new_from_old * DVec3::from(object.scale.0);
+                object.scale.0 = factors.abs().to_array();
                 let turn = object.model_from_file() * old.inverse();
                 carry_along(scene, name, turn);
                 Ok(Done::new(format!("Turn {name} upright")))
@@ -199,17 +202,21 @@ impl Arrange {
                 Ok(Done::new(format!("{capital}{words}")))
             }
             Self::SetLens(lens) => {
-                let fov_of = |lens: &Lens| match lens {
-                    Lens::Perspective { fov_y_deg, .. } => Some(*fov_y_deg),
-                    Lens::Orthographic { .. } => None,
+                let widths = |lens: &Lens| match lens {
+                    Lens::Perspective { fov_y_deg, .. } => (Some(*fov_y_deg), None),
+                    Lens::Orthographic { height, .. } => (None, Some(*height)),
                 };
-                let depths_alone = *lens != scene.camera.lens && fov_of(&scene.camera.lens) == fov_of(lens);
+                let depths_alone = *lens != scene.camera.lens && widths(&scene.camera.lens) == widths(lens);
                 scene.camera.lens = lens.clone();
                 // A field of view in a key would hide the one that was just set.
                 for key in scene.camera.keys.iter_mut().filter(|_| !depths_alone) {
                     key.fov_y_deg = None;
                 }
-                Ok(Done::new(if depths_alone { "Set near and far" } else { "Set field of view" }))
+                Ok(Done::new(match lens {
+                    _ if depths_alone => "Set near and far",
+                    Lens::Perspective { .. } => "Set field of view",
+                    Lens::Orthographic { .. } => "Set view height",
+                }))
             }
             Self::SetCamera { frame, pose } => {
                 set_camera(scene, *frame, pose)?;

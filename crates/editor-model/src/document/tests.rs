@@ -394,4 +394,11 @@ fn near_and_far_leave_keyed_fields_of_view_and_a_field_of_view_clears_them() {
     assert_eq!(keyed(lens(35.0, 0.2), &scene), Some(50.0));
     assert_eq!(keyed(lens(35.0, 0.1), &scene), None, "the field of view was stated, if as it is");
     assert_eq!(keyed(lens(40.0, 0.1), &scene), None);
+    scene.camera.lens = Lens::Orthographic { height: 2.0, near: 0.1, far: 100.0 };
+    let said = |height: f64, near: f64| {
+        let lens = Lens::Orthographic { height, near, far: 100.0 };
+        Command::Arrange(Arrange::SetLens(lens)).edit(&mut scene.clone(), document.loaded()).unwrap().text
+    };
+    assert_eq!(said(3.0, 0.1), "Set view height");
+    assert_eq!(said(2.0, 0.2), "Set near and far");
 }

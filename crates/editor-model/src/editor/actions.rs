@@ -74,8 +74,8 @@ impl Editor {
             }
             Action::Curves => self.session.toggle_curves(),
             Action::ToggleTrust => self.session.overlays.trust = !self.session.overlays.trust,
-            Action::StepBack => self.session.frame = (self.session.frame - 1.0).floor(),
-            Action::StepOn => self.session.frame = (self.session.frame + 1.0).ceil(),
+            Action::StepBack => self.session.frame = self.session.frame.ceil() - 1.0,
+            Action::StepOn => self.session.frame = self.session.frame.floor() + 1.0,
             Action::FirstFrame => self.session.frame = self.document.scene().timeline.first as f64,
             Action::LastFrame => self.session.frame = self.document.scene().timeline.last as f64,
             Action::PreviousKey | Action::NextKey => self.go_to_key(action == Action::NextKey),

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3};
+use glam::{DAffine3, DVec2, DVec3};
 use impasto_scene::document::ObjectKey;
 use impasto_scene::mesh_file::MeshFile;
 use impasto_scene::motion;
@@ -181,15 +181,12 @@ impl Editor {
         let index = scene.objects.iter().position(|object| object.name == *active)?;
         let pivot = poses[index].translation;
         let axes = drag.machine.world_from_space();
-        let (world_from_world, verb) = match delta {
-            TransformDelta::Move(by) => (DAffine3::from_translation(axes * by), "Move"),
-            TransformDelta::Turn { axis, angle_rad } => {
-                let turn =
-                    DMat3::from_quat(DQuat::from_axis_angle((axes * axis).normalize_or(DVec3::Y), angle_rad));
-                (about_pivot(pivot, turn), "Turn")
-            }
+        let world_from_world = delta.world_from_world(pivot, axes);
+        let verb = match delta {
+            TransformDelta::Move(_) => "Move",
+            TransformDelta::Turn { .. } => "Turn",
             TransformDelta::Scale(factors) if factors.max_element() - factors.min_element() < 1e-12 => {
-                (about_pivot(pivot, DMat3::from_diagonal(factors)), "Scale")
+                "Scale"
             }
             // `Shift` and `key_of` take only one factor for all axes, so uneven factors stretch the object itself.
             // They apply along its own axes, whichever space was chosen.
@@ -221,10 +218,6 @@ impl Editor {
         }
         Some(Command::Several(format!("Pose {} objects at {frame}", commands.len()), commands))
     }
-}
-
-fn about_pivot(pivot: DVec3, matrix: DMat3) -> DAffine3 {
-    DAffine3::from_translation(pivot) * DAffine3::from_mat3(matrix) * DAffine3::from_translation(-pivot)
 }
 
 fn pose_of(key: &ObjectKey) -> DAffine3 {

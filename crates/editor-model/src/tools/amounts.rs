@@ -8,7 +8,8 @@ use crate::session::ToolOptions;
 /// Dabs of a drag lie this share of the radius apart, which looks even.
 pub(super) const DAB_SHARE: f64 = 0.5;
 
-/// The falloffs (1 − r²)² of all dabs of a drag, [`DAB_SHARE`] apart, summed at one of its dabs: `1 + 2 (1 − ¼)²`.
+/// The falloffs (1 − r²)² of all dabs of a long drag, [`DAB_SHARE`] apart, summed at one of its dabs: `1 + 2 (1 − ¼)²`.
+/// A dab multiplies by 1 + (factor − 1) · falloff, about factor^falloff, so a drag multiplies by about factor^`OVERLAP`.
 const OVERLAP: f64 = 2.125;
 
 /// The factor of one dab. The dabs of a drag together give 1 + strength if it raises. If it lowers, they give the

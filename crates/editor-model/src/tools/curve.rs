@@ -4,7 +4,7 @@
 //! `Idle ─press on a handle─▶ Dragging`.
 
 use glam::{DVec2, DVec3};
-use impasto_scene::document::{Falloff, Guide, GuideMode, GuidePoint};
+use impasto_scene::document::{Falloff, Guide, GuideMode, GuidePoint, Object};
 
 use super::brush::{mirror_axes, radius_at};
 use super::{Paintable, Surroundings, ToolEvent, ToolOutput, waiting_words};
@@ -361,10 +361,9 @@ fn grip(at_px: DVec2, around: &Surroundings) -> Option<Grip> {
     let region = around.scene().regions.get(around.selected_region()?)?;
     let mut best: Option<(u8, f64, Grip)> = None;
     for (index, guide) in region.guides.iter().enumerate() {
-        let name = guide.object.as_deref().or(region.on.object())?;
-        let Some(object) = around.scene().objects.iter().position(|object| object.name == name) else {
-            continue;
-        };
+        let name = guide.object.as_deref().or(region.on.object());
+        let is_named = |object: &Object| Some(object.name.as_str()) == name;
+        let Some(object) = around.scene().objects.iter().position(is_named) else { continue };
         let line = line_px(guide, object, around);
         if line.len() != guide.points.len() {
             continue;
@@ -395,7 +394,8 @@ fn line_px(guide: &Guide, object: usize, around: &Surroundings) -> Vec<DVec2> {
 }
 
 fn facing(point: &GuidePoint, object: usize, around: &Surroundings) -> bool {
-    let at = around.world(object, DVec3::from(point.at));
-    let normal = around.pose(object).transform_vector3(DVec3::from(point.normal));
+    let now_from_rest = around.now_from_rest(object, DVec3::from(point.at));
+    let at = now_from_rest.transform_point3(DVec3::from(point.at));
+    let normal = now_from_rest.matrix3.inverse().transpose() * DVec3::from(point.normal);
     around.view.project(at).is_some_and(|at_px| around.view.ray(at_px).direction.dot(normal) < 0.0)
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use glam::DVec3;
 use impasto_editor_model::command::{Arrange, Command, Edit, SceneEdit, Touches};
 use impasto_editor_model::{Document, Item};
-use impasto_scene::document::{Direction, Object, Scene, Touch, TouchPoint};
+use impasto_scene::document::{Direction, Object, Scene, Touch, TouchPoint, Up};
 use impasto_scene::load::LoadOptions;
 use impasto_scene::motion::poses_at;
 use impasto_scene::new_scene::Ground;
@@ -50,6 +50,28 @@ fn touches_go_with_an_object_that_is_stretched_scaled_or_turned_upright() {
         let [found, turned] = touch_after(edit.clone());
         assert!((found - place).length() < 1e-5, "{edit:?}: at {found}, not {place}");
         assert!((turned - normal).length() < 1e-5, "{edit:?}: normal {turned}, not {normal}");
+    }
+}
+
+/// Whichever axis of its file was up: an uneven scale stays on the file's axes.
+#[test]
+fn a_body_that_is_turned_upright_keeps_its_shape() {
+    for (_, up) in Up::ALL {
+        let set = [("up", format!("{up:?}")), ("scale", "(2, 3, 5)".to_owned())];
+        let overrides = set.map(|(field, value)| (format!("objects.still.{field}"), value)).into();
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/touching_cubes.ron");
+        let options = LoadOptions { overrides, ..LoadOptions::default() };
+        let mut document = Document::open(&path, &options).expect("a shipped scene opens");
+        let shape = |document: &Document| {
+            let still = document.scene().objects.iter().find(|object| object.name == "still");
+            let still = still.expect("it is there");
+            let matrix = still.model_from_file();
+            (still.up, [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(DVec3::length))
+        };
+        let (_, lengths) = shape(&document);
+        document.apply(&Command::Arrange(Arrange::TurnUpright("still".to_owned()))).expect("it fits");
+        let upright = if up == Up::Y { Up::Z } else { Up::Y };
+        assert_eq!(shape(&document), (upright, lengths), "{up:?}");
     }
 }
 

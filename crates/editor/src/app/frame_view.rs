@@ -54,8 +54,9 @@ impl FrameView {
         }
     }
 
-    /// Shows the frame that is due. While frames play, its file may not be read yet. Then shows the latest earlier
-    /// frame that is read, or that is shown already.
+    /// Shows the frame that is due, or why it cannot be read. If its file is not read yet: while frames play, shows the
+    /// nearest frame before it that is read or is shown already (before the first comes the last); else leaves what is
+    /// shown.
     fn follow(&mut self, ui: &Ui, now_secs: f64) {
         let (at, count) = (self.frames.at(), self.frames.count());
         let most = if self.frames.is_playing() { count } else { 1 };

@@ -149,7 +149,9 @@ impl Mailbox {
     }
 
     pub(super) fn close(&self) {
-        lock(&self.orders).closed = true;
+        let mut orders = lock(&self.orders);
+        orders.closed = true;
+        // Under the lock: a thread that is about to wait for a later job would miss the notice otherwise.
         self.newest.store(u64::MAX, Ordering::Release);
         self.changed.notify_all();
     }

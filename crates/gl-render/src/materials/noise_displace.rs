@@ -241,7 +241,7 @@ impl<'a> Placed<'a> {
 /// Indices of the bodies to draw, in drawing order: the farthest centre first, except that a body inside another is
 /// drawn before that other. Fully transparent bodies are left out.
 fn farthest_first(frame: &Frame, bodies: &[DrawnBody<'_>]) -> Vec<usize> {
-    let shows = |body: &FrameBody| !body.hidden && layers(body).is_some_and(|layers| layers.opacity > 0.0);
+    let shows = |body: &FrameBody| body.shows() && is_coloured(body);
     let mut order: Vec<Placed<'_>> = bodies
         .iter()
         .enumerate()

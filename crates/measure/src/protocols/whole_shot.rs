@@ -36,7 +36,7 @@ struct Looked {
     covered: Plane,
 }
 
-/// Draws a frame twice: with strokes on a board, and as a plain render without strokes.
+/// Draws a frame in two ways: in its style on a smooth canvas ([`SceneVersion::Board`]), and as a plain render.
 fn looked_at(context: &mut MeasureContext<'_>, frame: f64) -> Result<Looked, MeasureError> {
     let drawn = context.drawn_once(SceneVersion::Board, frame, Rotation::On)?;
     let plain = context.plain_luma(&drawn.frame)?;
@@ -63,7 +63,8 @@ fn followed(
     Ok(places)
 }
 
-/// Draws every frame of the shot once and looks at each with its neighbours.
+/// Goes through the shot once. Compares each frame with the one before it (M16), and each that has two neighbours with
+/// both (M15 and M17).
 fn drawn_through(context: &mut MeasureContext<'_>) -> Result<WholeShot, MeasureError> {
     let timeline = &context.loaded.scene.timeline;
     let (first, last) = (timeline.first, timeline.last);

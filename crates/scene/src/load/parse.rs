@@ -6,8 +6,9 @@ use std::path::Path;
 use ron::error::{Position, SpannedError};
 use ron::extensions::Extensions;
 
+use super::field_words::what_goes_into;
 use super::source::{self, error_in};
-use crate::document::{LayerSettings, RotatingStrokes, STROKE_NUMBERS, Scene, Style, SumiE, SurfaceNoise};
+use crate::document::Scene;
 use crate::limits;
 use crate::locate::{Field, Inside, Located, Node};
 use crate::nearest::nearest;
@@ -361,99 +362,6 @@ fn one_of(found: &str, expected: &[&str]) -> String {
 
 fn did_you_mean(name: &str) -> String {
     format!("did you mean `{name}`?")
-}
-
-/// What a field holds, in words for a message.
-fn what_goes_into(field: &str) -> Option<&'static str> {
-    Some(match field {
-        "version" | "particles" | "seed" | "hold" | "layer_count" => "a whole number, as in 7",
-        "first" | "last" => "a whole frame number, as in 24",
-        "layer" => "a whole number, as in 1 or -1",
-        "size" => "two whole numbers, as in (1280, 720)",
-        "fps" | "frame" | "roll_deg" | "turn_deg" | "fov_y_deg" | "near" | "far" | "height" | "intensity"
-        | "gloss" | "radius" | "strength" | "by" | "width_px" | "length_px" | "opacity" | "period_secs" => {
-            A_NUMBER
-        }
-        "eye" | "target" | "position" | "translation" | "rotation_deg" | "at" | "normal" => {
-            "three numbers, as in (0, 1.5, -2)"
-        }
-        "reference" => "a frame or a view, as in Frame(0) or View(eye: (0, 1, 4), target: (0, 0, 0))",
-        "further_references" => "a list, as in [Frame(60), View(eye: (0, 1, -4), target: (0, 0, 0))]",
-        "guides" => "a list, as in [(points: [(at: (…), normal: (…)), …], radius: 0.2)]",
-        "amounts" => "a list, as in [(of: Width, dabs: [(at: (…), normal: (…), radius: 0.2, by: 1.5)])]",
-        "of" => "Width, Length, Density or Flatness",
-        "dabs" => "dabs, as in [(at: (0, 1, 0), normal: (0, 0, 1), radius: 0.2, by: 1.5)]",
-        "touches" => "a list, as in [(name: \"glint\", on: \"apple\", points: [(at: (…), normal: (…))])]",
-        "points" => "points of a surface, as in [(at: (0, 1, 0), normal: (0, 0, 1)), …]",
-        "view" => "an eye and a target, as in (eye: (0, 1, 4), target: (0, 0, 0))",
-        "seam" => "Hard or Soft(0.1)",
-        "sense" => "Lines or Arrows",
-        "falloff" => "Smooth, Linear or Flat",
-        "morph" => "a mesh such as \"meshes/late.obj\" for an object, a number from 0 to 1 for a key",
-        "scale" => "one number, or three as in (1, 2, 1)",
-        "background" | "color" | "ground" | "paper" | "ink" | "seal" | "tint" => {
-            "a colour, as in \"#b3262a\""
-        }
-        "name" | "mesh" | "group" | "parent" | "texture" | "preset" | "object" => {
-            "text in quotes, as in \"apple\""
-        }
-        "brush" => "a brush such as \"filbert\", a picture such as \"mark.png\", or a list of them",
-        "palette" => "a list of colours, as in [\"#b3262a\", \"#e3b62c\"]",
-        "layers" => "a list of layers, as in [(name: \"scumble\", coverage: 0)]",
-        "order" => "all layers from the lowest up, as in [\"underpainting\", \"body\", …]",
-        "edges" => "Clip, Overrun(3) or Free",
-        "canvas" => "Linen or Board",
-        "canvas_follows" | "paper_follows" => "Picture or Camera",
-        "mode" => "Comb or Smooth",
-        "unlit" | "underpainting" | "hidden" | "locked" | "take_away" => "true or false",
-        "keys" => "a list of keys, as in [(frame: 0, …), (frame: 24, …)]",
-        "objects" | "lights" | "regions" => "a list, as in [(name: \"apple\", …)]",
-        "timeline" => "frames and their rate, as in (fps: 24, first: 0, last: 119)",
-        "camera" => "a lens and keys, as in (keys: [(frame: 0, eye: (0, 1, 4), target: (0, 0, 0))])",
-        "lens" => "Perspective(fov_y_deg: 35) or Orthographic(height: 2)",
-        "strokes" => "stroke settings, as in (length_px: 78, width_px: 25)",
-        "noise_displace" => {
-            "noise of vertices and of the surface, as in (vertex: (scale: 0.1), surface: None)"
-        }
-        "vertex" => "noise that moves vertices, as in (value: (0.1, 0.1), scale: 0.1), or None",
-        "surface" => "noise that colours a surface, as in (layer_count: 4, tint: \"#ffb040\"), or None",
-        "value" | "tiling" | "tile_offset" => "two numbers, as in (0.1, 0.1)",
-        "space" => "World or Local",
-        "normals" => "Kept or Displaced",
-        "along" => "Channels or Normal",
-        "forward" => "Odd or Even",
-        "mix" => "Root or Mean",
-        "alpha" => "Texture or Grey",
-        "material" => "a colour or a texture, as in (color: \"#b3262a\")",
-        "style" => Style::EXAMPLES,
-        "rule" => "Painter or Source",
-        "drawing" => "Both, Wash or Strokes",
-        "light" => "Scene or Eye",
-        "tones" => "four tones from dark to light, as in (0.15, 0.45, 0.7, 0.95)",
-        "solver" => "Tangent, Horn or HornExact",
-        "ease" => "Step, Linear, Smooth, In, Out, Bounce or Curve((0.25, 0.1), (0.25, 1))",
-        "kind" => "Sun, Point, Spot or Ambient",
-        "up" => "Y, Z, X, NegX, NegY or NegZ",
-        "on" => {
-            "Everything, Object(\"apple\"), Collection(\"fruit\"), EachMaterial(\"wood\"), Group(\"apple\", \"leaf\"), Material(\"apple\", \"wood\"), Dabs(\"apple\", [(at: …, normal: …, radius: 0.1)]), Flood(\"apple\", (at: …, normal: …), 30) or Several(\"apple\", [Whole, Group(\"leaf\"), Dabs(…)])"
-        }
-        "direction" => {
-            "a direction: Auto, Angle(35), Crossing(-58, 4), Along((1, 0, 0)), Around((0, 1, 0)), Toward((0, 1, 0)), Curvature(Min) or Up in a region, (x, y, z) in a light"
-        }
-        _ => return is_number_of_a_table(field).then_some(A_NUMBER),
-    })
-}
-
-const A_NUMBER: &str = "one number, as in 2.5";
-
-/// Whether one of the document's tables has a number of this name.
-fn is_number_of_a_table(field: &str) -> bool {
-    let strokes = STROKE_NUMBERS.iter().map(|of| of.number.field);
-    let layers = LayerSettings::NUMBERS.iter().map(|of| of.number.field);
-    let styles = RotatingStrokes::numbers().map(|of| of.field);
-    let ink = SumiE::numbers().map(|of| of.field);
-    let noise = SurfaceNoise::numbers().map(|of| of.field);
-    strokes.chain(layers).chain(styles).chain(ink).chain(noise).any(|known| known == field)
 }
 
 fn lower_first(text: &str) -> String {

@@ -96,6 +96,20 @@ fn keying_one_of_two_loose_poses_leaves_the_other_loose() {
 }
 
 #[test]
+fn a_step_from_between_two_frames_goes_to_the_next_whole_one() {
+    let (mut editor, _) = animating(3.5);
+    act(&mut editor, Action::StepOn);
+    assert_eq!(editor.session.frame, 4.0);
+    act(&mut editor, Action::StepOn);
+    assert_eq!(editor.session.frame, 5.0);
+    editor.session.frame = 3.5;
+    act(&mut editor, Action::StepBack);
+    assert_eq!(editor.session.frame, 3.0);
+    act(&mut editor, Action::StepBack);
+    assert_eq!(editor.session.frame, 2.0);
+}
+
+#[test]
 fn an_unkeyed_pose_that_was_left_can_be_brought_back() {
     let (mut editor, name) = animating(60.0);
     editor.session.auto_key = false;

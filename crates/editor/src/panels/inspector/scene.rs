@@ -11,6 +11,7 @@ use super::number::Number;
 use super::parts::{head, note, row, section, seen};
 use super::{Asker, ground, ink, over_time, paint_layers, rotating_strokes, strokes};
 use crate::panels::Ask;
+use crate::panels::timeline::transport::FPS;
 use crate::theme::type_face;
 use crate::widgets::{self, Button, Tip};
 
@@ -81,7 +82,7 @@ fn time(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
     let rate = Number {
         unit: "fps",
         range: 1.0..=60.0,
-        limits: Some(0.001..=1000.0),
+        limits: Some(FPS),
         step: (1.0, 2),
         default: Some(24.0),
         ..Number::new("Rate", "Frames per second.")

@@ -183,7 +183,7 @@ pub(super) fn key_node(
     asks: &mut Vec<Ask>,
 ) {
     let hit = Rect::from_center_size(at, vec2(measure::HIT, measure::HIT));
-    let mut ui = ui.new_child(UiBuilder::new().max_rect(hit).accessibility_parent(list.id));
+    let ui = ui.new_child(UiBuilder::new().max_rect(hit).accessibility_parent(list.id));
     let response = ui.interact(hit, list.id.with(key.frame.to_bits()), Sense::hover());
     let label = format!("key at frame {}, {}", key.frame, ease_name(key.ease));
     response.widget_info(|| WidgetInfo::selected(Role::ListItem, true, selected, &label));
@@ -192,7 +192,6 @@ pub(super) fn key_node(
         let key = (lane.of.clone(), key.frame);
         asks.push(Ask::Timeline(TimelineEvent::Keys(KeysEvent::Select(key))));
     }
-    let _ = &mut ui;
 }
 
 fn mark(painter: &egui::Painter, at: Pos2, ease: Ease, colour: Color32) {

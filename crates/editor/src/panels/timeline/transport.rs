@@ -15,7 +15,7 @@ use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Button, FieldResponse, NumberField, Tip};
 
 /// The frames per second that can be typed.
-const FPS: std::ops::RangeInclusive<f64> = 0.001..=1e6;
+pub(in crate::panels) const FPS: std::ops::RangeInclusive<f64> = 0.001..=1e6;
 
 /// In a window narrower than this, in points, the bar leaves out the time and the shortcut of *Set key*, which are not
 /// controls.
