@@ -17,19 +17,8 @@ pub fn step<T>(name: &str, work: impl FnOnce() -> anyhow::Result<T>) -> anyhow::
 
 /// Runs a program in `root`, its output going where ours goes; fails unless it ends well.
 pub fn run(root: &Path, program: &str, arguments: &[&str]) -> anyhow::Result<()> {
-    run_with(root, program, arguments, &[])
-}
-
-/// As [`run`], with more environment variables.
-pub fn run_with(
-    root: &Path,
-    program: &str,
-    arguments: &[&str],
-    variables: &[(&str, &str)],
-) -> anyhow::Result<()> {
     let status = Command::new(program)
         .args(arguments)
-        .envs(variables.iter().copied())
         .current_dir(root)
         .status()
         .with_context(|| format!("`{program}` cannot be started"))?;

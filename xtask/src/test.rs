@@ -15,7 +15,7 @@ use times::Times;
 /// How many of the slowest tests are named.
 const SLOWEST: usize = 10;
 
-/// What is built and run: all targets that have tests. Examples are only compiled, by `ci`, and there are no doctests.
+/// What is built and run: all targets that have tests. Examples are checked by clippy, and there are no doctests.
 const TARGETS: [&str; 3] = ["--lib", "--bins", "--tests"];
 
 /// Installs what is missing, then runs every test of the workspace; `passed_on` goes to `cargo test`. Names the slowest

@@ -105,18 +105,18 @@ impl FormSize {
             )
             .collect();
         let smoothing_radius = (SMOOTHING_RADIUS * spacing).min(radius_of_neighbours(&samples));
-        let rough = Self::with(&samples, smoothing_radius);
+        let rough = Self::of_samples(&samples, smoothing_radius);
         let smooth: Vec<f32> =
             samples.par_iter().map(|sample| rough.at(sample.position, sample.normal).ln()).collect();
         for (sample, smooth) in samples.iter_mut().zip(smooth) {
             sample.size_ln = smooth;
         }
         let least_ln = samples.iter().fold(f32::INFINITY, |least, sample| least.min(sample.size_ln));
-        Self { least: least_ln.exp(), ..Self::with(&samples, smoothing_radius) }
+        Self { least: least_ln.exp(), ..Self::of_samples(&samples, smoothing_radius) }
     }
 
-    /// With these samples.
-    fn with(samples: &[Sample], smoothing_radius: f32) -> Self {
+    /// A field of samples whose sizes are known.
+    fn of_samples(samples: &[Sample], smoothing_radius: f32) -> Self {
         let buckets = samples.len().next_power_of_two();
         let mut in_bucket = vec![Vec::new(); buckets];
         for sample in samples {
@@ -171,7 +171,8 @@ impl Block {
                 block.positions[axis][lane] = sample.position[axis];
                 block.normals[axis][lane] = sample.normal[axis];
             }
-            block.sizes_ln[lane] = sample.size_ln;
+            // A size of 0 would make a sum of its whole block meaningless.
+            block.sizes_ln[lane] = sample.size_ln.max(f32::MIN_POSITIVE.ln());
         }
         block
     }
@@ -258,12 +259,14 @@ impl Axes {
 /// A cell's side, in smoothing radii.
 const CELL: f32 = 2.0;
 
+#[inline(always)]
 fn cell_of(at: Vec3, smoothing_radius: f32) -> [i32; 3] {
     // A cast saturates, so a far point has a cell too.
     (at / (CELL * smoothing_radius)).floor().to_array().map(|coordinate| coordinate as i32)
 }
 
 /// `buckets` is a power of two.
+#[inline(always)]
 fn bucket_of(cell: [i32; 3], buckets: usize) -> usize {
     let [x, y, z] = cell.map(|coordinate| coordinate as u32);
     hash::combine(hash::combine(x, y), z) as usize & (buckets - 1)
@@ -443,6 +446,40 @@ mod tests {
         assert!(places.len() > 2000 && (100..=160).contains(&mean), "{mean} near");
         let found = size.at(mesh.positions[0], mesh.normals[0]);
         assert!((0.001..10.0).contains(&found), "{found}");
+    }
+
+    /// The blocks give what a plain sum over all samples gives.
+    #[test]
+    fn blocks_leave_no_sample_out_and_take_none_twice() {
+        let mesh = ball(2.0);
+        let size = FormSize::of(&Surface::new(&mesh, |_| true), 7);
+        let samples: Vec<Sample> = size
+            .blocks
+            .iter()
+            .flat_map(|block| {
+                (0..LANES).map(|lane| Sample {
+                    position: Vec3::from_array(block.positions.map(|axis| axis[lane])),
+                    normal: Vec3::from_array(block.normals.map(|axis| axis[lane])),
+                    size_ln: block.sizes_ln[lane],
+                })
+            })
+            .filter(|sample| sample.position.is_finite())
+            .collect();
+        assert!(samples.len() > 2000);
+        for out in [Vec3::Y, Vec3::new(0.6, 0.5, -0.62).normalize(), Vec3::new(-0.1, -0.9, 0.3).normalize()] {
+            let at = out * 2.0;
+            let [mut sum, mut weights] = [0.0f64; 2];
+            for sample in &samples {
+                let near = 1.0
+                    - f64::from(at.distance_squared(sample.position))
+                        / f64::from(size.smoothing_radius).powi(2);
+                let weight = near.max(0.0).powi(3) * f64::from(out.dot(sample.normal)).max(1e-4);
+                sum += weight * f64::from(sample.size_ln);
+                weights += weight;
+            }
+            let (found, expected) = (f64::from(size.at(at, out)), (sum / weights).exp());
+            assert!((found / expected - 1.0).abs() < 1e-4, "{out}: {found}, not {expected}");
+        }
     }
 
     #[test]

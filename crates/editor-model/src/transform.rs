@@ -424,8 +424,8 @@ impl TransformDelta {
     }
 
     /// Where each point of the world goes, with turns and scalings about a pivot. The columns of `world_from_space` are
-    /// the axes of moves and turns. Factors apply along the world's axes: uneven ones, which commands on poses cannot
-    /// take, are for `Arrange::Stretch`.
+    /// the axes of the delta. (Commands on poses cannot take the matrix of uneven factors; `Arrange::Stretch` takes the
+    /// factors themselves.)
     pub fn world_from_world(&self, pivot: DVec3, world_from_space: DMat3) -> DAffine3 {
         let about_pivot = |linear: DMat3| DAffine3::from_mat3_translation(linear, pivot - linear * pivot);
         match *self {
@@ -434,7 +434,11 @@ impl TransformDelta {
                 let axis = (world_from_space * axis).normalize_or(DVec3::Y);
                 about_pivot(DMat3::from_quat(DQuat::from_axis_angle(axis, angle_rad)))
             }
-            Self::Scale(by) => about_pivot(DMat3::from_diagonal(by)),
+            // Exact: the same along all axes of any space.
+            Self::Scale(by) if by == DVec3::splat(by.x) => about_pivot(DMat3::from_diagonal(by)),
+            Self::Scale(by) => {
+                about_pivot(world_from_space * DMat3::from_diagonal(by) * world_from_space.transpose())
+            }
         }
     }
 }

@@ -36,8 +36,18 @@ const MARGIN: f64 = 1.1;
 /// Faces that cover the picture more often than this, one behind the other, give their object no more particles: nearly
 /// all of them are hidden, as in a heap of thousands of large triangles. Groups of one mesh that are objects of their
 /// own share this limit, but the limit of each is at least `LEAST_DEEP`.
-const DEEPEST: f64 = 6.0;
+const DEEPEST: f64 = 16.0;
 const LEAST_DEEP: f64 = 4.0;
+
+/// The deeper a heap, the more of its strokes hide each other. Beyond the limit above, the number of covers that count
+/// falls again, down to this.
+const DEEP_HEAP: f64 = 6.0;
+
+/// How much of its count an object gets whose faces cover the picture `cover` times, at most `deepest` of which count.
+fn share_of_deep(cover: f64, deepest: f64) -> f64 {
+    let counting = (deepest * deepest / cover).max(DEEP_HEAP.min(deepest));
+    if cover > deepest { counting / cover } else { 1.0 }
+}
 
 /// For each object, how many groups of its mesh are objects, itself included; 1 where it is the whole mesh.
 pub(crate) fn groups_of_meshes(scene: &Scene) -> Vec<usize> {
@@ -118,8 +128,7 @@ pub(crate) struct Found<const LAYERS: usize> {
 /// How many particles each layer needs on the whole surface. They are enough that, in every view, nine tenths of the
 /// object's area in the picture have all the strokes that are wanted there. `wanted_per_px` gives the strokes per pixel
 /// wanted on a triangle, from its index, a point of it and its normal. `positions_at` gives the vertices' positions in
-/// a shape, or `None` at rest. Faces that cover the picture more than `deepest` times need no more particles than if
-/// they covered it that often.
+/// a shape, or `None` at rest. Of the faces' covers of the picture at most `deepest` count, and fewer in deeper heaps.
 pub(crate) fn find<const LAYERS: usize>(
     surface: &Surface<'_>,
     sightings: &[Sighting],
@@ -157,7 +166,7 @@ pub(crate) fn find<const LAYERS: usize>(
     let mesh = surface.mesh();
     let needed_in = |sighting: &Sighting| {
         let moved = positions_at(&sighting.shape);
-        needed_per_area(&faces, deepest / stride as f64, sighting, |face| match &moved {
+        needed_per_area(&faces, (stride as f64, deepest), sighting, |face| match &moved {
             Some(positions) => face.moved(mesh, positions),
             None => (face.center, face.normal),
         })
@@ -242,11 +251,11 @@ fn middles([a, b, c]: [DVec3; 3], cuts: usize) -> impl Iterator<Item = DVec3> {
     })
 }
 
-/// Particles needed per unit of surface in one view, by layer, and how often faces cover the box round them. Faces that
-/// cover the picture more than `deepest` times need no more particles than if they covered it that often.
+/// Particles needed per unit of surface in one view, by layer, and how often the given faces cover the box round them.
+/// These are one of `stride` faces of the object. At most `deepest` covers of the picture count.
 fn needed_per_area<const LAYERS: usize>(
     faces: &[CountedFace<LAYERS>],
-    deepest: f64,
+    (stride, deepest): (f64, f64),
     sighting: &Sighting,
     placed: impl Fn(&CountedFace<LAYERS>) -> (DVec3, DVec3),
 ) -> ([f64; LAYERS], f64) {
@@ -282,8 +291,9 @@ fn needed_per_area<const LAYERS: usize>(
                 (px_per_area * face.wanted_per_px[layer], px_per_area * face.area)
             }));
             let total: f64 = needed.iter().map(|&(_, shown)| shown).sum();
-            let most = deepest * 4.0 * sighting.half_size_px.element_product();
-            reached(&mut needed, 0.9 * total).unwrap_or(0.0) * (most / total).min(1.0)
+            let picture = 4.0 * sighting.half_size_px.element_product();
+            let share = share_of_deep(stride * total / picture, deepest);
+            reached(&mut needed, 0.9 * total).unwrap_or(0.0) * share
         });
     (needed_by_layer, deepness)
 }
@@ -396,8 +406,8 @@ mod tests {
             assert!((found.deepness / f64::from(floors) - 1.0).abs() < 0.3, "{floors}: {}", found.deepness);
             found.needed[0]
         };
-        let [one, some, many, more] = [1, 5, 64, 128].map(counted);
-        assert!((some / one / 5.0 - 1.0).abs() < 0.1, "5 floors need {some}, one needs {one}");
+        let [one, some, many, more] = [1, 8, 64, 128].map(counted);
+        assert!((some / one / 8.0 - 1.0).abs() < 0.1, "8 floors need {some}, one needs {one}");
         assert!(many < 9.0 * one && more < 1.2 * many, "1 floor needs {one}, 64 {many}, 128 {more}");
     }
 
@@ -417,7 +427,7 @@ mod tests {
         ];
         let scene = Scene { objects, ..impasto_scene::new_scene::empty() };
         assert_eq!(groups_of_meshes(&scene), [2, 2, 2, 1, 1]);
-        assert_eq!([1, 2, 100].map(deepest), [DEEPEST, LEAST_DEEP, LEAST_DEEP]);
+        assert_eq!([1, 2, 3, 100].map(deepest), [DEEPEST, DEEPEST / 2.0, DEEPEST / 3.0, LEAST_DEEP]);
     }
 
     #[test]

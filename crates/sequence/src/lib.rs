@@ -6,8 +6,10 @@
 //!                                           └─▶ on the calling thread: each frame in its turn ─▶ caller, or its file
 //! ```
 //!
-//! The bytes do not depend on how many painters there are.
+//! A graphics card draws frames one after the other anyway, so there one painter draws, and other threads encode what it
+//! has drawn (`finished_beside` in place of `in_order`). The bytes do not depend on how many threads there are.
 
+mod beside;
 mod exr;
 mod in_order;
 mod memory;
@@ -23,9 +25,10 @@ use impasto_frame_files::{FrameList, is_whole};
 use impasto_gl_render::Renderer;
 use impasto_scene::whole_file;
 
+use beside::{Steps, finished_beside};
 use in_order::{Workers, in_order};
 use memory::picture_bytes;
-use painter::Painter;
+use painter::{Painter, encoded};
 use shot::{Job, Painted};
 
 pub use memory::fits_in_memory;
@@ -34,6 +37,9 @@ pub use state::state;
 
 /// More painters than this would only wait for each other in the driver.
 const MAX_PAINTERS: u64 = 4;
+
+/// With one painter, at most this many frames are encoded beside the one that is drawn.
+const MAX_BESIDE: u64 = 7;
 
 /// Opening a driver and compiling the shaders once more takes about as long as this many frames.
 const FRAMES_PER_PAINTER: u64 = 4;
@@ -166,13 +172,21 @@ impl Sequence {
             (!stopped).then(|| Job { frame_number, must_draw: must_draw(frame_number), next })
         });
         let further = self.further_painters(renderer, frames.count());
+        let most_beside = self.most_beside();
         let mut painter = Painter::new(self, renderer, further == 0);
-        let workers = Workers {
-            own: Box::new(move |job| painter.paint(job, stop)),
-            further,
-            open: &|| painter::further(self, &driver, stop),
+        let done = if further == 0 {
+            let work = move |job| painter.draw(job, stop);
+            let finish = |drawn: Result<_, FrameError>| drawn.and_then(encoded);
+            finished_beside(jobs, Steps { work, finish, most_beside }, take_in)
+        } else {
+            let workers = Workers {
+                own: Box::new(move |job| painter.paint(job, stop)),
+                further,
+                open: &|| painter::further(self, &driver, stop),
+            };
+            in_order(jobs, workers, take_in)
         };
-        match in_order(jobs, workers, take_in) {
+        match done {
             Ok(()) if stopped => Ok(Ending::Stopped),
             Ok(()) => Ok(Ending::Done(self.painting.fault_words())),
             Err(Early::Stopped) => Ok(Ending::Stopped),
@@ -180,9 +194,21 @@ impl Sequence {
         }
     }
 
-    /// How many painters beside the one on this thread are worth a renderer of their own.
-    fn further_painters(&self, renderer: &Renderer, frames: u64) -> usize {
+    /// How many frames may be encoded beside the one that is drawn.
+    fn most_beside(&self) -> usize {
         if self.timed {
+            return 0;
+        }
+        // The picture, and about as much again while it is encoded.
+        let bytes = 8 * self.options.size_px.map(u64::from).iter().product::<u64>();
+        (rayon::current_num_threads() as u64 - 1).min(MAX_BESIDE).min(MAX_PICTURE_BYTES / bytes.max(1))
+            as usize
+    }
+
+    /// How many painters beside the one on this thread are worth a renderer of their own. On a graphics card none is:
+    /// contexts wait for each other there.
+    fn further_painters(&self, renderer: &Renderer, frames: u64) -> usize {
+        if self.timed || !renderer.report().is_software() {
             return 0;
         }
         let bytes = picture_bytes(self.painting.scene(), self.wanted, self.options.size_px, renderer);

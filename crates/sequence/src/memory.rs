@@ -40,7 +40,7 @@ pub fn fits_in_memory(
 ) -> Result<(), String> {
     let takes = picture_bytes(scene, wanted, size_px, renderer);
     let [width, height] = size_px;
-    let is_software = ["llvmpipe", "softpipe"].iter().any(|name| renderer.report().renderer.contains(name));
+    let is_software = renderer.report().is_software();
     match memory::available_bytes() {
         Some(left) if is_software && takes > left => Err(format!(
             "a picture of {width}x{height} takes about {} MiB while it is drawn, and {} MiB are left",

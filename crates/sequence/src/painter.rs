@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use impasto_core::color::srgb_from_linear;
-use impasto_frame_files::picture_file::{self, DeepPixels, Pixels};
+use impasto_frame_files::picture_file::{self, DeepPixels, Pixels, Provenance};
 use impasto_gl_render::context::{OpenOptions, open};
 use impasto_gl_render::{Keeps, PassTime, Picture, Renderer};
 use impasto_painting::Frame;
@@ -21,6 +21,29 @@ pub(crate) struct Painter<'a> {
     /// Whether it draws all the frames.
     is_alone: bool,
     renderer: &'a mut Renderer,
+}
+
+/// A frame that was drawn. What is left to do needs no renderer.
+pub(crate) struct Unencoded {
+    drawn: Drawn,
+    /// What to note in its PNG file of 8 bits; `None` if there is to be none.
+    png: Option<Provenance>,
+    is_picture_wanted: bool,
+}
+
+/// Makes what is left to make of a frame.
+pub(crate) fn encoded(unencoded: Option<Unencoded>) -> Painted {
+    let Some(Unencoded { mut drawn, png, is_picture_wanted }) = unencoded else { return Ok(None) };
+    let begun = Instant::now();
+    if let (Some(provenance), Some(Picture { size_px, rgba8 })) = (png, &drawn.picture) {
+        let mut bytes = Vec::new();
+        picture_file::encode(&mut bytes, Pixels { size_px: *size_px, rgba8 }, &provenance)
+            .map_err(FrameError::Encode)?;
+        drawn.files.insert(0, ("png", bytes));
+    }
+    drawn.picture = drawn.picture.filter(|_| is_picture_wanted);
+    drawn.seconds += begun.elapsed().as_secs_f64();
+    Ok(Some(drawn))
 }
 
 /// Makes the worker of one more thread; call this on that thread. `None` where it cannot have a renderer like the first
@@ -47,8 +70,18 @@ impl<'a> Painter<'a> {
         Self { sequence, is_alone, renderer }
     }
 
-    /// Draws the frame of a job. `None` for a frame that need not be drawn, or that is given up because `stop` says so.
+    /// Draws the frame of a job and makes its files. `None` for a frame that need not be drawn, or that is given up
+    /// because `stop` says so.
     pub(crate) fn paint(&mut self, job: Job, stop: &dyn Fn() -> bool) -> Painted {
+        self.draw(job, stop).and_then(encoded)
+    }
+
+    /// As [`Painter::paint`], but leaves what needs no renderer any more to [`encoded`].
+    pub(crate) fn draw(
+        &mut self,
+        job: Job,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Option<Unencoded>, FrameError> {
         if !job.must_draw {
             return Ok(None);
         }
@@ -76,42 +109,32 @@ impl<'a> Painter<'a> {
                 None => return Ok(None),
             }
         };
-        let files = self.files(job, &frame, &picture)?;
+        let provenance = sequence.provenance(&job.frame_number.to_string(), self.renderer);
+        let files = self.read_files(job, (&frame, picture.size_px), &provenance)?;
+        let painted_strokes = sequence.counted.then(|| self.painted_strokes());
+        let strokes = frame.strokes.len();
         let seconds = begun.elapsed().as_secs_f64();
-        Ok(Some(Drawn {
-            picture: sequence.wanted.picture.then_some(picture),
-            files,
-            strokes: frame.strokes.len(),
-            painted_strokes: sequence.counted.then(|| self.painted_strokes()),
-            cost,
-            seconds,
+        Ok(Some(Unencoded {
+            png: (sequence.wanted.png == Some(PngDepth::Eight)).then_some(provenance),
+            is_picture_wanted: sequence.wanted.picture,
+            drawn: Drawn { picture: Some(picture), files, strokes, painted_strokes, cost, seconds },
         }))
     }
 
-    /// The files of the frame that was drawn last.
-    fn files(
+    /// Those files of the frame that was drawn last which hold more than its picture, and so need the renderer.
+    fn read_files(
         &mut self,
         job: Job,
-        frame: &Frame,
-        picture: &Picture,
+        (frame, size_px): (&Frame, [u32; 2]),
+        provenance: &Provenance,
     ) -> Result<Vec<(&'static str, Vec<u8>)>, FrameError> {
         let sequence = self.sequence;
-        let provenance = sequence.provenance(&job.frame_number.to_string(), self.renderer);
         let mut files = Vec::new();
-        if let Some(depth) = sequence.wanted.png {
+        if sequence.wanted.png == Some(PngDepth::Sixteen) {
+            let rgba16 = deep(&self.renderer.read_linear(), frame.exposure);
             let mut png = Vec::new();
-            match depth {
-                PngDepth::Eight => {
-                    let pixels = Pixels { size_px: picture.size_px, rgba8: &picture.rgba8 };
-                    picture_file::encode(&mut png, pixels, &provenance)
-                }
-                PngDepth::Sixteen => {
-                    let rgba16 = deep(&self.renderer.read_linear(), frame.exposure);
-                    let pixels = DeepPixels { size_px: picture.size_px, rgba16: &rgba16 };
-                    picture_file::encode_deep(&mut png, pixels, &provenance)
-                }
-            }
-            .map_err(FrameError::Encode)?;
+            picture_file::encode_deep(&mut png, DeepPixels { size_px, rgba16: &rgba16 }, provenance)
+                .map_err(FrameError::Encode)?;
             files.push(("png", png));
         }
         if let Some(wanted) = sequence.wanted.exr {
@@ -122,7 +145,7 @@ impl<'a> Painter<'a> {
                 options: &sequence.options,
                 wanted,
             };
-            files.push(("exr", exr::encode(self.renderer, &drawn, &provenance, sequence.wanted.packing)?));
+            files.push(("exr", exr::encode(self.renderer, &drawn, provenance, sequence.wanted.packing)?));
         }
         Ok(files)
     }

@@ -83,8 +83,7 @@ fn extreme_but_allowed_values_give_a_picture() {
     }
 }
 
-/// The plain render leaves it out, so nothing else may see it either: edges behind it are as sharp, and motion is that of
-/// what shows.
+/// The plain render leaves it out, so paint may not see it either: edges behind it are as sharp.
 #[test]
 fn a_wholly_transparent_body_is_as_if_hidden() {
     let painted = |field: &str, value: &str| {

@@ -280,7 +280,7 @@ fn tube(chance: &mut Chance) -> Body {
     Body { points, faces: quads(steps, sides, sides) }
 }
 
-/// A cloud of triangles, of which a few points at most stay behind when the rest moves far away.
+/// A cloud of triangles, of which a part stays behind when the rest moves far away.
 fn clusters(chance: &mut Chance) -> Body {
     let mut body = soup(chance);
     let gap = chance.of(&[10.0, 1e4, 1e8]);

@@ -202,11 +202,14 @@ impl Arrange {
                 Ok(Done::new(format!("{capital}{words}")))
             }
             Self::SetLens(lens) => {
-                let widths = |lens: &Lens| match lens {
+                // What the picture holds: an angle or a height.
+                let holds = |lens: &Lens| match lens {
                     Lens::Perspective { fov_y_deg, .. } => (Some(*fov_y_deg), None),
                     Lens::Orthographic { height, .. } => (None, Some(*height)),
                 };
-                let depths_alone = *lens != scene.camera.lens && widths(&scene.camera.lens) == widths(lens);
+                let old = &scene.camera.lens;
+                let depths_alone = lens != old && holds(old) == holds(lens);
+                let is_of_a_kind = std::mem::discriminant(lens) == std::mem::discriminant(old);
                 scene.camera.lens = lens.clone();
                 // A field of view in a key would hide the one that was just set.
                 for key in scene.camera.keys.iter_mut().filter(|_| !depths_alone) {
@@ -214,6 +217,7 @@ impl Arrange {
                 }
                 Ok(Done::new(match lens {
                     _ if depths_alone => "Set near and far",
+                    _ if !is_of_a_kind => "Set projection",
                     Lens::Perspective { .. } => "Set field of view",
                     Lens::Orthographic { .. } => "Set view height",
                 }))

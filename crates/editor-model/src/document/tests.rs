@@ -401,4 +401,6 @@ fn near_and_far_leave_keyed_fields_of_view_and_a_field_of_view_clears_them() {
     };
     assert_eq!(said(3.0, 0.1), "Set view height");
     assert_eq!(said(2.0, 0.2), "Set near and far");
+    let perspective = Command::Arrange(Arrange::SetLens(lens(40.0, 0.1)));
+    assert_eq!(perspective.edit(&mut scene.clone(), document.loaded()).unwrap().text, "Set projection");
 }

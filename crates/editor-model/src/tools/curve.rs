@@ -3,7 +3,7 @@
 //! `Idle ─press─▶ Drawing ─press─▶ one more point ─Enter, double press, press on the last point─▶ one guide`;
 //! `Idle ─press on a handle─▶ Dragging`.
 
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 use impasto_scene::document::{Falloff, Guide, GuideMode, GuidePoint, Object};
 
 use super::brush::{mirror_axes, radius_at};
@@ -396,6 +396,9 @@ fn line_px(guide: &Guide, object: usize, around: &Surroundings) -> Vec<DVec2> {
 fn facing(point: &GuidePoint, object: usize, around: &Surroundings) -> bool {
     let now_from_rest = around.now_from_rest(object, DVec3::from(point.at));
     let at = now_from_rest.transform_point3(DVec3::from(point.at));
-    let normal = now_from_rest.matrix3.inverse().transpose() * DVec3::from(point.normal);
+    // By cofactors, which a matrix that flattens the body has too.
+    let DMat3 { x_axis, y_axis, z_axis } = now_from_rest.matrix3;
+    let cofactors = DMat3::from_cols(y_axis.cross(z_axis), z_axis.cross(x_axis), x_axis.cross(y_axis));
+    let normal = cofactors * DVec3::from(point.normal);
     around.view.project(at).is_some_and(|at_px| around.view.ray(at_px).direction.dot(normal) < 0.0)
 }

@@ -98,6 +98,13 @@ pub struct ContextReport {
     pub tried: Vec<FailedAttempt>,
 }
 
+impl ContextReport {
+    /// Whether the processor draws, by Mesa's drivers, and no graphics card.
+    pub fn is_software(&self) -> bool {
+        ["llvmpipe", "softpipe"].iter().any(|name| self.renderer.contains(name))
+    }
+}
+
 impl fmt::Display for ContextReport {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(formatter, "{} ({}): {}, OpenGL {}", self.driver, self.way, self.renderer, self.version)?;

@@ -263,7 +263,7 @@ fn draw_bodies(
     gpu.begin_pass(pass, DrawState { depth_test: true, clear: Some([1.0; 4]), ..DrawState::default() });
     let view = &input.frame.view;
     for DrawnBody { body, mesh, array } in input.bodies {
-        if body.hidden || body.is_backdrop {
+        if !body.shows() || body.is_backdrop {
             continue;
         }
         for part in &mesh.parts {

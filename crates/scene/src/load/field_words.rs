@@ -5,13 +5,15 @@ use crate::document::{LayerSettings, RotatingStrokes, STROKE_NUMBERS, Style, Sum
 /// What a field holds, in words for a message.
 pub(super) fn what_goes_into(field: &str) -> Option<&'static str> {
     Some(match field {
-        "version" | "particles" | "seed" | "hold" | "layer_count" | "samples" => "a whole number, as in 7",
+        "version" => "the whole number 1",
+        "particles" | "seed" | "hold" | "layer_count" => "a whole number, as in 7",
+        "samples" => "a whole number, as in 2",
         "first" | "last" => "a whole frame number, as in 24",
         "layer" => "a whole number, as in 1 or -1",
         "size" => "two whole numbers for a picture, as in (1280, 720), or one number for strokes, as in 1.5",
         "fps" | "frame" | "roll_deg" | "turn_deg" | "fov_y_deg" | "near" | "far" | "height" | "intensity"
         | "gloss" | "radius" | "strength" | "by" | "width_px" | "length_px" | "opacity" | "period_secs"
-        | "exposure" | "cone_deg" | "palette_mix" => A_NUMBER,
+        | "exposure" | "palette_mix" => A_NUMBER,
         "eye" | "target" | "position" | "translation" | "rotation_deg" | "at" | "normal" | "to_light" => {
             "three numbers, as in (0, 1.5, -2)"
         }
@@ -59,7 +61,7 @@ pub(super) fn what_goes_into(field: &str) -> Option<&'static str> {
         }
         "vertex" => "noise that moves vertices, as in (value: (0.1, 0.1), scale: 0.1), or None",
         "surface" => "noise that colours a surface, as in (layer_count: 4, tint: \"#ffb040\"), or None",
-        "value" | "tiling" | "tile_offset" => "two numbers, as in (0.1, 0.1)",
+        "value" | "tiling" | "tile_offset" | "cone_deg" => "two numbers, as in (0.1, 0.1)",
         "space" => "World or Local",
         "normals" => "Kept or Displaced",
         "along" => "Channels or Normal",
@@ -77,7 +79,7 @@ pub(super) fn what_goes_into(field: &str) -> Option<&'static str> {
         "kind" => "Sun, Point, Spot or Ambient",
         "up" => "Y, Z, X, NegX, NegY or NegZ",
         "on" => {
-            "Everything, Object(\"apple\"), Collection(\"fruit\"), EachMaterial(\"wood\"), Group(\"apple\", \"leaf\"), Material(\"apple\", \"wood\"), Dabs(\"apple\", [(at: …, normal: …, radius: 0.1)]), Flood(\"apple\", (at: …, normal: …), 30) or Several(\"apple\", [Whole, Group(\"leaf\"), Dabs(…)])"
+            "for a touch the name of an object, for a region Everything, Object(\"apple\"), Collection(\"fruit\"), EachMaterial(\"wood\"), Group(\"apple\", \"leaf\"), Material(\"apple\", \"wood\"), Dabs(\"apple\", [(at: …, normal: …, radius: 0.1)]), Flood(\"apple\", (at: …, normal: …), 30) or Several(\"apple\", [Whole, Group(\"leaf\"), Dabs(…)])"
         }
         "direction" => {
             "a direction: Auto, Angle(35), Crossing(-58, 4), Along((1, 0, 0)), Around((0, 1, 0)), Toward((0, 1, 0)), Curvature(Min) or Up in a region, (x, y, z) in a light"
@@ -100,25 +102,43 @@ fn is_number_of_a_table(field: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::{BTreeMap, BTreeSet};
+
     use super::*;
 
-    /// All fields that the page of the file format has a row for.
+    /// All fields that the page of the file format has a row for. Where it says what they take, in every table alike, the
+    /// words say the same.
     #[test]
     fn every_field_has_words() {
         let page = include_str!("../../../../docs/scene_file.md");
         let mut in_fields = false;
-        let mut fields = Vec::new();
+        let mut fields: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
         for line in page.lines() {
             let cells: Vec<&str> = line.split('|').map(str::trim).collect();
             match cells[..] {
                 ["", "field", ..] => in_fields = true,
-                ["", cell, ..] if in_fields && cell.starts_with('`') => fields.push(cell.trim_matches('`')),
+                ["", cell, takes, ..] if in_fields && cell.starts_with('`') => {
+                    fields.entry(cell.trim_matches('`')).or_default().insert(takes);
+                }
                 ["", ..] => {}
                 _ => in_fields = false,
             }
         }
-        assert!(fields.len() > 150, "{fields:?}");
-        let without: Vec<&&str> = fields.iter().filter(|field| what_goes_into(field).is_none()).collect();
-        assert!(without.is_empty(), "{without:?}");
+        assert!(fields.len() > 120, "{fields:?}");
+        for (field, takes) in &fields {
+            let words = what_goes_into(field).unwrap_or_else(|| panic!("{field} has no words"));
+            let of_one = takes.first().filter(|_| takes.len() == 1).copied();
+            let part = match of_one {
+                Some("(x, y)" | "`(x, y)`") => "two",
+                Some("(x, y, z)" | "`(x, y, z)`") => "three",
+                Some("a whole number") => "whole",
+                Some("a number") => "number",
+                Some("a colour") => "colour",
+                Some("text") => "quotes",
+                Some("`true` or `false`") => "true or false",
+                _ => continue,
+            };
+            assert!(words.contains(part), "{field} takes {takes:?}; the words: {words}");
+        }
     }
 }
