@@ -41,6 +41,10 @@ const MAX_PAINTERS: u64 = 4;
 /// With one painter, at most this many frames are encoded beside the one that is drawn.
 const MAX_BESIDE: u64 = 7;
 
+/// The most memory that pictures which are encoded beside may take with a software driver, in bytes: it draws in the same
+/// memory, and [`fits_in_memory`] counts one picture.
+const MAX_BESIDE_BYTES: u64 = 64 << 20;
+
 /// Opening a driver and compiling the shaders once more takes about as long as this many frames.
 const FRAMES_PER_PAINTER: u64 = 4;
 
@@ -172,7 +176,7 @@ impl Sequence {
             (!stopped).then(|| Job { frame_number, must_draw: must_draw(frame_number), next })
         });
         let further = self.further_painters(renderer, frames.count());
-        let most_beside = self.most_beside();
+        let most_beside = self.most_beside(renderer);
         let mut painter = Painter::new(self, renderer, further == 0);
         let done = if further == 0 {
             let work = move |job| painter.draw(job, stop);
@@ -195,14 +199,15 @@ impl Sequence {
     }
 
     /// How many frames may be encoded beside the one that is drawn.
-    fn most_beside(&self) -> usize {
+    fn most_beside(&self, renderer: &Renderer) -> usize {
         if self.timed {
             return 0;
         }
+        let most_bytes = if renderer.report().is_software() { MAX_BESIDE_BYTES } else { MAX_PICTURE_BYTES };
         // The picture, and about as much again while it is encoded.
         let bytes = 8 * self.options.size_px.map(u64::from).iter().product::<u64>();
-        (rayon::current_num_threads() as u64 - 1).min(MAX_BESIDE).min(MAX_PICTURE_BYTES / bytes.max(1))
-            as usize
+        let other_threads = rayon::current_num_threads() as u64 - 1;
+        other_threads.min(MAX_BESIDE).min(most_bytes / bytes.max(1)) as usize
     }
 
     /// How many painters beside the one on this thread are worth a renderer of their own. On a graphics card none is:

@@ -125,6 +125,7 @@ mod tests {
             }
         }
         assert!(fields.len() > 120, "{fields:?}");
+        let mut compared = 0;
         for (field, takes) in &fields {
             let words = what_goes_into(field).unwrap_or_else(|| panic!("{field} has no words"));
             let of_one = takes.first().filter(|_| takes.len() == 1).copied();
@@ -132,13 +133,20 @@ mod tests {
                 Some("(x, y)" | "`(x, y)`") => "two",
                 Some("(x, y, z)" | "`(x, y, z)`") => "three",
                 Some("a whole number") => "whole",
-                Some("a number") => "number",
+                Some(of) if of.starts_with("a number") => "number",
+                Some(of) if of.starts_with("a list") => "[",
                 Some("a colour") => "colour",
                 Some("text") => "quotes",
                 Some("`true` or `false`") => "true or false",
+                // The first name of a choice.
+                Some(of) if of.starts_with('`') && !of.starts_with("`(") => {
+                    of.split('`').nth(1).unwrap_or_default()
+                }
                 _ => continue,
             };
             assert!(words.contains(part), "{field} takes {takes:?}; the words: {words}");
+            compared += 1;
         }
+        assert!(compared > 80, "only {compared} of {} were compared", fields.len());
     }
 }
