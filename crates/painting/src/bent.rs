@@ -57,6 +57,11 @@ impl BodySurface {
         self.bending.bend.is_some() || self.bending.cache.is_some()
     }
 
+    /// Whether a point cache moves its vertices.
+    pub(crate) fn has_cache(&self) -> bool {
+        self.bending.cache.is_some()
+    }
+
     /// The surface in a shape; `None` at rest.
     pub fn bent(self: &Arc<Self>, shape: &BodyShape) -> Option<Arc<Bent>> {
         let Strained { vertices, gradients } = (!self.is_at_rest(shape)).then(|| self.strained(shape))?;

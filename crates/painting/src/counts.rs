@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DVec3, Mat3, Vec3};
 use impasto_core::TriangleMesh;
 use impasto_core::sampling::{Needed, Surface};
 use impasto_scene::document::Solver;
@@ -43,9 +43,8 @@ pub(crate) struct CountInputs {
     /// The factor, at least 1, by which painted amounts raise the counts.
     more_wanted: f32,
     paper: bool,
-    /// Whether particles may be made only where views need them: the body stays at rest, and a stroke's size and
-    /// presence follow from its ordinal and the view.
-    is_by_view: bool,
+    /// Whether particles may be left out.
+    unneeded: Unneeded,
 }
 
 impl PartialEq for CountInputs {
@@ -53,7 +52,7 @@ impl PartialEq for CountInputs {
         Arc::ptr_eq(&self.surface, &other.surface)
             && (self.left_out, self.least, self.deepest) == (other.left_out, other.least, other.deepest)
             && (self.stated, self.more_wanted, self.paper) == (other.stated, other.more_wanted, other.paper)
-            && self.is_by_view == other.is_by_view
+            && self.unneeded == other.unneeded
             && self.layers == other.layers
             && self.fits == other.fits
             && self.caps == other.caps
@@ -97,16 +96,7 @@ impl CountInputs {
             stated: context.scene.objects[object.index].particles,
             more_wanted: object.amounts.more_wanted(),
             paper: context.paper,
-            is_by_view: {
-                let follows = |rule: &u16| context.rules[usize::from(*rule)].strokes.size_follow > 0.0;
-                let shapes = context.shapes.iter().map(|shapes| &shapes[object.index]);
-                let rests = |shape: &BodyShape| shape.noise.is_none() && surface.is_at_rest(shape);
-                context.solver == Solver::Tangent
-                    && !context.paper
-                    && !object.used.iter().any(follows)
-                    && !surface.bends()
-                    && shapes.clone().all(rests)
-            },
+            unneeded: Unneeded::of(context, object, &surface),
             surface,
         }
     }
@@ -137,10 +127,34 @@ impl CountInputs {
             None => found[kind],
         });
         let may_depend_on_views = std::array::from_fn(|kind| {
-            let is_fixed = is_stated(kind).is_some() || self.left_out[kind] || !self.is_by_view;
-            !is_fixed && (is_cut || needed[kind] * f64::from(self.more_wanted) > LEAST_ON_WHOLE)
+            let may_be_more = match self.unneeded {
+                Unneeded::None => false,
+                Unneeded::OfMoving { .. } => counts[kind] as f64 > LEAST_ON_WHOLE,
+                Unneeded::AtRest => is_cut || needed[kind] * f64::from(self.more_wanted) > LEAST_ON_WHOLE,
+            };
+            may_be_more && is_stated(kind).is_none() && !self.left_out[kind]
         });
         Counted { counts, may_depend_on_views, more_wanted: f64::from(self.more_wanted), deepness }
+    }
+
+    /// Whether particles may be left out.
+    pub(crate) fn unneeded(&self) -> Unneeded {
+        self.unneeded
+    }
+
+    /// The vertices in a shape; for each, an upper bound on how many times the surface round it has grown.
+    pub(crate) fn grown_at(&self, shape: &BodyShape) -> (Vec<Vec3>, Vec<f32>) {
+        let positions = self.surface.positions_at(shape);
+        if self.surface.is_at_rest(shape) {
+            let grown = vec![1.0; positions.len()];
+            return (positions, grown);
+        }
+        // With F = [a b n], an area grows |a × b| times, which is at most (|a|² + |b|²)/2. This also holds for F blended
+        // between vertices, because the root of this bound is convex.
+        let most =
+            |gradient: &Mat3| 0.5 * gradient.to_cols_array().iter().map(|entry| entry * entry).sum::<f32>();
+        let grown = self.surface.gradients().at(&positions).iter().map(most).collect();
+        (positions, grown)
     }
 
     /// Whether nothing shows through a triangle: no texture cuts holes into it.
@@ -188,6 +202,41 @@ impl CountInputs {
             }
             std::array::from_fn(|kind| densest[kind] * most_wanted(LayerKind::ALL[kind]))
         }
+    }
+}
+
+/// Whether particles of a body may be left out where no view needs them. A stroke's size and presence must follow from
+/// its ordinal and the view.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Unneeded {
+    /// They may not.
+    None,
+    /// They may; the body stays at rest.
+    AtRest,
+    /// They may; the body bends, or noise moves its vertices.
+    OfMoving {
+        /// How far noise moves a vertex at most, model units.
+        noise: f64,
+    },
+}
+
+impl Unneeded {
+    fn of(context: &Context<'_>, object: ObjectInputs<'_>, surface: &BodySurface) -> Self {
+        let follows = |rule: &u16| context.rules[usize::from(*rule)].strokes.size_follow > 0.0;
+        if context.solver != Solver::Tangent || context.paper || object.used.iter().any(follows) {
+            return Self::None;
+        }
+        let mut shapes = context.shapes.iter().map(|shapes| &shapes[object.index]);
+        let noise = shapes.clone().find_map(|shape| shape.noise.as_ref());
+        if !surface.bends() && noise.is_none() && shapes.all(|shape| surface.is_at_rest(shape)) {
+            return Self::AtRest;
+        }
+        // A kept painting is found by the points of its caches in a few frames only.
+        if surface.has_cache() {
+            return Self::None;
+        }
+        // Noise moves a vertex along each of three axes.
+        Self::OfMoving { noise: noise.map_or(0.0, |noise| 3.0f64.sqrt() * f64::from(noise.noise.reach())) }
     }
 }
 

@@ -29,6 +29,17 @@ fn is_beyond(planes: &Planes, center: DVec3, radius: f64) -> bool {
     planes.iter().any(|(plane, length)| plane.dot(center.extend(1.0)) > length * radius)
 }
 
+/// How a view sees a ball.
+struct Nearest {
+    /// The direction from the ball's centre to the eye, of the length `px_per_area`.
+    to_eye: DVec3,
+    radius_per_depth: f64,
+    /// The pixels that a unit of surface fills at the centre if it faces the eye.
+    px_per_area: f64,
+    /// Points that are nearer than the centre, and seen in another direction, may fill up to this many times as many.
+    nearer: f64,
+}
+
 /// A view of a body, ready to ask how densely it sees a cell.
 pub(crate) struct Eye {
     map: ScreenMap,
@@ -78,6 +89,41 @@ impl Eye {
         !is_beyond(&self.picture, cell.center, cell.radius + self.most_offset)
     }
 
+    /// Whether a view may have particles on a triangle with these corners, or round it.
+    pub(crate) fn may_see(&self, corners: [DVec3; 3]) -> bool {
+        let is_beyond = |(plane, length): &(DVec4, f64)| {
+            corners.iter().all(|corner| plane.dot(corner.extend(1.0)) > length * self.most_offset)
+        };
+        !self.planes.iter().any(is_beyond)
+    }
+
+    /// An upper bound on the pixels that a unit of surface fills anywhere in a ball, whichever way it faces, divided by the
+    /// fade of strokes near an outline.
+    pub(crate) fn most_in_ball(&self, center: DVec3, radius: f64) -> f64 {
+        let nearest = self.nearest(center, radius + self.most_offset);
+        nearest.map_or(f64::INFINITY, |Nearest { px_per_area, nearer, .. }| {
+            px_per_area * nearer * most_over_fade(1.0, self.map.uneven.is_some())
+        })
+    }
+
+    /// How a ball is seen; `None` where it reaches the eye.
+    fn nearest(&self, center: DVec3, radius: f64) -> Option<Nearest> {
+        let map = &self.map;
+        let w = map.row_w.dot(center.extend(1.0));
+        if self.row_w_length > 0.0 && w - self.row_w_length * radius <= self.near {
+            return None;
+        }
+        let [along_x, along_y] = map.jacobian(center);
+        let to_eye = along_x.cross(along_y);
+        let radius_per_depth = self.row_w_length * radius / w;
+        Some(Nearest {
+            px_per_area: to_eye.length(),
+            nearer: (1.0 + radius_per_depth) / (1.0 - radius_per_depth).powi(3),
+            to_eye,
+            radius_per_depth,
+        })
+    }
+
     /// First, an upper bound on the pixels that a unit of a cell's surface fills in this view, divided by the fade of
     /// strokes near an outline; 0 where the view does not see the cell. Second, whether the cell's parts may differ
     /// much: it is large beside its depth, or it is a large part of the picture and not all inside.
@@ -86,20 +132,11 @@ impl Eye {
         if is_beyond(&self.planes, cell.center, radius) {
             return (0.0, false);
         }
-        let center = cell.center.extend(1.0);
-        let map = &self.map;
-        let is_perspective = self.row_w_length > 0.0;
-        let w = map.row_w.dot(center);
-        if is_perspective && w - self.row_w_length * radius <= self.near {
+        let Some(Nearest { to_eye, radius_per_depth, px_per_area, nearer }) =
+            self.nearest(cell.center, radius)
+        else {
             return (f64::INFINITY, true);
-        }
-        let [along_x, along_y] = map.jacobian(cell.center);
-        let to_eye = along_x.cross(along_y);
-        let px_per_area = to_eye.length();
-        // At points of the cell that are nearer than its centre, and seen in another direction, a unit of surface may
-        // fill up to this many times as many pixels.
-        let radius_per_depth = self.row_w_length * radius / w;
-        let nearer = (1.0 + radius_per_depth) / (1.0 - radius_per_depth).powi(3);
+        };
         let thickness = (cell.thickness + self.most_offset) / cell.radius * radius_per_depth;
         // The cosine between the normal and the direction to the eye, at most: the eye's distance from the cell's
         // plane, over its least or greatest distance from a point of the cell.
@@ -109,7 +146,7 @@ impl Eye {
         if facing <= 0.0 {
             return (0.0, false);
         }
-        let most = px_per_area * nearer * most_over_fade(facing.min(1.0), map.uneven.is_some());
+        let most = px_per_area * nearer * most_over_fade(facing.min(1.0), self.map.uneven.is_some());
         // A bound that is not a number becomes infinite below, which is the safe side.
         let is_large = cell.radius * px_per_area.sqrt() > LARGE * self.half_px.min_element();
         let is_uneven = radius_per_depth > EVEN || is_large && !is_inside(&self.planes, cell.center, radius);

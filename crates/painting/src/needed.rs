@@ -2,15 +2,16 @@
 //! needs there.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use impasto_core::presence;
 use impasto_core::sampling::{Cell, Cells, Needed, Surface};
 use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
 
 use crate::context::{Context, ObjectInputs};
-use crate::counts::{CoatCount, CountInputs, Counted, LEAST_ON_WHOLE};
+use crate::counts::{CoatCount, CountInputs, Counted, LEAST_ON_WHOLE, Unneeded};
 use crate::eye::Eye;
 use crate::own_depths::{Covered, OwnDepths};
 use crate::particle_count::{Reach, Sighting};
@@ -29,6 +30,11 @@ const MOST_ON_WHOLE: f64 = 1e12;
 
 /// At most this many pairs of a cell and a view are tested. Where there are more pairs, particles lie everywhere.
 const MOST_PAIRS: usize = 12_000_000;
+
+/// In each view, the vertices of a body that bends are moved, and its triangles are looked at. All these together are at
+/// most `MOST_PAIRS`, and at most this many for each particle that might be left out: more could take longer than making
+/// the particle.
+const PAIRS_PER_PARTICLE: usize = 4;
 
 /// A cell that needs fewer particles than `FEW` is not cut. A first cell and its parts are cut at most `MOST_DEPTH`
 /// times in a row.
@@ -70,15 +76,14 @@ impl PartialEq for NeededInputs {
 impl NeededInputs {
     pub(crate) fn new(context: &Context<'_>, object: ObjectInputs<'_>, counted: &Arc<CountInputs>) -> Self {
         let strokes = || object.used.iter().map(|&rule| &context.rules[usize::from(rule)].strokes);
-        Self {
-            counted: Arc::clone(counted),
-            sightings: context.seen.sightings(object.index),
-            reach: Reach {
-                margin: context.seen.margin(),
-                reach_px: counted.most_reach_px(),
-                most_offset: strokes().map(|strokes| f64::from(strokes.offset).abs()).fold(0.0, f64::max),
-            },
-        }
+        let offset = strokes().map(|strokes| f64::from(strokes.offset).abs()).fold(0.0, f64::max);
+        let (sightings, most_offset) = match counted.unneeded() {
+            Unneeded::None => (None, offset),
+            Unneeded::AtRest => (context.seen.sightings(object.index), offset),
+            Unneeded::OfMoving { noise } => (context.seen.bent_sightings(object.index), offset + noise),
+        };
+        let reach = Reach { margin: context.seen.margin(), reach_px: counted.most_reach_px(), most_offset };
+        Self { counted: Arc::clone(counted), sightings, reach }
     }
 
     /// How many particles each coat is to have, and where.
@@ -91,24 +96,8 @@ impl NeededInputs {
         let mut counts = counted.counts.map(CoatCount::everywhere);
         let Some(sightings) = &self.sightings else { return counts };
         let cells = Cells::new(surface);
-        if cells.all().len() * sightings.len() > MOST_PAIRS {
-            return counts;
-        }
-        let mut eyes: Vec<Eye> = sightings.iter().map(|sighting| Eye::new(sighting, self.reach)).collect();
-        let own = (counted.deepness >= HEAP).then(|| {
-            let is_solid = |triangle: usize| self.counted.is_solid(triangle);
-            OwnDepths::of_all(surface, sightings, is_solid, self.reach)
-        });
-        let own = own.flatten();
-        let is_heap = own.is_some();
-        eyes.iter_mut().zip(own.into_iter().flatten()).for_each(|(eye, own)| eye.own = Some(own));
-        let all_eyes: Vec<usize> = (0..eyes.len()).collect();
         let wanted_per_px = self.counted.wanted_per_px(surface.mesh(), parts);
-        let seen = |cell: &Cell| {
-            let seen = SeenCell::new(surface, cell, &eyes, &all_eyes);
-            if seen.px_per_area <= 0.0 {
-                return (seen, [0.0; LAYERS]);
-            }
+        let needed_per_px = |cell: &Cell| {
             let most = |most: [f32; LAYERS], triangle: usize| {
                 let [a, b, c] = surface.mesh().corners(triangle).map(Vec3::as_dvec3);
                 let wanted = wanted_per_px(triangle, (a + b + c) / 3.0, cell.normal);
@@ -117,12 +106,61 @@ impl NeededInputs {
             let wanted = cell.triangles(surface).fold([0.0; LAYERS], most);
             // A stroke shows while its ordinal is less than this many times the number wanted.
             let still_present = (-f64::from(presence::ABSENT_LN)).exp();
-            let needed =
-                wanted.map(|wanted| f64::from(wanted) * surface.area() * still_present * counted.more_wanted);
+            wanted.map(|wanted| f64::from(wanted) * surface.area() * still_present * counted.more_wanted)
+        };
+        let mut is_heap = false;
+        let seen = match self.counted.unneeded() {
+            Unneeded::None => None,
+            Unneeded::AtRest if cells.all().len() * sightings.len() > MOST_PAIRS => None,
+            Unneeded::AtRest => {
+                let own = (counted.deepness >= HEAP).then(|| {
+                    let is_solid = |triangle: usize| self.counted.is_solid(triangle);
+                    OwnDepths::of_all(surface, sightings, is_solid, self.reach)
+                });
+                let own = own.flatten();
+                is_heap = own.is_some();
+                Some(self.seen_at_rest(surface, &cells, own, needed_per_px))
+            }
+            Unneeded::OfMoving { noise } => {
+                let may_be_left_out = counted.counts.iter().zip(counted.may_depend_on_views);
+                let particles: usize = may_be_left_out.filter(|(_, may)| *may).map(|(count, _)| count).sum();
+                let pairs = sightings.len() * (surface.mesh().positions.len() + surface.faces().count());
+                (pairs <= MOST_PAIRS.min(PAIRS_PER_PARTICLE * particles))
+                    .then(|| self.seen_moving(surface, &cells, noise > 0.0, needed_per_px))
+            }
+        };
+        let Some(seen) = seen else { return counts };
+        let tree = SeenTree::new(seen);
+        for (kind, count) in counts.iter_mut().enumerate() {
+            if counted.may_depend_on_views[kind]
+                && let Some(needed) = tree.count(kind, counted.counts[kind] as f64, is_heap)
+            {
+                *count = needed;
+            }
+        }
+        counts
+    }
+
+    /// The cells of a body that stays at rest, each with how many particles it needs for each pixel that a unit of its
+    /// surface fills. `own` tells what a heap hides of itself in each view.
+    fn seen_at_rest(
+        &self,
+        surface: &Surface<'_>,
+        cells: &Cells,
+        own: Option<Vec<OwnDepths>>,
+        needed_per_px: impl Fn(&Cell) -> [f64; LAYERS] + Sync,
+    ) -> Vec<(SeenCell, [f64; LAYERS])> {
+        let sightings = self.sightings.iter().flatten();
+        let mut eyes: Vec<Eye> = sightings.map(|sighting| Eye::new(sighting, self.reach)).collect();
+        let most_on_whole = if own.is_some() { MOST_OF_HEAP } else { f64::INFINITY };
+        eyes.iter_mut().zip(own.into_iter().flatten()).for_each(|(eye, own)| eye.own = Some(own));
+        let all_eyes: Vec<usize> = (0..eyes.len()).collect();
+        let seen = |cell: &Cell| {
+            let seen = SeenCell::new(surface, cell, &eyes, &all_eyes);
+            let needed = if seen.px_per_area > 0.0 { needed_per_px(cell) } else { [0.0; LAYERS] };
             (seen, needed)
         };
         let mut seen: Vec<(SeenCell, [f64; LAYERS])> = cells.all().par_iter().map(seen).collect();
-        let most_on_whole = if is_heap { MOST_OF_HEAP } else { f64::INFINITY };
         let is_cut = |(seen, needed): &(SeenCell, [f64; LAYERS])| seen.is_to_cut(most(needed), most_on_whole);
         let cuts = MOST_CUTS / seen.iter().filter(|seen| is_cut(seen)).count().max(1);
         let refine = |(seen, needed): &mut (SeenCell, [f64; LAYERS])| {
@@ -134,15 +172,50 @@ impl NeededInputs {
             );
         };
         seen.par_iter_mut().for_each(refine);
-        let tree = SeenTree::new(seen);
-        for (kind, count) in counts.iter_mut().enumerate() {
-            if counted.may_depend_on_views[kind]
-                && let Some(needed) = tree.count(kind, counted.counts[kind] as f64, is_heap)
-            {
-                *count = needed;
+        seen
+    }
+
+    /// The same for a body whose vertices move. Its cells are not cut, and none needs more than on the whole surface.
+    /// Where noise moves vertices too, a cell that is seen needs all its particles: how far noise makes a surface grow
+    /// is not known.
+    fn seen_moving(
+        &self,
+        surface: &Surface<'_>,
+        cells: &Cells,
+        has_noise: bool,
+        needed_per_px: impl Fn(&Cell) -> [f64; LAYERS] + Sync,
+    ) -> Vec<(SeenCell, [f64; LAYERS])> {
+        // The bits of the most pixels that a unit of a cell's surface may fill: positive numbers are in the order of
+        // their bits.
+        let most: Vec<AtomicU64> = cells.all().iter().map(|_| AtomicU64::new(0)).collect();
+        let look = |sighting: &Sighting| {
+            let eye = Eye::new(sighting, self.reach);
+            let (positions, grown) = self.counted.grown_at(&sighting.shape);
+            for (cell, most) in cells.all().iter().zip(&most) {
+                for (triangle, corners) in cell.corners_at(surface, &positions) {
+                    if !eye.may_see(corners) {
+                        continue;
+                    }
+                    let center = corners.iter().sum::<DVec3>() / 3.0;
+                    let radius = corners.iter().map(|corner| corner.distance(center)).fold(0.0, f64::max);
+                    let grown =
+                        surface.mesh().triangles[triangle].map(|vertex| f64::from(grown[vertex as usize]));
+                    let px_per_area = grown.iter().fold(0.0f64, |most, grown| most.max(*grown))
+                        * eye.most_in_ball(center, radius);
+                    let is_sure =
+                        !has_noise && px_per_area.is_finite() && grown.iter().all(|grown| grown.is_finite());
+                    let px_per_area = if is_sure { px_per_area } else { f64::INFINITY };
+                    most.fetch_max(px_per_area.to_bits(), Ordering::Relaxed);
+                }
             }
-        }
-        counts
+        };
+        self.sightings.par_iter().flatten().for_each(look);
+        let seen = |(cell, most): (&Cell, AtomicU64)| {
+            let px_per_area = f64::from_bits(most.into_inner());
+            let needed = if px_per_area > 0.0 { needed_per_px(cell) } else { [0.0; LAYERS] };
+            (SeenCell::whole(cell, px_per_area), needed)
+        };
+        cells.all().par_iter().zip(most).map(seen).collect()
     }
 }
 
@@ -179,15 +252,14 @@ struct Cutting {
 }
 
 impl SeenCell {
+    /// A cell that is not to be cut, nor to get more than on the whole surface.
+    fn whole(cell: &Cell, px_per_area: f64) -> Self {
+        let cell = cell.clone();
+        Self { cell, eyes: Vec::new(), px_per_area, px_in_picture: 0.0, is_uneven: false, parts: Vec::new() }
+    }
+
     fn new(surface: &Surface<'_>, cell: &Cell, eyes: &[Eye], of: &[usize]) -> Self {
-        let mut seen = Self {
-            cell: cell.clone(),
-            eyes: Vec::new(),
-            px_per_area: 0.0,
-            px_in_picture: 0.0,
-            is_uneven: false,
-            parts: Vec::new(),
-        };
+        let mut seen = Self::whole(cell, 0.0);
         for &eye in of {
             let (px_per_area, is_uneven) = eyes[eye].most_per_area(cell);
             let covered = || eyes[eye].own.as_ref().map_or(Covered::Nowhere, |own| own.covers(surface, cell));

@@ -33,7 +33,7 @@ use crate::parts::Cap;
 use crate::references::{BodyReferences, SceneReferences};
 use crate::regions::{self, BodyGuide, BodyRegions};
 use crate::shadow_bounds;
-use crate::shapes::{BodyShapes, file_bend, shapes};
+use crate::shapes::{BodyShapes, shapes};
 use crate::surface::SurfaceInputs;
 use crate::touches::{TouchInputs, TouchMemo};
 use crate::view::PictureView;
@@ -101,7 +101,7 @@ impl Preparer {
         }
         let Painting { rules, solver, .. } = &plain;
         let paper = presets::is_paper(scene);
-        let seen = Seen::new(scene, options.seen_from);
+        let seen = Seen::new(&loaded, options.seen_from);
         let context = Context {
             seen: &seen,
             scene,
@@ -405,10 +405,10 @@ fn plain(
     let bodies = bodies.collect();
     // Between the sampled frames a key may morph an object farther than at any of them, so the bounds take in the
     // farthest morph too.
-    let farthest = BodyShapes::at(loaded, references.own().frame).morphed_farthest();
+    let farthest = BodyShapes::at(scene, references.own().frame).morphed_farthest(scene);
     let of_object = |object: usize| {
         let at_views = shapes.iter().map(|shapes| shapes[object].clone());
-        at_views.chain([farthest.of(object, file_bend(loaded, &scene.objects[object]))]).collect()
+        at_views.chain([farthest.of(loaded, object)]).collect()
     };
     let bounds: Vec<_> =
         caches.iter_mut().enumerate().map(|(object, cache)| cache.bounds(of_object(object))).collect();

@@ -12,23 +12,20 @@ use crate::body_shape::{BodyNoise, BodyShape, FrameNoise};
 
 /// What moves the vertices of every object at one frame, without noise: the pose of the joints and targets of its mesh
 /// file (`None` where the shot gives none), its morph weight, and the frame of its point cache.
-pub(crate) struct BodyShapes<'a> {
-    loaded: &'a LoadedScene,
+pub(crate) struct BodyShapes {
     bends: Vec<Option<BendPose>>,
     morphs: Vec<f64>,
     cache_frames: Vec<f64>,
 }
 
 /// The joints and morph targets in the mesh file of an object; `None` where it has none.
-pub(crate) fn file_bend<'a>(loaded: &'a LoadedScene, object: &Object) -> Option<&'a Bend> {
+fn file_bend<'a>(loaded: &'a LoadedScene, object: &Object) -> Option<&'a Bend> {
     loaded.meshes.get(&object.mesh)?.bend.as_deref()
 }
 
-impl<'a> BodyShapes<'a> {
-    pub(crate) fn at(loaded: &'a LoadedScene, frame: f64) -> Self {
-        let scene = &loaded.scene;
+impl BodyShapes {
+    pub(crate) fn at(scene: &Scene, frame: f64) -> Self {
         Self {
-            loaded,
             bends: motion::bends_at(scene, frame),
             morphs: motion::morphs_at(scene, frame),
             cache_frames: motion::cache_frames_at(scene, frame),
@@ -36,17 +33,23 @@ impl<'a> BodyShapes<'a> {
     }
 
     /// These shapes, but with the morph of each object at its largest value over all frames.
-    pub(crate) fn morphed_farthest(mut self) -> Self {
-        for (weight, object) in self.morphs.iter_mut().zip(&self.loaded.scene.objects) {
+    pub(crate) fn morphed_farthest(mut self, scene: &Scene) -> Self {
+        for (weight, object) in self.morphs.iter_mut().zip(&scene.objects) {
             *weight = motion::farthest_morph(object);
         }
         self
     }
 
-    /// The shape of one object, without noise. `bend` is its [`file_bend`].
-    pub(crate) fn of(&self, object: usize, bend: Option<&Bend>) -> BodyShape {
-        let stated = &self.loaded.scene.objects[object];
-        let cache = stated.cache.as_ref().and_then(|name| self.loaded.caches.get(name));
+    /// How many joints and targets the shot states at this frame.
+    pub(crate) fn numbers(&self) -> usize {
+        self.bends.iter().flatten().map(|bend| bend.joints.len() + bend.weights.len()).sum()
+    }
+
+    /// The shape of one object, without noise.
+    pub(crate) fn of(&self, loaded: &LoadedScene, object: usize) -> BodyShape {
+        let stated = &loaded.scene.objects[object];
+        let bend = file_bend(loaded, stated);
+        let cache = stated.cache.as_ref().and_then(|name| loaded.caches.get(name));
         let cache_frame = cache.map(|cache| {
             let [first, last] = cache.frames();
             // `max` and `min` also bring NaN into the range.
@@ -69,13 +72,9 @@ impl<'a> BodyShapes<'a> {
 
 /// The shape of every object at a frame.
 pub(crate) fn shapes(loaded: &LoadedScene, noises: &[Option<Arc<BodyNoise>>], frame: f64) -> Vec<BodyShape> {
-    let all = BodyShapes::at(loaded, frame);
-    let objects = loaded.scene.objects.iter().enumerate();
-    let shape = |((index, object), noise): ((usize, &Object), Option<FrameNoise>)| BodyShape {
-        noise,
-        ..all.of(index, file_bend(loaded, object))
-    };
-    objects.zip(noises_at(&loaded.scene, noises, frame)).map(shape).collect()
+    let all = BodyShapes::at(&loaded.scene, frame);
+    let noises = noises_at(&loaded.scene, noises, frame).into_iter().enumerate();
+    noises.map(|(object, noise)| BodyShape { noise, ..all.of(loaded, object) }).collect()
 }
 
 /// The noise of every object at a frame.

@@ -19,7 +19,7 @@ use crate::body::{BodyMaterial, BodySurface};
 use crate::body_bend::{BodyBend, BodyCache};
 use crate::body_shape::BodyShape;
 use crate::lights::linear;
-use crate::shapes::{BodyShapes, file_bend};
+use crate::shapes::BodyShapes;
 
 /// The inputs of a body's surface.
 #[derive(Clone, Debug)]
@@ -73,9 +73,7 @@ impl SurfaceInputs {
             cache: object.cache.as_ref().and_then(|name| loaded.caches.get(name)).map(Arc::clone),
             rest: match object.rest {
                 Rest::Bind => BodyShape::default(),
-                Rest::Frame(frame) => {
-                    BodyShapes::at(loaded, frame as f64).of(index, file_bend(loaded, object))
-                }
+                Rest::Frame(frame) => BodyShapes::at(&loaded.scene, frame as f64).of(loaded, index),
             },
         })
     }

@@ -85,6 +85,12 @@ impl SceneKey<'_> {
                 key.numbers(&of_surface[&address(surface)]);
                 of_object(object, &mut key);
                 shapes.iter().for_each(|shapes| of_shape(&shapes[object.index], surface, &mut key));
+                // Without a shot or further views, the shapes in all views follow from the scene.
+                if further.is_some() && surface.bends() && !surface.has_cache() {
+                    let shapes = seen.shapes_of(object.index);
+                    shapes.iter().flatten().for_each(|shape| of_pose(shape.pose.as_deref(), &mut key));
+                    key.value(&shapes.is_some());
+                }
                 key.finish()
             })
             .collect();

@@ -4,10 +4,13 @@ use std::sync::OnceLock;
 
 use glam::DAffine3;
 use impasto_scene::document::Scene;
+use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion::{self, CameraPose};
 
+use crate::body_shape::BodyShape;
 use crate::frame_options::FrameOptions;
 use crate::particle_count::Sighting;
+use crate::shapes::BodyShapes;
 use crate::view::PictureView;
 
 /// From where a painting will be seen.
@@ -53,48 +56,66 @@ impl SeenFrom<'_> {
 const MOST_FRAMES: usize = 4096;
 const MOST_POSES: usize = 200_000;
 
+/// With more joints and targets than this, counted at all frames, bodies that they move may have any shape.
+const MOST_JOINTS: usize = 500_000;
+
 /// A view, with the poses of all objects.
 type View = (PictureView, Vec<DAffine3>);
 
 /// All views of a scene, found when they are first asked for.
 pub(crate) struct Seen<'a> {
-    scene: &'a Scene,
+    loaded: &'a LoadedScene,
     from: SeenFrom<'a>,
     views: OnceLock<Option<Vec<View>>>,
+    shapes: OnceLock<Option<Vec<BodyShapes>>>,
 }
 
 impl<'a> Seen<'a> {
-    pub(crate) fn new(scene: &'a Scene, from: SeenFrom<'a>) -> Self {
-        Self { scene, from, views: OnceLock::new() }
+    pub(crate) fn new(loaded: &'a LoadedScene, from: SeenFrom<'a>) -> Self {
+        Self { loaded, from, views: OnceLock::new(), shapes: OnceLock::new() }
     }
 
     /// The views; `None` if there may be others.
     pub(crate) fn views(&self) -> Option<&[View]> {
-        let find = || {
-            let also: &[(CameraPose, f64)] = match self.from {
-                SeenFrom::Shot { also, .. } => also,
-                SeenFrom::AsBefore => &[],
-                SeenFrom::Anywhere => return None,
-            };
-            let scene = self.scene;
-            let size_px = [scene.size.0, scene.size.1];
-            let [first, last] = frames(scene);
-            let steps = usize::try_from(last.checked_sub(first)?).ok()?;
-            if steps >= MOST_FRAMES || steps.saturating_mul(scene.objects.len()) > MOST_POSES {
-                return None;
-            }
-            let view = |pose: CameraPose, frame: f64| {
-                (PictureView { pose, size_px }, motion::poses_at(scene, frame))
-            };
-            let (referred, frame) = motion::referred_to(scene, &scene.reference);
-            let along = (0..=steps).map(|step| {
-                let frame = first as f64 + step as f64;
-                view(motion::camera_at(scene, frame), frame)
-            });
-            let also = also.iter().map(|(pose, frame)| view(pose.clone(), *frame));
-            Some(std::iter::once(view(referred, frame)).chain(also).chain(along).collect())
+        let scene = &self.loaded.scene;
+        let size_px = [scene.size.0, scene.size.1];
+        let view = |(pose, frame): (CameraPose, f64)| {
+            (PictureView { pose, size_px }, motion::poses_at(scene, frame))
         };
-        self.views.get_or_init(find).as_deref()
+        self.views.get_or_init(|| Some(self.cameras()?.into_iter().map(view).collect())).as_deref()
+    }
+
+    /// The camera of each view, with its frame; `None` if there may be others.
+    fn cameras(&self) -> Option<Vec<(CameraPose, f64)>> {
+        let also: &[(CameraPose, f64)] = match self.from {
+            SeenFrom::Shot { also, .. } => also,
+            SeenFrom::AsBefore => &[],
+            SeenFrom::Anywhere => return None,
+        };
+        let scene = &self.loaded.scene;
+        let [first, last] = frames(scene);
+        let steps = usize::try_from(last.checked_sub(first)?).ok()?;
+        if steps >= MOST_FRAMES || steps.saturating_mul(scene.objects.len()) > MOST_POSES {
+            return None;
+        }
+        let along = (0..=steps).map(|step| {
+            let frame = first as f64 + step as f64;
+            (motion::camera_at(scene, frame), frame)
+        });
+        let reference = motion::referred_to(scene, &scene.reference);
+        Some(std::iter::once(reference).chain(also.iter().cloned()).chain(along).collect())
+    }
+
+    /// The shapes of all bodies in each of the views; `None` if there may be others.
+    fn shapes(&self) -> Option<&[BodyShapes]> {
+        let find = || {
+            let cameras = self.cameras()?;
+            let numbers = |shapes: &BodyShapes| shapes.numbers().saturating_mul(cameras.len());
+            let first = BodyShapes::at(&self.loaded.scene, cameras.first()?.1);
+            let few = numbers(&first) <= MOST_JOINTS;
+            few.then(|| cameras.iter().map(|(_, frame)| BodyShapes::at(&self.loaded.scene, *frame)).collect())
+        };
+        self.shapes.get_or_init(find).as_deref()
     }
 
     /// How far from the middle of the picture there are particles, in half sizes of the picture.
@@ -114,10 +135,10 @@ impl<'a> Seen<'a> {
     pub(crate) fn follows_from_scene(&self) -> bool {
         matches!(self.from, SeenFrom::Shot { also: [], .. })
             && self.margin() == SeenFrom::MARGIN
-            && self.scene.stage.shot.is_none()
+            && self.loaded.scene.stage.shot.is_none()
     }
 
-    /// Every view of an object, equal ones in a row once; `None` if there may be others.
+    /// Every view of an object at rest, equal ones in a row once; `None` if there may be others.
     pub(crate) fn sightings(&self, object: usize) -> Option<Vec<Sighting>> {
         let mut sightings: Vec<Sighting> = Vec::new();
         for (view, poses) in self.views()? {
@@ -126,6 +147,24 @@ impl<'a> Seen<'a> {
                 sightings.push(sighting);
             }
         }
+        Some(sightings)
+    }
+
+    /// The shape of an object in each of the views, without noise; `None` if there may be others.
+    pub(crate) fn shapes_of(&self, object: usize) -> Option<Vec<BodyShape>> {
+        Some(self.shapes()?.iter().map(|shapes| shapes.of(self.loaded, object)).collect())
+    }
+
+    /// Every view of an object that bends, equal ones in a row once; `None` if there may be others.
+    pub(crate) fn bent_sightings(&self, object: usize) -> Option<Vec<Sighting>> {
+        let shapes = self.shapes_of(object)?;
+        let views = self.views()?.iter().zip(shapes);
+        let of_view = |((view, poses), shape): (&View, BodyShape)| Sighting {
+            shape,
+            ..Sighting::of(view, poses[object])
+        };
+        let mut sightings: Vec<Sighting> = views.map(of_view).collect();
+        sightings.dedup();
         Some(sightings)
     }
 }
