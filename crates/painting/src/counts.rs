@@ -142,19 +142,11 @@ impl CountInputs {
         self.unneeded
     }
 
-    /// The vertices in a shape; for each, an upper bound on how many times the surface round it has grown.
-    pub(crate) fn grown_at(&self, shape: &BodyShape) -> (Vec<Vec3>, Vec<f32>) {
+    /// The vertices in a shape, and the deformation gradient F at each; no gradients at rest.
+    pub(crate) fn moved_to(&self, shape: &BodyShape) -> (Vec<Vec3>, Option<Vec<Mat3>>) {
         let positions = self.surface.positions_at(shape);
-        if self.surface.is_at_rest(shape) {
-            let grown = vec![1.0; positions.len()];
-            return (positions, grown);
-        }
-        // With F = [a b n], an area grows |a × b| times, which is at most (|a|² + |b|²)/2. This also holds for F blended
-        // between vertices, because the root of this bound is convex.
-        let most =
-            |gradient: &Mat3| 0.5 * gradient.to_cols_array().iter().map(|entry| entry * entry).sum::<f32>();
-        let grown = self.surface.gradients().at(&positions).iter().map(most).collect();
-        (positions, grown)
+        let gradients = (!self.surface.is_at_rest(shape)).then(|| self.surface.gradients().at(&positions));
+        (positions, gradients)
     }
 
     /// Whether nothing shows through a triangle: no texture cuts holes into it.

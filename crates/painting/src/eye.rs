@@ -1,6 +1,6 @@
 //! A view of a body. Gives upper bounds on how densely it sees the parts of the surface.
 
-use glam::{DVec2, DVec3, DVec4};
+use glam::{DVec2, DVec3, DVec4, Vec3};
 use impasto_core::ScreenMap;
 use impasto_core::sampling::Cell;
 
@@ -95,6 +95,20 @@ impl Eye {
             corners.iter().all(|corner| plane.dot(corner.extend(1.0)) > length * self.most_offset)
         };
         !self.planes.iter().any(is_beyond)
+    }
+
+    /// Whether a place on a triangle with these corners may face the eye, if its normal is a sum of some of these vectors.
+    pub(crate) fn may_face(&self, corners: [DVec3; 3], mut normals: impl Iterator<Item = Vec3>) -> bool {
+        let is_before = |corner: &DVec3| self.map.row_w.dot(corner.extend(1.0)) > self.near;
+        if self.most_offset > 0.0 || self.row_w_length > 0.0 && !corners.iter().all(is_before) {
+            return true;
+        }
+        let to_eye = corners.map(|corner| {
+            let [along_x, along_y] = self.map.jacobian(corner);
+            along_x.cross(along_y)
+        });
+        // Towards one eye, the cosine's sign on the triangle follows from its corners: it is that of a linear function.
+        normals.any(|normal| to_eye.iter().any(|to_eye| !(normal.as_dvec3().dot(*to_eye) <= 0.0)))
     }
 
     /// An upper bound on the pixels that a unit of surface fills anywhere in a ball, whichever way it faces, divided by the

@@ -4,9 +4,10 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Mat3, Vec3};
+use impasto_core::bending::normals_around;
 use impasto_core::presence;
-use impasto_core::sampling::{Cell, Cells, Needed, Surface};
+use impasto_core::sampling::{Cell, CellPiece, Cells, Needed, Surface};
 use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
 
@@ -34,7 +35,7 @@ const MOST_PAIRS: usize = 12_000_000;
 /// In each view, the vertices of a body that bends are moved, and its triangles are looked at. All these together are at
 /// most `MOST_PAIRS`, and at most this many for each particle that might be left out: more could take longer than making
 /// the particle.
-const PAIRS_PER_PARTICLE: usize = 4;
+const PAIRS_PER_PARTICLE: usize = 2;
 
 /// A cell that needs fewer particles than `FEW` is not cut. A first cell and its parts are cut at most `MOST_DEPTH`
 /// times in a row.
@@ -190,21 +191,16 @@ impl NeededInputs {
         let most: Vec<AtomicU64> = cells.all().iter().map(|_| AtomicU64::new(0)).collect();
         let look = |sighting: &Sighting| {
             let eye = Eye::new(sighting, self.reach);
-            let (positions, grown) = self.counted.grown_at(&sighting.shape);
+            let (positions, gradients) = self.counted.moved_to(&sighting.shape);
             for (cell, most) in cells.all().iter().zip(&most) {
-                for (triangle, corners) in cell.corners_at(surface, &positions) {
-                    if !eye.may_see(corners) {
-                        continue;
-                    }
-                    let center = corners.iter().sum::<DVec3>() / 3.0;
-                    let radius = corners.iter().map(|corner| corner.distance(center)).fold(0.0, f64::max);
-                    let grown =
-                        surface.mesh().triangles[triangle].map(|vertex| f64::from(grown[vertex as usize]));
-                    let px_per_area = grown.iter().fold(0.0f64, |most, grown| most.max(*grown))
-                        * eye.most_in_ball(center, radius);
-                    let is_sure =
-                        !has_noise && px_per_area.is_finite() && grown.iter().all(|grown| grown.is_finite());
-                    let px_per_area = if is_sure { px_per_area } else { f64::INFINITY };
+                for piece in cell.pieces_at(surface, &positions) {
+                    let of_corner = |vertex: u32| gradients.as_ref().map(|all| all[vertex as usize]);
+                    let gradients = piece.vertices.map(|vertex| of_corner(vertex).unwrap_or(Mat3::IDENTITY));
+                    let px_per_area = if has_noise {
+                        if eye.may_see(piece.corners) { f64::INFINITY } else { 0.0 }
+                    } else {
+                        most_on_piece(&eye, &piece, gradients)
+                    };
                     most.fetch_max(px_per_area.to_bits(), Ordering::Relaxed);
                 }
             }
@@ -217,6 +213,27 @@ impl NeededInputs {
         };
         cells.all().par_iter().zip(most).map(seen).collect()
     }
+}
+
+/// An upper bound on the pixels that a unit of surface at rest fills on a moved piece, divided by the fade of strokes near
+/// an outline; 0 where the view does not see it. `gradients` are F at the corners of the mesh's triangle.
+fn most_on_piece(eye: &Eye, piece: &CellPiece, gradients: [Mat3; 3]) -> f64 {
+    let CellPiece { corners, normals, .. } = *piece;
+    if !eye.may_see(corners)
+        || !eye.may_face(corners, normals_around(gradients, normals.map(|of| of.as_vec3())))
+    {
+        return 0.0;
+    }
+    // With F = [a b n], an area grows |a × b| times, which is at most (|a|² + |b|²)/2. This also holds for F blended
+    // between vertices, because the root of this bound is convex.
+    let grown =
+        |gradient: Mat3| 0.5 * gradient.to_cols_array().iter().map(|entry| entry * entry).sum::<f32>();
+    let grown = gradients.map(|gradient| if gradient == Mat3::IDENTITY { 1.0 } else { grown(gradient) });
+    let center = corners.iter().sum::<DVec3>() / 3.0;
+    let radius = corners.iter().map(|corner| corner.distance(center)).fold(0.0, f64::max);
+    let px_per_area = f64::from(grown.into_iter().fold(0.0, f32::max)) * eye.most_in_ball(center, radius);
+    let is_sure = px_per_area.is_finite() && grown.iter().all(|grown| grown.is_finite());
+    if is_sure { px_per_area } else { f64::INFINITY }
 }
 
 /// The most particles that any layer needs for each pixel that a unit of surface fills.

@@ -150,7 +150,7 @@ impl OwnDepths {
         if pieces.all(|piece| piece == first) { first } else { Covered::InPart }
     }
 
-    fn covers_piece(&self, CellPiece { corners, normals }: &CellPiece) -> Covered {
+    fn covers_piece(&self, CellPiece { corners, normals, .. }: &CellPiece) -> Covered {
         let Sighting { map, near, .. } = &self.sighting;
         let depths = corners.map(|corner| map.depth(corner));
         let nearest = depths.into_iter().fold(f64::INFINITY, f64::min);

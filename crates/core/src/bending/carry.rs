@@ -192,6 +192,18 @@ impl Carrier {
     }
 }
 
+/// Vectors such that the carried normal at any place of a triangle is a sum of them with weights of 0 or more. `gradients`
+/// are F at its corners. The unit normal at rest must be such a sum of `normals`.
+pub fn normals_around(gradients: [Mat3; 3], normals: [Vec3; 4]) -> impl Iterator<Item = Vec3> {
+    let [a, b, c] = gradients;
+    // Cofactors are quadratic in F: of u F + v G they are u² cof F + v² cof G + u v (cof(F + G) − cof F − cof G).
+    let corners = gradients.map(cofactors_f32);
+    let mixed = |(f, cof_f): (Mat3, Mat3), (g, cof_g): (Mat3, Mat3)| cofactors_f32(f + g) - cof_f - cof_g;
+    let [of_a, of_b, of_c] = [(a, corners[0]), (b, corners[1]), (c, corners[2])];
+    let between = [mixed(of_a, of_b), mixed(of_b, of_c), mixed(of_c, of_a)];
+    corners.into_iter().chain(between).flat_map(move |cofactors| normals.map(|normal| cofactors * normal))
+}
+
 /// The weighted mean of three vertices.
 #[inline(always)]
 fn blended([a, b, c]: &[Record; 3], [u, v, w]: [f32; 3]) -> Record {

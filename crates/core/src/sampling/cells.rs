@@ -45,6 +45,8 @@ pub struct Cell {
 /// A triangle of a cell.
 #[derive(Clone, Copy, Debug)]
 pub struct CellPiece {
+    /// The vertices of the mesh's triangle on which it lies.
+    pub vertices: [u32; 3],
     /// Its corners, model units.
     pub corners: [DVec3; 3],
     /// Unit normals of its visible side: the flat one, and the smooth ones at the corners of the mesh's triangle.
@@ -223,38 +225,30 @@ impl Cell {
         faces.map(|face| surface.faces[face as usize].triangle as usize)
     }
 
-    /// The faces on which it lies.
-    fn faces<'a>(&self, surface: &'a Surface<'_>) -> impl Iterator<Item = Face> + 'a {
+    /// The triangles that it consists of, with the normals of their visible sides.
+    pub fn pieces<'a>(&'a self, surface: &'a Surface<'_>) -> impl Iterator<Item = CellPiece> + 'a {
+        self.pieces_at(surface, &surface.mesh.positions)
+    }
+
+    /// The same while the vertices of the mesh are at `positions`; the normals are still those at rest.
+    pub fn pieces_at<'a>(
+        &'a self,
+        surface: &'a Surface<'_>,
+        positions: &'a [Vec3],
+    ) -> impl Iterator<Item = CellPiece> + 'a {
         let (faces, side) = match &self.extent {
             Extent::Faces { faces, side } => (faces.clone(), *side),
             Extent::Part { face, .. } => (*face..*face + 1, None),
         };
-        let faces = surface.faces[faces.start as usize..faces.end as usize].iter().copied();
-        faces.filter(move |face| side.is_none_or(|side| face.flipped == side))
-    }
-
-    /// The triangles that it consists of, with the normals of their visible sides.
-    pub fn pieces<'a>(&'a self, surface: &'a Surface<'_>) -> impl Iterator<Item = CellPiece> + 'a {
-        self.faces(surface).map(|face| {
-            let corners = surface.mesh.corners(face.triangle as usize).map(Vec3::as_dvec3);
+        let faces = surface.faces[faces.start as usize..faces.end as usize].iter();
+        faces.filter(move |face| side.is_none_or(|side| face.flipped == side)).map(|&face| {
+            let vertices = surface.mesh.triangles[face.triangle as usize];
+            let corners = of_corners(positions, vertices).map(Vec3::as_dvec3);
             CellPiece {
+                vertices,
                 corners: CORNERS.map(|weights| self.extent.at(corners, weights)),
                 normals: normals(surface, face),
             }
-        })
-    }
-
-    /// The corners of the triangles that it consists of, and on which triangle of the mesh each lies, while the mesh's
-    /// vertices are at `positions` (as many as it has).
-    pub fn corners_at<'a>(
-        &'a self,
-        surface: &'a Surface<'_>,
-        positions: &'a [Vec3],
-    ) -> impl Iterator<Item = (usize, [DVec3; 3])> + 'a {
-        self.faces(surface).map(|face| {
-            let triangle = face.triangle as usize;
-            let corners = of_corners(positions, surface.mesh.triangles[triangle]).map(Vec3::as_dvec3);
-            (triangle, CORNERS.map(|weights| self.extent.at(corners, weights)))
         })
     }
 
