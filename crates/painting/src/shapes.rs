@@ -78,7 +78,6 @@ pub(crate) fn shapes(loaded: &LoadedScene, noises: &[Option<Arc<BodyNoise>>], fr
     objects.zip(noises_at(&loaded.scene, noises, frame)).map(shape).collect()
 }
 
-/// The noise of every object at a frame.
 pub(crate) fn noises_at(
     scene: &Scene,
     noises: &[Option<Arc<BodyNoise>>],
