@@ -21,9 +21,9 @@ pub struct Arguments {
     pub keep: bool,
     /// Whether to write the table into the docs.
     pub write_docs: bool,
-    /// Whether to install Debian's packages that the peers (the programs compared with) need.
+    /// Whether to install the Debian packages that the peers (the programs that Impasto is compared with) need.
     pub install: bool,
-    /// Whether Python's packages may be fetched.
+    /// Whether Python packages may be fetched.
     pub may_fetch: bool,
 }
 

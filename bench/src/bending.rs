@@ -1,4 +1,4 @@
-//! Measures what a body that bends costs in a frame: its vertices moved by joints, its deformation gradients, its
+//! Measures what a body that bends costs in a frame: its vertices moved by joints, its deformation gradients F, its
 //! particles carried and solved, and a point cache. Each is timed beside its floor, the least time that memory allows
 //! (see `floor.rs`). "In" and "Out" below count the numbers per vertex or particle that are read and written.
 
@@ -138,7 +138,7 @@ fn point_cache(bench: &mut Bench) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// A cloth with a point cache: writes its files, and prepares the scene without strokes.
+/// Writes the files of a cloth with a point cache, and prepares its scene without strokes.
 fn cloth_of(folder: &Path) -> anyhow::Result<Painting> {
     let place =
         |index: usize| [index % SIDE, index / SIDE].map(|at| at as f32 * 4.0 / (SIDE - 1) as f32 - 2.0);
@@ -170,7 +170,7 @@ fn cloth_of(folder: &Path) -> anyhow::Result<Painting> {
     )?;
     let loaded = load(&scene, &LoadOptions::default()).map_err(|report| anyhow!("{report}"))?;
     let painting = Preparer::default().prepare_plain(&Arc::new(loaded))?;
-    // A first call, because what is computed once for a surface is not to be timed.
+    // A first call, so that what is computed once per surface is not timed.
     painting.bent_at(1.0);
     Ok(painting)
 }
@@ -223,7 +223,7 @@ fn at_rest(baked: &BakedParticles, index: usize) -> [Vec3; 3] {
 fn particles(mesh: &TriangleMesh) -> (Vec<PackedParticle>, BakedParticles) {
     let (mut places, mut baked) = (Vec::new(), BakedParticles::default());
     for index in 0..PARTICLES {
-        // As in a coat, consecutive particles lie far apart.
+        // Consecutive particles lie far apart, as those of a painting do.
         let triangle = (u64::from(index) * 2_654_435_761 % mesh.triangles.len() as u64) as u32;
         let particle = Particle {
             triangle,

@@ -1,6 +1,6 @@
 //! Measures how the cost of each step grows with the number of particles, from a thousand to ten million. The scene of
 //! the steps "prepare" and "frame as data" is the paper's largest one without its wall. Its number of particles counts
-//! those of its body layer; the other layers have some in addition.
+//! those of the body layer, the bulk of the paint. The other layers have some in addition.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -15,10 +15,8 @@ use crate::plots::{Curve, Plot};
 use crate::table::{Figure, Goal, Row, Spread, Unit, shown, shown_count};
 use crate::{neighbours, sampling, solving};
 
-/// The counts, two per decade.
 const COUNTS: [usize; 9] = [1000, 3000, 10_000, 30_000, 100_000, 300_000, 1_000_000, 3_000_000, 10_000_000];
 
-/// The steps measured at each count, and the plot of each.
 const STEPS: [(&str, Plot); 7] = [
     ("sampling, by chance", Plot::Sampling),
     ("sampling, blue noise", Plot::Sampling),

@@ -72,7 +72,8 @@ pub const LARGEST: usize = PAPER_SCENES[2].particles;
 
 /// The particles of one body as points, in the order in which Impasto stores them.
 pub struct Cloud {
-    /// For the table of results: the number of points, after the scene's name, or `objects` for clouds of other sizes.
+    /// Its name in the table of results: the scene's name, or `objects` for clouds of other sizes, and the number of
+    /// points.
     pub name: String,
     /// Positions, model space.
     pub positions: Vec<Vec3>,
@@ -144,7 +145,7 @@ impl Inputs {
         Ok(scene.meshes.get(mesh).context("the scene has its mesh")?.mesh.clone())
     }
 
-    /// The particles of the body layer of one of the paper's scenes.
+    /// The particles of one of the paper's scenes: those of the body layer, the bulk of the paint.
     pub fn paper_cloud(&mut self, scene: &PaperScene) -> anyhow::Result<Rc<Cloud>> {
         if let Some(cloud) = self.clouds.get(scene.file) {
             return Ok(Rc::clone(cloud));

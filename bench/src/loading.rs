@@ -18,7 +18,6 @@ use crate::table::Row;
 /// Cells of the sheet in the file; two triangles each.
 const CELLS: [u32; 2] = [1000, 500];
 
-/// Triangles of the file.
 const TRIANGLES: usize = 2 * (CELLS[0] * CELLS[1]) as usize;
 
 /// The file of a wavy sheet with normals and texture coordinates; written if it does not exist.

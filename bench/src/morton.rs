@@ -1,5 +1,5 @@
-//! Sorts points in Morton order, so that searches and gathers find their data in the cache: kiddo and rstar are queried
-//! in this order. In the race of our solve against gathers, all contenders store their particles in it.
+//! Sorts points in Morton order, so that searches and gathers find their data in the cache. kiddo and rstar are queried
+//! in this order. Where our solve races against gathers, all contenders store their particles in this order.
 
 use glam::Vec3;
 use rayon::prelude::*;

@@ -26,8 +26,8 @@ const WITHIN: f64 = 64.0;
 /// From this number of points on, only the fastest peers take part, for few rounds.
 const HUGE: usize = 4_000_000;
 
-/// Our search. It leaves out points on the other side of the surface (n·n' ≤ 0), which a tree does not; here all
-/// normals are equal, so that it leaves out none.
+/// Our search, with all normals equal. With real normals it would leave out points on the other side of the surface
+/// (n·n' ≤ 0), which a tree does not.
 pub fn find(positions: &[Vec3], radius: f32) -> Neighbours {
     let normals = vec![Vec3::Y; positions.len()];
     Neighbours::find(positions, &normals, radius)

@@ -14,7 +14,6 @@ use impasto_tests::shapes;
 use crate::bench::Bench;
 use crate::table::{Figure, Row, Spread, Unit, one_line, shown};
 
-/// Side of the picture, pixels.
 const SIDE_PX: u32 = 1024;
 
 /// Frames measured after a warm-up, as in the paper.

@@ -16,7 +16,6 @@ use crate::race::{Contender, race};
 use crate::solving;
 use crate::table::{Figure, Goal, Row, Spread, Unit, one_line};
 
-/// Size of the picture, pixels.
 const SIZE_PX: [u32; 2] = [1280, 720];
 
 /// The name of the paper's figures in the table.

@@ -1,9 +1,9 @@
 //! The list of the benchmark's parts, by name.
 //!
-//! A part is a function that adds rows to [`Bench::table`]. It fails if the answers of its peers differ from ours.
-//! Most parts with peers hand all to [`crate::race::race`] as [`crate::race::Contender`]s, ours first and the floor
-//! (`floor.rs`), if any, last, and make a [`crate::table::Row`] of the figures. To add a part, write a module with
-//! `pub fn run(&mut Bench) -> anyhow::Result<()>` and add a line here.
+//! A part is a function that adds rows to [`Bench::table`]. It fails if the answers of its peers differ from ours. Most
+//! parts make [`crate::race::Contender`]s: ours first, then the peers, and last the floor (`floor.rs`), if any. They
+//! pass these to [`crate::race::race`] and make a [`crate::table::Row`] of the figures. To add a part, write a module
+//! with `pub fn run(&mut Bench) -> anyhow::Result<()>` and add a line here.
 
 use crate::bench::Bench;
 use crate::{
@@ -17,7 +17,7 @@ pub struct Part {
     pub name: &'static str,
     /// What it measures.
     pub about: &'static str,
-    /// Whether `--quick` without names of parts runs it. Without `--quick` and names, all parts run.
+    /// Whether `--quick` runs it. Without `--quick`, all parts run. Parts named on the command line run in any case.
     pub quick: bool,
     /// Measures it.
     pub run: fn(&mut Bench) -> anyhow::Result<()>,

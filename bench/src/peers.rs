@@ -23,11 +23,9 @@ use toolchain::{build_cpp, make_python};
 
 /// Builds and starts peers.
 pub struct Peers {
-    /// The repository.
     root: PathBuf,
     /// The Python interpreter, or why there is none; `None` until it is first needed.
     python: Option<Result<PathBuf, String>>,
-    /// Whether packages may be fetched from the network.
     may_fetch: bool,
 }
 
@@ -42,7 +40,7 @@ pub struct Peer {
 }
 
 impl Peers {
-    /// The peers of the repository at this folder; `may_fetch` allows to fetch Python packages.
+    /// The peers of the repository at this folder. `may_fetch` allows Python packages to be fetched from the network.
     pub fn new(root: &Path, may_fetch: bool) -> Self {
         Self { root: root.to_path_buf(), python: None, may_fetch }
     }

@@ -52,7 +52,7 @@ impl<'a> Contender<'a> {
     }
 }
 
-/// Even a slow contender gets this many rounds, unless it is so slow that it gets only one.
+/// Even a slow contender gets this many of a race's rounds, unless it is so slow that it gets only one.
 const LEAST_ROUNDS: usize = 3;
 
 /// How long a race takes.

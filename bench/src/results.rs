@@ -70,7 +70,6 @@ impl Results {
         Self { head: table.head.clone(), entries }
     }
 
-    /// The text of the file.
     fn text(&self) -> String {
         let mut text = String::new();
         for (name, value) in &self.head {
@@ -109,8 +108,8 @@ impl Results {
         self.head.iter().find(|(name, _)| name == "date").map_or("no date", |(_, value)| value)
     }
 
-    /// Says which figures of a later run have changed. Times on two different machines cannot be compared; instead, the
-    /// ratios of times are: each peer's and each floor's time, divided by our time on the same machine.
+    /// Says which figures of a later run have changed. Times of two different machines cannot be compared. In their
+    /// place it compares ratios: each peer's and each floor's time, divided by our time on the same machine.
     pub fn moved(&self, later: &Self) -> String {
         let same_machine = self.machine() == later.machine();
         let mut text = format!(

@@ -1,4 +1,4 @@
-//! Times how the mesh of the paper's largest scene is sampled, by chance and as blue noise, and measures the spacing
+//! Times the sampling of the mesh of the paper's largest scene, by chance and as blue noise, and measures the spacing
 //! that each blue-noise method reaches.
 
 use std::hint::black_box;
@@ -179,9 +179,10 @@ fn blue(bench: &mut Bench, mesh: &TriangleMesh, count: usize) -> anyhow::Result<
     Ok(())
 }
 
-/// The distance of each point to the nearest other one, divided by the hexagonal spacing of as many points and capped
-/// at 1.5: the mean, and the value that one point in a thousand is below. The first two numbers count only points on
-/// the same side of the surface (n·n' > 0), since only their strokes crowd each other; the last two count all points.
+/// How well the points keep apart: the distance of each point to its nearest neighbour, divided by the hexagonal
+/// spacing of as many points and capped at 1.5. Returns two pairs of the mean and the value that one point in a
+/// thousand is below. The first pair looks only at neighbours on the same side of the surface (n·n' > 0), since only
+/// their strokes crowd each other. The second pair looks at all neighbours.
 fn spacing(sample: &Sample, area: f64) -> [f64; 4] {
     let points = &sample.points;
     let hexagonal = hexagonal_spacing(area, points.len());

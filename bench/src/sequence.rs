@@ -1,5 +1,5 @@
-//! Measures rendering frames of the still life to files: `impasto render` as it is, beside the same command
-//! limited to one thread in all (the driver has none of its own then).
+//! Measures rendering frames of the still life to files: `impasto render` as it is, beside the same command with one
+//! thread in all. The driver then has no threads of its own.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -53,7 +53,6 @@ fn render_secs(
     Ok(start.elapsed().as_secs_f64())
 }
 
-/// Checks that both runs wrote the same bytes.
 fn check_same(folders: [&Path; 2], frames: usize) -> anyhow::Result<()> {
     for frame in 0..frames {
         let [ours, alone] = folders.map(|folder| std::fs::read(folder.join(format!("frame_{frame:04}.png"))));

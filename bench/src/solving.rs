@@ -1,7 +1,8 @@
 //! Measures how long it takes to project and turn all particles of a body: ours from six baked numbers, beside direct
 //! sums over 48 neighbours as in the source paper.
 //!
-//! Which answers must agree (p and c are a neighbour's offsets in the reference picture and in this one):
+//! Which answers must agree (p and c are a neighbour's offsets in the reference picture and in this one, as complex
+//! numbers):
 //! - The gathers (Rust, numpy, numba) all compute `arg Σ p̄ c`.
 //! - Ours equals this sum with each neighbour weighted by w = z_neighbour / z_stroke, and is checked against the
 //!   weighted sum. The row states how much the weights change the angle.
@@ -28,7 +29,7 @@ use scene::SolveScene;
 /// Floats that the solve reads per particle: position, normal, and the two columns of its lift.
 pub const READ: usize = 12;
 
-/// Floats that it writes per particle: position (2), depth, angle, area.
+/// Floats that the solve writes per particle: position (2), depth, angle, area.
 pub const WRITTEN: usize = 5;
 
 /// Measures bodies of several numbers of particles.
@@ -148,7 +149,7 @@ fn close(what: &str, one: &[f32], other: &[f32], most_deg: [f64; 2]) -> anyhow::
     Ok(())
 }
 
-/// The solve's input for a cloud, for the plots.
+/// The solve's input for a cloud.
 pub fn input(bench: &mut Bench, cloud: &Cloud) -> anyhow::Result<scene::Facing> {
     let (reference, now) = scene::views(&mut bench.inputs)?;
     Ok((scene::facing(cloud, &reference), now))

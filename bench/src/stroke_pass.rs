@@ -27,7 +27,6 @@ const BELOW: &str = "below";
 struct StrokePass {
     /// Ours: all layers, and the copy of what lies below them.
     ours_secs: Vec<f64>,
-    /// The bare draw of the same strokes.
     bare_secs: Vec<f64>,
     /// Every pass of our renderer.
     passes: Vec<(&'static str, Vec<f64>)>,

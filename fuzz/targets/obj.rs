@@ -10,7 +10,6 @@ use impasto_scene::assets::AssetFolders;
 use impasto_scene::obj;
 use libfuzzer_sys::fuzz_target;
 
-/// A folder for this process.
 fn folder() -> &'static PathBuf {
     static FOLDER: OnceLock<PathBuf> = OnceLock::new();
     FOLDER.get_or_init(|| impasto_fuzz::folder("obj"))

@@ -1,4 +1,5 @@
-//! Tests of painted amounts: how a dab changes the strokes that it reaches, and that all others stay as they are.
+//! Tests of painted amounts: factors for the width, length, density and flatness of strokes, painted on a surface in
+//! dabs. A dab changes the strokes that it reaches, and all others stay as they are.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -102,7 +103,6 @@ fn a_stroke_in_the_middle_of_a_dab_is_as_much_wider_and_those_outside_stay_to_th
             };
             assert_eq!(outside(&before), outside(&after));
             let factor = f64::from(sides(&after[&middle])[0] / sides(&before[&middle])[0]);
-            // As exact as single precision allows.
             assert!(
                 (factor / by - 1.0).abs() <= f64::from(f32::EPSILON),
                 "{factor} in the middle of the dab"

@@ -212,7 +212,6 @@ fn a_stroke_keeps_its_number() {
     for row in 70..110 {
         for column in 140..180 {
             all += 1;
-            // Half a turn about the middle.
             same += usize::from(first[inside(row, column)] == last[inside(179 - row, 319 - column)]);
         }
     }

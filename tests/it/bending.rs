@@ -240,7 +240,7 @@ fn a_stretched_body_has_no_fewer_strokes_a_pixel() {
     scene.camera.keys = vec![shapes::camera_key(0.0, [0.0, 0.0, 12.0], [0.0; 3])];
     let target = shapes::moved(&shapes::sheet(32), wide);
     let (mut rest, mut wide) = (0.0, 0.0);
-    // How many of the first particles lie on the side that is seen is a matter of chance, so several seeds are counted.
+    // Chance decides how many of the first particles lie on the visible side, so the counts of several seeds are added.
     for seed in 1..=6 {
         scene.seed = seed;
         let morphing = shapes::morphing(scene.clone(), [shapes::sheet(32), target.clone()]);
@@ -299,7 +299,7 @@ fn a_collapsed_or_mirrored_body_paints_numbers() {
 
 #[test]
 fn an_uneven_scale_turns_strokes_as_its_map_says() {
-    // A sheet that is stretched by the scale of its keys is like one whose mesh is stretched.
+    // A sheet that the scale of its keys stretches must have the same angles as one whose mesh is stretched.
     let scales = [1.5, 0.6, 1.0];
     let mut keyed = morphing_scene(30.0);
     keyed.objects[0].morph = None;
@@ -368,7 +368,6 @@ fn the_place_of_a_skinned_node_is_passed_over() {
     assert!(count > 0 && positions() == before);
 }
 
-/// The bytes of an accessor.
 fn bytes_of<'a>(root: &serde_json::Value, bin: &'a mut [u8], accessor: &serde_json::Value) -> &'a mut [u8] {
     let accessor = &root["accessors"][accessor.as_u64().expect("an index") as usize];
     let view = &root["bufferViews"][accessor["bufferView"].as_u64().expect("a view") as usize];

@@ -446,7 +446,6 @@ fn an_interrupted_run_leaves_whole_frames_only() {
         .current_dir(folder.0.path())
         .spawn()
         .unwrap();
-    // Wait for the first frames, then interrupt.
     for _ in 0..600 {
         if folder.path("out/f_0002.png").exists() {
             break;
@@ -470,7 +469,7 @@ fn an_interrupted_run_leaves_whole_frames_only() {
 fn an_interrupt_ends_reading_and_preparing_at_once_and_leaves_nothing() {
     use std::os::unix::process::ExitStatusExt as _;
     let folder = Folder::new();
-    // So many particles that preparing takes far longer than the signals.
+    // With so many particles, preparing takes far longer than sending the signals.
     let many = "objects[0].particles=2000000";
     for arguments in [
         &["render", "scene.ron", "--set", many, "-o", "a.png", "--frames", "0"][..],

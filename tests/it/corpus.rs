@@ -1,6 +1,6 @@
-//! Tests with good and hostile files: always those of the small corpus that `impasto_tests::corpus` makes, and those of
-//! the large corpus if `IMPASTO_CORPUS` names its folder. The real command checks them within limits of memory and
-//! time.
+//! Tests with good and hostile files. The small corpus, which `impasto_tests::corpus` makes, is always tested; the
+//! large corpus is tested if `IMPASTO_CORPUS` names its folder. The real command checks the files within limits of
+//! memory and time.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -219,7 +219,8 @@ fn what_is_dragged_is_what_is_seen_in_any_view() {
     assert!(worst_curved <= 3.0, "{worst_curved} degrees");
 }
 
-/// What is combed on a bent body at a frame shows as combed at that frame, and the guide lies on the surface at rest.
+/// In the frame of the drag, strokes on the bent body lie as they were dragged. The guide is stored on the surface at
+/// rest.
 #[test]
 fn what_is_dragged_on_a_bent_body_is_what_is_seen_then() {
     let mesh = shapes::sphere(192, 96);

@@ -191,8 +191,8 @@ fn a_broken_scene_is_mended() {
     editor.keys(&["Escape"]);
     editor.wait_until_gone("Show the problem");
 
-    // Text that was typed into the panel of problems: the window asks about it before it closes. Ctrl Enter parses it
-    // into the document.
+    // Before it closes, the window asks about text that was typed into the panel of problems. Ctrl+Enter parses the
+    // text into the document.
     let text_place = editor.control("Problems").at([0.8, 0.5]);
     screen.click(text_place);
     editor.keys(&["ctrl+End"]);

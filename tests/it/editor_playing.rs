@@ -17,7 +17,6 @@ use impasto_tests::screen::{EditorWindow, Screen, wait_for};
 
 use crate::editor_window::apple_alone;
 
-/// Frames of the film.
 const FRAMES: f64 = 120.0;
 
 /// A folder with a scene of 120 frames: the apple alone, of few particles, turns while the camera rolls.

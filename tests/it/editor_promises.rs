@@ -110,7 +110,7 @@ fn a_save_that_fails_stays_listed_until_the_work_is_saved_elsewhere() {
     editor.keys(&["ctrl+a"]);
     screen.type_text(&home.path().join("elsewhere.ron").to_string_lossy());
     editor.keys(&["Return"]);
-    // It is saved at once, without a question about files that are not there.
+    // The scene is saved at once, without a question about files that are not there.
     editor.wait_for_title("elsewhere.ron - Impasto");
     editor.wait_until_gone("Save as");
     // The one problem left is that the mesh is gone.

@@ -35,7 +35,6 @@ fn document(folder: &Path) -> Document {
         .unwrap_or_else(|report| panic!("{report}"))
 }
 
-/// Everything in a folder.
 fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let named = |path: std::path::PathBuf| {

@@ -94,7 +94,7 @@ fn a_drag_over_the_apple_is_in_the_saved_file_as_it_was_drawn() {
     hover(x);
     editor.keys(&["Tab"]);
     editor.wait_for_value("Paint, comb, shot camera, frame 0, reference");
-    // Strength from 80 % to 100 %, so that strokes follow the drag exactly.
+    // Raises the strength from 80 % to 100 %, so that strokes follow the drag exactly.
     editor.keys(&["shift+f"]);
     hover(x + 56);
     hover(x + 96);

@@ -177,7 +177,7 @@ fn shipped_scenes_are_packed_whole() {
     }
 }
 
-/// Runs a task of a script of Slurm, as Slurm would.
+/// Runs one task of a Slurm script, as Slurm would.
 fn task(folder: &Path, script: &str, number: usize) -> Output {
     let path = format!("{}:{}", impasto().parent().unwrap().display(), std::env::var("PATH").unwrap());
     let mut shell = Command::new("sh");

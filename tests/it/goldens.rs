@@ -77,7 +77,6 @@ fn a_planted_stroke_fails_the_golden() {
     }
 }
 
-/// How far a picture is from its golden.
 #[derive(Debug)]
 struct Off {
     wrong_pixels: usize,

@@ -42,8 +42,8 @@ fn inside_a_heap_there_are_few_strokes_and_on_it_no_fewer() {
         lens: scene.camera.lens.clone(),
     };
     let (shot, behind) = (pose([0.0, 1.2, 6.0]), pose([0.0, 1.2, -6.0]));
-    // The number of particles, and how many times over strokes would cover the side of the heap that this camera sees,
-    // and the part behind the middle of the heap.
+    // The number of particles, and how many times over strokes would cover two parts of the heap: the side that this
+    // camera sees, and the part behind the middle.
     let of = |seen_from: SeenFrom<'_>, camera: &CameraPose| {
         let loaded = shapes::loaded(scene.clone(), [heap(9000)]);
         let options = PrepareOptions { seen_from, ..PrepareOptions::default() };

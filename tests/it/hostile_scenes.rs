@@ -41,7 +41,7 @@ const fn case(name: &'static str, fields: &'static str, expected: Outcome, says:
     Case { name, fields, expected, says }
 }
 
-/// The cases. Their fields stand on line 2 of the file, from column 1.
+/// The fields of a case stand on line 2 of the file, from column 1.
 const CASES: [Case; 35] = [
     case(
         "particles_u64max",
@@ -380,8 +380,8 @@ fn a_bare_mesh_is_a_scene() {
     assert!(report.to_string().starts_with("--set size=(0, 0): error: "), "{report}");
 }
 
-/// Opens files as the window does. A file that cannot be read is refused with a reason; one whose text
-/// was read only in part is never saved over.
+/// Opens files as the window does. A file that cannot be read is refused with a reason. A file whose text was read only
+/// in part is never saved over.
 #[test]
 fn the_small_corpus_opens_in_the_editor_or_is_refused_and_stays_what_it_is() {
     let folder = tempfile::tempdir().unwrap();

@@ -11,7 +11,6 @@ fn chance(index: u32, which: u32) -> f64 {
     f64::from(hash::unit(hash::combine(index, which)))
 }
 
-/// The kinds of quads that are tested.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Kind {
     General,

@@ -19,7 +19,6 @@ const SCENE: &str = r#"#![enable(implicit_some)]
 )
 "#;
 
-/// A folder with a scene of a sphere.
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("scene.ron"), SCENE).unwrap();
@@ -180,7 +179,7 @@ fn what_is_kept_is_there_whole_or_not_at_all() {
             std::fs::remove_file(kept.join(name)).unwrap();
         }
     });
-    // The leftovers of killed runs are in nobody's way.
+    // What killed runs left behind does not disturb a later run.
     run(folder.path(), &strokes("kept"));
     assert!(files(&kept) == whole);
 }

@@ -68,7 +68,8 @@ fn a_floor_is_painted_alike_however_far_it_runs() {
     }
 }
 
-/// The camera looks down at a floor 10,000 units wide and sees three units of it, in parallel and through a long lens.
+/// The camera looks down at a floor 10,000 units wide and sees three units of it: once in parallel projection, once
+/// through a long lens.
 #[test]
 fn a_small_part_of_a_huge_floor_is_painted() {
     let mut scene = floor_scene(5000.0);
@@ -183,7 +184,7 @@ fn to_the_horizon_the_ground_keeps_its_colour() {
     let mut renderer = renderer(Driver::Egl);
     let mut mean = |painting: &Painting| {
         let picture = renderer.render(&painting.at(0.0, &FrameOptions::new(SIZE_PX))).unwrap();
-        // The horizon is 110.5 rows down.
+        // The horizon is 110.8 rows down.
         let strip = &picture.rgba8[112 * 640 * 4..118 * 640 * 4];
         let sum =
             |channel: usize| -> f64 { strip.iter().skip(channel).step_by(4).map(|&of| f64::from(of)).sum() };

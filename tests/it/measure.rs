@@ -129,7 +129,6 @@ fn m2_sees_angles_solved_in_clip_space() {
     assert!(largest(&squeezed) > 1.0);
 }
 
-/// Turns of the ball's strokes at a frame.
 fn turns(painting: &Painting, frame: f64, rotation: Rotation) -> BTreeMap<StrokeKey, Turn> {
     let strokes = strokes_by_key(&painting.at(frame, &options(rotation)), &[]);
     let camera = motion::camera_at(painting.scene(), frame);
@@ -296,7 +295,6 @@ fn m8_sees_strokes_that_shrink_with_distance() {
     assert!(largest(&shrinking) > 0.05);
 }
 
-/// Two balls side by side.
 fn two_balls(edit: impl FnOnce(&mut Scene)) -> LoadedScene {
     let mut scene = shapes::scene(vec![shapes::object("one", 12_000), shapes::object("two", 12_000)]);
     scene.timeline.last = 1;

@@ -122,7 +122,7 @@ fn has_ffmpeg() -> bool {
     let all = ["ffmpeg", "ffprobe"].iter().all(|name| Command::new(name).arg("-version").output().is_ok());
     assert!(all || std::env::var_os("CI").is_none(), "ffmpeg is missing; `cargo xtask test` installs it");
     if !all {
-        // Not by `eprintln!`: the test runner shows its output only for tests that fail.
+        // The test runner would show the output of `eprintln!` only if the test failed.
         let line = b"ignored: ffmpeg is missing; `cargo xtask test` installs it\n";
         let _ = std::io::Write::write_all(&mut std::io::stderr(), line);
     }

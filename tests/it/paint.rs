@@ -21,7 +21,6 @@ fn options(size_px: [u32; 2]) -> FrameOptions {
     FrameOptions::new(size_px)
 }
 
-/// The number of strokes in layers of this kind.
 fn strokes_of(frame: &Frame, kind: LayerKind) -> usize {
     frame.layers.iter().filter(|run| run.kind == kind).map(|run| run.count as usize).sum()
 }

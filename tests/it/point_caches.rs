@@ -237,7 +237,6 @@ fn a_cache_that_does_not_fit_is_refused_with_its_place() {
     assert!(report.contains("scene.ron:1:") && report.contains("not found"), "{report}");
 }
 
-/// The errors of a scene.
 fn errors(path: &Path) -> Vec<String> {
     let report = load(path, &LoadOptions::default()).expect_err("it is refused");
     report.0.iter().filter(|problem| problem.severity.is_fatal()).map(ToString::to_string).collect()

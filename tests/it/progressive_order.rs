@@ -1,4 +1,4 @@
-//! Tests of the order of particles: the first particles, however many of them, are blue noise, and a longer list begins
+//! Tests of the order of particles. The first particles, however many of them, are blue noise. A longer list begins
 //! with the particles of a shorter one.
 
 use glam::Vec3;
@@ -7,8 +7,8 @@ use impasto_core::sampling::{Particle, Surface, hexagonal_spacing, progressive};
 use impasto_tests::shapes::{cube, sheet, sphere};
 
 /// Mean and 1st percentile of a particle's distance to its nearest neighbour on the same side, as shares of the spacing
-/// of a hexagonal lattice. Neighbours are found by brute force, without the sampler's code, and to save time only for
-/// some hundreds of the particles.
+/// of a hexagonal lattice. Neighbours are found by brute force, without the sampler's code. To save time, only some
+/// hundreds of the particles are measured.
 fn spacing(particles: &[Particle], area: f64) -> (f64, f64) {
     let stride = (particles.len() / 700).max(1);
     let mut nearest: Vec<f64> = (0..particles.len())

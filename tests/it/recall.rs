@@ -1,5 +1,5 @@
-//! Tests of drafts: their strokes have the colours of the exact picture; with a recall they draw the strokes that were
-//! present in the previous picture, and only some of the others.
+//! Tests of drafts. Their strokes have the colours of the exact picture. With a recall, a draft has all strokes that
+//! were present in the previous picture, and only some of the others.
 
 use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
@@ -34,7 +34,7 @@ fn present_strokes_are_drawn_at_once_and_the_others_within_32_pictures() {
     let painting = still_life();
     let all = seen(&painting, None);
     assert!(all.strokes.len() > 10_000, "{}", all.strokes.len());
-    // Every third stroke counts as present before.
+    // Every third stroke counts as present in the previous picture.
     let there = |index: usize| index.is_multiple_of(3);
     let mut found = BTreeSet::new();
     for turn in 0..32 {
@@ -45,7 +45,7 @@ fn present_strokes_are_drawn_at_once_and_the_others_within_32_pictures() {
         for (index, source) in all.sources.iter().enumerate().filter(|(index, _)| there(*index)) {
             assert!(now.contains(&source.place), "{turn}: stroke {index} was there");
         }
-        // The strokes that are drawn are as without a recall, in the same order.
+        // What is drawn equals the strokes of a frame without a recall, in the same order.
         let same = all.sources.iter().zip(&all.strokes).filter(|(source, _)| now.contains(&source.place));
         assert!(same.map(|(_, stroke)| stroke).eq(&frame.strokes), "{turn}");
         assert_eq!(frame.layers.iter().map(|run| run.count as usize).sum::<usize>(), frame.strokes.len());

@@ -18,7 +18,7 @@ const SIZE_PX: [u32; 2] = [320, 180];
 const HEIGHT: f64 = 2.5;
 const PARALLEL: Lens = Lens::Orthographic { height: HEIGHT, near: 0.1, far: 20.0 };
 
-/// A plain render of one object in the light of a sun that shines this way.
+/// A scene of one object for a plain render, in the light of a sun that shines along `sunshine`.
 fn plain(object: Object, sunshine: [f64; 3]) -> Scene {
     let mut scene = shapes::scene(vec![object]);
     scene.size = (SIZE_PX[0], SIZE_PX[1]);

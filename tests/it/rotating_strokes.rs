@@ -48,7 +48,6 @@ fn lone_strokes(size_px: [u32; 2], strokes: Vec<Stroke>, colors: [[f32; 3]; 2]) 
 
 const WHITE: [[f32; 3]; 2] = [[1.0; 3]; 2];
 
-/// A stroke on body 1.
 fn stroke(center_px: [f32; 2], angle_deg: f32) -> Stroke {
     Stroke {
         center_px,
@@ -325,7 +324,8 @@ const SIDE: usize = 512;
 /// The middle of such a picture, in pixels.
 const HALF: f64 = (SIDE as f64 - 1.0) * 0.5;
 
-/// A ball whose camera has rolled at frame 1; the light stands in the world, so the picture should turn as a whole.
+/// A ball, seen by a camera that has rolled by `roll_deg` at frame 1. The light is fixed in the world, so the picture
+/// should turn as a whole.
 fn rolled(roll_deg: f64) -> Scene {
     let mut scene = sphere_scene((SIDE as u32, SIDE as u32));
     (scene.strokes.length_px, scene.strokes.width_px) = (Some(34.0), Some(11.0));

@@ -29,7 +29,7 @@ fn view(yaw_deg: f64) -> ScreenMap {
 fn facets_of_the_coarse_apple_do_not_show_in_the_angle() {
     let mesh = shapes::apple_skin();
     let key = |vertex: u32| mesh.positions[vertex as usize].to_array().map(f32::to_bits);
-    // For each edge, known by the positions of its ends: its two vertices in each of the triangles that it belongs to.
+    // Maps each edge, named by the positions of its two ends, to its two vertices in every triangle that it belongs to.
     type EdgeSides = HashMap<[[u32; 3]; 2], Vec<[u32; 2]>>;
     let mut edges = EdgeSides::new();
     for corners in &mesh.triangles {
@@ -214,7 +214,8 @@ fn grain_stays_along_the_falling_log() {
     for step in 0..=4 {
         let number = timeline.first as f64 + (timeline.last - timeline.first) as f64 * f64::from(step) / 4.0;
         let frame = painting.at(number, &OPTIONS);
-        // The log's own axis on the screen, from its pose alone, since the camera looks almost exactly along −Z.
+        // The log's own axis on the screen. It follows from the log's pose alone, since the camera looks almost exactly
+        // along −Z.
         let pose = impasto_scene::motion::poses_at(scene, number)[log];
         let axis = pose.matrix3 * DVec3::Y;
         let along = axis.y.atan2(axis.x);

@@ -90,7 +90,6 @@ fn a_shot_brings_objects_camera_light_and_frames_and_none_is_saved() {
     // Two nodes with the same mesh share it.
     let mesh = |index: usize| &shot.meshes[&shot.scene.objects[index].mesh];
     assert!(Arc::ptr_eq(mesh(0), mesh(2)) && !Arc::ptr_eq(mesh(0), mesh(1)));
-    // It is painted.
     let painting = prepare(Arc::new(shot)).unwrap();
     let frame = painting.at(0.0, &FrameOptions::new([320, 180]));
     assert!(frame.strokes.iter().filter(|stroke| stroke.body_id == 1).count() > 100);
@@ -264,8 +263,8 @@ fn what_a_shot_moves_is_posed_once_it_has_own_keys() {
     for (frame, before) in before.iter().enumerate() {
         assert!(pose(&document, frame as f64).abs_diff_eq(*before, 1e-6), "{frame}");
     }
-    // A steady turn about one axis needs two keys. Keys hold Euler angles, which are ill-conditioned at 90 degrees
-    // about Y, where this turn ends, so there may be a third.
+    // A steady turn about one axis needs two keys. There may be a third, because the turn ends at 90 degrees about Y,
+    // where the Euler angles of the keys are ill-conditioned.
     assert!(document.scene().objects[0].keys.len() <= 3);
     document.apply(&Command::Time(Time::OwnKeys(KeyOf::Camera))).unwrap();
     assert_eq!(document.scene().camera.keys.len(), 2);

@@ -115,7 +115,8 @@ fn planes(
 /// A lens shifted by whole pixels gives the same picture, moved: depth, light and shadow move with the surfaces.
 #[test]
 fn a_shifted_lens_moves_the_picture_and_nothing_else() {
-    // Even, because openness (ambient occlusion) is computed at every second pixel: these must fall on the same places.
+    // These are even, because ambient occlusion is computed at every second pixel. Those pixels must fall on the same
+    // places of the surfaces.
     const BY_PX: [i32; 2] = [32, -16];
     let scene = root().join("scenes/lane.ron");
     let mut renderer = renderer(Driver::Auto);
@@ -137,7 +138,8 @@ fn a_shifted_lens_moves_the_picture_and_nothing_else() {
                 off += usize::from((own - other).abs() > 0.02 * own.abs().max(0.2));
             }
         }
-        // Pixels at edges of bodies may differ, and at edges of shadows, since the shadow map is fitted to the view.
+        // Pixels at edges of bodies may differ. So may pixels at edges of shadows, since the shadow map is fitted to
+        // the view.
         assert!(off * 100 < count * 2, "{name}: {off} of {count} pixels differ");
     }
 }

@@ -133,8 +133,8 @@ fn a_border_between_two_colours_moves_within_pixels() {
     assert!(fine < 0.6 * coarse, "a stroke's colour leaps by {fine}, with one sample by {coarse}");
 }
 
-/// The same over a floor seen at a grazing angle. Two roofs shade it, but for a strip between them that is 0.8 pixels
-/// high in the picture.
+/// The largest change of a stroke's green in one step, while the camera rises over a floor seen at a grazing angle. Two
+/// roofs shade the floor, except for a strip between them that is 0.8 pixels high in the picture.
 fn largest_step_along_a_strip_of_light(samples: u32) -> f32 {
     let flat = |near: f64, far: f64, y: f64| {
         shapes::moved(&shapes::sheet(4), move |at| {

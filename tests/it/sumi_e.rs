@@ -1,5 +1,5 @@
-//! Tests of ink on paper. First the source's five passes are compared with a version on the CPU that shares no code
-//! with them, then what our own rule adds is tested.
+//! Tests of ink on paper. First the five passes of the technique's source (docs/techniques/sumi_e.md) are compared with
+//! a version on the CPU that shares no code with them. Then what our own rule adds is tested.
 
 mod holes;
 mod laid_ink;
@@ -53,8 +53,8 @@ fn red(picture: &Picture, x: usize, y: usize) -> i32 {
     i32::from(picture.rgba8[(y * picture.size_px[0] as usize + x) * 4])
 }
 
-/// The source's rule on the CPU, written from the source's listing alone. Values are bytes, as in its render targets;
-/// the top row is first.
+/// The source's rule on the CPU, written from the source's listing alone. Values are bytes, as in the source's render
+/// targets. The top row is first.
 struct Twin {
     width: i64,
     height: i64,

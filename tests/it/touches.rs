@@ -29,7 +29,6 @@ fn on_plane(places: &[[f64; 2]]) -> Touch {
     Touch { color: Some(RED), ..Touch::new("touch", "thing", points) }
 }
 
-/// One object, its body layer alone, and these touches.
 fn scene(touches: Vec<Touch>) -> Scene {
     let mut scene = shapes::scene(vec![shapes::object("thing", 4000)]);
     scene.strokes.layers = shapes::body_layer_alone();
@@ -45,7 +44,8 @@ fn seen(painting: &Painting, camera: &CameraPose) -> Frame {
     painting.seen_by(camera, 0.0, &FrameOptions::new(SIZE_PX))
 }
 
-/// The middle of a frame's first line: between its left and its right vertices, without the tips past its ends.
+/// The points midway between the left and right vertices of a frame's first line, without those of the tips past its
+/// ends.
 fn middle(frame: &Frame) -> Vec<DVec2> {
     let Some(strip) = frame.lines.strips.first() else { return Vec::new() };
     let vertices = &frame.lines.vertices[strip.first as usize..(strip.first + strip.count) as usize];

@@ -194,7 +194,8 @@ fn preparing_again_after_giving_up_gives_the_same_bits() {
     preparer.prepare(start()).unwrap();
     let mut given_up = 0;
     for (index, Version { name, loaded, cold }) in versions().iter().enumerate() {
-        // Preparing is given up the first to the fifth time that it asks, in turn.
+        // Preparing asks `give_up` several times. The first yes comes at the 1st, 2nd, 3rd, 4th or 5th time, in turn
+        // from edit to edit.
         let asked = AtomicUsize::new(0);
         let give_up = || asked.fetch_add(1, Ordering::Relaxed) >= index % 5;
         let options = PrepareOptions { give_up: &give_up, ..PrepareOptions::default() };

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
-/// The path of the command's binary, in the same target folder as the running tests. It is built first, with the
-/// features of the whole workspace: after `cargo test --workspace` nothing is left to build, and in a run of fewer
-/// packages it is brought up to date.
+/// The path of the command's binary, in the same target folder as the running tests. The binary is built first, with
+/// the features of the whole workspace. After `cargo test --workspace` nothing is left to build; in a run of fewer
+/// packages this brings it up to date.
 ///
 /// # Panics
 /// When it cannot be built.

@@ -8,8 +8,8 @@ use impasto_gl_render::{Picture, Renderer, ShaderTexts};
 
 use crate::command::root;
 
-/// The environment variable that names a folder of shader files to use instead of the program's own, by which
-/// `cargo xtask faults` plants faults.
+/// The environment variable that names a folder of shader files. They replace the program's own. `cargo xtask faults`
+/// plants faults that way.
 const PLANTED: &str = "IMPASTO_PLANTED_SHADERS";
 
 /// A renderer that panics when the driver reports an error.

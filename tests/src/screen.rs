@@ -9,7 +9,6 @@ use crate::command::impasto;
 
 /// The longest that a test waits for anything; a busy machine may be slow.
 const PATIENCE: Duration = Duration::from_secs(120);
-/// The time between two checks while waiting.
 const PAUSE: Duration = Duration::from_millis(30);
 
 /// Width and height of a screen in pixels: the size with which the editor's window opens.
@@ -288,7 +287,6 @@ impl<'a> EditorWindow<'a> {
         }
     }
 
-    /// The lines that the editor has printed so far.
     fn lines(&self) -> Vec<String> {
         let words = std::fs::read(&self.words).unwrap_or_default();
         String::from_utf8_lossy(&words).lines().map(str::to_owned).collect()

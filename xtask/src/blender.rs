@@ -47,7 +47,8 @@ pub fn run(root: &Path, fetch: Fetch) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// A Python with this Blender; `None` if there is none and it cannot be fetched, or `fetch` forbids that.
+/// A Python with this Blender. `None` if this machine has none and it is not fetched, because `fetch` forbids it or
+/// because fetching fails.
 fn python_with(folder: &Path, version: &str, fetch: Fetch) -> Option<PathBuf> {
     let place = folder.join(format!("bpy-{version}"));
     let python = place.join("bin/python");
@@ -92,7 +93,6 @@ fn python_3_11() -> Option<&'static str> {
     })
 }
 
-/// The command that runs a Python program in `folder`.
 fn python(python: &Path, folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(python);
     command.args(arguments).current_dir(folder).env("PYTHONDONTWRITEBYTECODE", "1");
@@ -111,7 +111,8 @@ fn succeed(mut command: Command, what: &str) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Builds, validates, installs and tests with one Blender.
+/// Builds and validates the extension with one Blender, and runs its tests there. The first test installs the
+/// extension.
 fn test(root: &Path, folder: &Path, interpreter: &Path) -> anyhow::Result<()> {
     const FIND: &str = "import bpy, os, glob; print(glob.glob(os.path.dirname(bpy.__file__) + '/**/bl_pkg/cli/blender_ext.py', recursive=True)[0])";
     // After the import, `bpy.__file__` no longer names the module's folder, so it is found through the site-packages.
@@ -156,7 +157,6 @@ fn test(root: &Path, folder: &Path, interpreter: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The version that the manifest of the extension states.
 fn version_of(source: &Path) -> anyhow::Result<String> {
     let text = std::fs::read_to_string(source.join("blender_manifest.toml"))?;
     let line = text.lines().find_map(|line| line.strip_prefix("version = \""));

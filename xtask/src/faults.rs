@@ -67,7 +67,6 @@ pub fn run(root: &Path, names: &[String]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// A shader's text with the fault.
 fn planted(fault: &Fault, text: &str) -> anyhow::Result<String> {
     let found = text.matches(fault.from).count();
     ensure!(found == 1, "{}: `{}` stands {found} times in {}", fault.name, fault.from, fault.file);

@@ -18,7 +18,7 @@ const MOST_BYTES: u64 = 64 << 10;
 const SLOW_S: u64 = 20;
 const MOST_MIB: u64 = 2048;
 
-/// Some varied bytes to begin with, for targets that take whatever bytes they get as numbers.
+/// Some varied bytes to begin with, for targets that read any bytes as numbers.
 const NUMBERS: &str =
     "0 aA1!bB2\"cC3#dD4$eE5%fF6&gG7'hH8(iI9)jJ:*kK;+lL<,mM=-nN>.oO?/pP@qQ[rR]sS^tT_uU`vV{wW|xX}yY~zZ";
 

@@ -33,7 +33,7 @@ const SHOTS: Page =
 const BEGIN: &str = "<!-- measured:begin -->";
 const END: &str = "<!-- measured:end -->";
 
-/// A column of the table: what it shows of one metric, for Impasto and, in brackets behind it, for a baseline.
+/// A column of the table. It shows figures of one metric for Impasto and, in brackets behind them, one for a baseline.
 struct Column {
     head: &'static str,
     /// The id of the metric in the report of `impasto measure`.

@@ -33,11 +33,10 @@ enum Place {
 pub struct Need {
     /// What it is, for messages.
     what: &'static str,
-    /// The Debian and Ubuntu package.
     package: &'static str,
-    /// Where its files lie.
     place: Place,
-    /// For a library, beginnings of file names, one of which must exist; for a program, its name.
+    /// One of these must be there. They are beginnings of file names for a library, names for a program, and whole
+    /// paths for [`Place::Paths`].
     files: &'static [&'static str],
     /// Whether newer systems no longer have the package at all.
     retired: bool,
@@ -92,7 +91,6 @@ pub const PACKAGING: &[Need] = &[
     program_of("python3-venv", &["python3"]),
 ];
 
-/// What the tests of movies need.
 const MOVIE_TESTS: &[Need] = &[program_of("ffmpeg", &["ffmpeg"])];
 
 /// Models that others made, for the tests that read mesh files.
@@ -205,8 +203,7 @@ fn program(name: &str) -> Option<PathBuf> {
     std::env::split_paths(&path).map(|folder| folder.join(name)).find(|file| file.is_file())
 }
 
-/// Whether the library or program is there: a program in a folder of `PATH`, a library in one of `folders` or in its
-/// `dri` folder.
+/// Whether one of the files is there. A library is looked for in `folders` and in their `dri` folders.
 fn is_there(need: &Need, folders: &[PathBuf]) -> bool {
     match need.place {
         Place::Programs => return need.files.iter().any(|name| program(name).is_some()),

@@ -13,7 +13,6 @@ use anyhow::{Context as _, bail, ensure};
 use crate::packages::{self, Install};
 use crate::steps::{Profile, build};
 
-/// Where the checksums are kept.
 const KEPT: &str = "out/same.txt";
 const SIZE: &str = "320x180";
 const DRIVERS: [&str; 2] = ["egl", "osmesa"];

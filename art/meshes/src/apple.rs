@@ -7,7 +7,8 @@ use glam::DVec3;
 use super::curve::{Profile, bump, noise, smoothstep};
 use super::poly_mesh::{Look, PolyMesh};
 
-/// The outline of half an apple, from the stem cavity to the calyx: distances from the axis, and heights.
+/// The outline of half an apple, from the stem cavity to the calyx. Each point is its distance from the axis and its
+/// height.
 const OUTLINE: [[f64; 2]; 17] = [
     [0.0, 0.640],
     [0.045, 0.655],

@@ -41,8 +41,8 @@ const SKIN: [&str; 28] = [
 /// Height of the apple's middle above its foot.
 pub const MIDDLE: f64 = 0.44;
 
-/// An apple with its skin (52 × 144 faces), a curved stem (16 × 12) and one leaf (2 × 12 × 22), its leaf towards −X.
-/// Its middle is the origin, about which it can be keyed to roll.
+/// An apple with its skin (52 × 144 faces), a curved stem (16 × 12) and one leaf (2 × 12 × 22) towards −X. The origin
+/// is its middle, so that an animation can roll it.
 pub fn apple_fine() -> PolyMesh {
     let mut mesh = PolyMesh::new(
         "apple_fine",

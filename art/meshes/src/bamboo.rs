@@ -114,7 +114,8 @@ fn stalk(mesh: &mut PolyMesh, through: [[f64; 3]; 3], radius: f64, look: Look) -
     path
 }
 
-/// A leaf that hangs from its twig's end at an angle in the plane of X and Y; `which` makes each a little different.
+/// A leaf that hangs from its twig's end at an angle in the plane of X and Y. `which`, the numbers of the twig and of
+/// the leaf, makes each leaf a little different.
 fn leaf(mesh: &mut PolyMesh, from: DVec3, (angle, which): (f64, [usize; 2]), is_pale: bool) {
     let random = |number: u32| hash([which[0] as u32, which[1] as u32, number]);
     let length = 0.50 * (1.0 + 0.30 * random(1));

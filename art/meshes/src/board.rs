@@ -67,7 +67,7 @@ pub fn plate() -> PolyMesh {
     mesh
 }
 
-/// A bare block about the origin.
+/// A rounded block about the origin, all of one material.
 fn board(mesh: &mut PolyMesh, half: DVec3, cells: [usize; 3], rounding: f64) {
     let look = Look { group: "board", material: mesh.palette[0].0 };
     add_block(mesh, &Block { half, cells, rounding, turn: DMat3::IDENTITY, centre: DVec3::ZERO, look });

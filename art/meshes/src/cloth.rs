@@ -29,7 +29,7 @@ struct Fold {
     height: f64,
     /// How far it runs back onto the table.
     reach: f64,
-    /// How far it leans over to the right, or to the left if negative; the side that it leans to is the steeper one.
+    /// How far it leans over: to the right, or to the left if negative.
     lean: f64,
 }
 
@@ -106,7 +106,7 @@ fn draped(flat: DVec2) -> DVec3 {
     point + DVec3::new(0.0, normal.y, normal.x) * (height + lift)
 }
 
-/// A place on the path over the table's edge and the cloth's outward direction there, both as (z, y).
+/// The place at `along` on the path over the table's edge, and the cloth's outward direction there. Both are (z, y).
 fn over_edge(along: f64) -> (DVec2, DVec2) {
     let centre = DVec2::new(CLEARANCE - BEND, CLEARANCE - BEND);
     if along >= 0.0 {

@@ -96,7 +96,6 @@ fn roof(mesh: &mut PolyMesh, [length, depth, eaves, ridge]: [f64; 4], middle: f6
             let out = (depth / 2.0 + 0.13) * (1.0 - up) - 0.012;
             let sag = -0.040 * (1.0 - across * across) * (0.4 + 0.6 * up) - 0.02 * up * (1.0 - up) * 4.0;
             let uneven = 0.010 * noise(0.5 + 0.5 * across, 4.0 * up, 9, 95 + seed);
-            // The eaves turn up a little.
             let upturn = 0.05 * (1.0 - up).powi(4);
             let y = ridge + 0.05 - fall * out + sag + uneven + upturn;
             let x = middle + slope * across * (length / 2.0 + OVER);

@@ -89,7 +89,8 @@ pub fn bump(centre: f64, width: f64, value: f64) -> f64 {
     1.0 - smoothstep(0.0, width, (value - centre).abs())
 }
 
-/// Value noise in −1..=1. `x` counts turns (`x` and `x + 1` agree), each `cells` cells wide; a cell is 1 high in `y`.
+/// Value noise in −1..=1. `x` is in turns: `x` and `x + 1` agree. A turn is `cells` cells wide, and a cell is 1 high in
+/// `y`.
 pub fn noise(x: f64, y: f64, cells: u32, seed: u32) -> f64 {
     let across = x.rem_euclid(1.0) * f64::from(cells);
     let (column, row) = (across.floor(), y.floor());

@@ -68,7 +68,7 @@ impl Glb {
         self.materials.len() - 1
     }
 
-    /// Adds a texture of `size_px` RGB pixels, the first row on top, that repeats. Returns its index.
+    /// Adds a repeating texture of `size_px` RGB pixels, top row first. Returns its index.
     ///
     /// # Errors
     /// There are not as many pixels as the size says.
@@ -175,8 +175,8 @@ impl Glb {
         self.channels.push(json!({ "sampler": sampler, "target": { "node": node, "path": path } }));
     }
 
-    /// The bytes of the file. It has one camera, with this vertical field of view and a picture of 16 by 9; a node that
-    /// is the camera has `("camera", 0)` in [`Node::is`].
+    /// The bytes of the file. Its one camera has this vertical field of view and an aspect ratio of 16 by 9. The node
+    /// that stands for the camera has `("camera", 0)` in [`Node::is`].
     pub fn finish(self, fov_y_rad: f64) -> Vec<u8> {
         let mut root = json!({
             "asset": { "version": "2.0", "generator": "cargo xtask meshes" },

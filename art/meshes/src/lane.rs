@@ -53,7 +53,7 @@ fn paving(shot: &mut Glb) -> anyhow::Result<usize> {
     let mut rgb8 = Vec::new();
     for row in 0..SIDE_PX {
         for column in 0..SIDE_PX {
-            // Two courses of two stones, each course shifted by half a stone; dark joints.
+            // Two courses of two stones, the second shifted by half a stone; the joints are dark.
             let course = row / 32;
             let along = (column + 16 * course) % SIDE_PX;
             let is_joint = row % 32 < 2 || along % 32 < 2;
@@ -118,7 +118,7 @@ fn rolling() -> Vec<(f64, DVec3, DQuat)> {
         .collect()
 }
 
-/// Place and turn of the camera: someone who walks, two steps a second, and looks at the door.
+/// Place and turn of the camera: the view of someone who walks at two steps a second and looks at the door.
 fn walking() -> Vec<(f64, DVec3, DQuat)> {
     (0..=LAST / 2)
         .map(|key| {

@@ -19,8 +19,8 @@ pub struct Limb {
 }
 
 impl Limb {
-    /// The limb through sections, each `[x, y, z, half its size in the plane of X and Y, half its size along Z]`; at
-    /// least two.
+    /// The limb through at least two sections. Each is
+    /// `[x, y, z, half its size in the plane of X and Y, half its size along Z]`.
     pub fn through(sections: &[[f64; 5]]) -> Self {
         const STEPS: usize = 4;
         let last = sections.len() - 1;

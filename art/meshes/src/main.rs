@@ -70,7 +70,6 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(FOLDER)
 }
 
-/// Every shipped mesh.
 fn shipped() -> Vec<PolyMesh> {
     vec![
         apple::apple(),

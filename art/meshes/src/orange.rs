@@ -7,7 +7,8 @@ use glam::DVec3;
 use super::curve::{Profile, bump, noise, smoothstep};
 use super::poly_mesh::{Look, PolyMesh};
 
-/// The outline of half an orange, from the stalk to the blossom end: distances from the axis, and heights.
+/// The outline of half an orange, from the stalk to the blossom end. Each point is its distance from the axis and its
+/// height.
 const OUTLINE: [[f64; 2]; 17] = [
     [0.0, 0.872],
     [0.022, 0.870],

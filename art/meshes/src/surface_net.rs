@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::poly_mesh::{Face, Look, PolyMesh};
 
-/// Where to look for a body, and how finely. The whole body must lie within it, at least a cell from its sides.
+/// Where to look for a body, and how finely. The whole body must lie within the grid, at least a cell from its sides.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {
     /// The corner with the smallest coordinates.
@@ -36,7 +36,8 @@ struct Samples {
 }
 
 impl Samples {
-    /// Computes the field at every point near the skin; in blocks that lie far from it all points get one value.
+    /// Computes the field at every point near the skin. In a block far from the skin, all points get the value of the
+    /// block's middle.
     fn take(grid: &Grid, field: &impl Fn(DVec3) -> f64) -> Self {
         const BLOCK: usize = 6;
         let counts = grid.counts();

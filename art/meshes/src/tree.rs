@@ -19,7 +19,7 @@ const PALETTE: [Pigment; 7] = [
     ("bark_dark", "#6a5448"),
 ];
 
-/// A limb: its axis is the quadratic curve through the first and the last point, pulled towards the middle one.
+/// A limb of a tree. Its axis is a quadratic Bézier curve with the control points `path`.
 struct Limb {
     path: [[f64; 3]; 3],
     /// Its radius at the foot and at the tip.
@@ -36,7 +36,7 @@ struct Clump {
     /// How many sprays, before those inside other clumps are left out.
     sprays: u32,
     seed: u32,
-    /// Moves the greens: positive is lighter, one unit is the whole range.
+    /// How much lighter than usual its greens are; 1 is the whole range from the darkest to the lightest.
     light: f64,
 }
 

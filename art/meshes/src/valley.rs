@@ -105,7 +105,7 @@ impl Plan {
 /// of the path, path, edge of the path, land.
 const SPANS: [usize; 9] = [16, 2, 5, 2, 9, 1, 3, 1, 16];
 
-/// The meadow: banks, river bed and path follow its columns, so that their borders are smooth. Open.
+/// The meadow, an open mesh. Banks, river bed and path follow its columns, so that their borders are smooth.
 pub fn valley() -> PolyMesh {
     const ROWS: usize = 70;
     let mut mesh =

@@ -6,7 +6,6 @@ use std::path::Path;
 use anyhow::Context as _;
 use glam::Vec3;
 
-/// Writes numbers of four bytes.
 fn write(path: &Path, words: impl Iterator<Item = [u8; 4]>) -> anyhow::Result<()> {
     let bytes: Vec<u8> = words.flatten().collect();
     std::fs::write(path, bytes).with_context(|| format!("{} cannot be written", path.display()))

@@ -32,12 +32,11 @@ pub struct SolveScene {
     pub positions: Vec<Vec3>,
     /// Positions in the reference picture, pixels.
     pub reference_px: Vec<[f32; 2]>,
-    /// [`K`] neighbours of each particle. If it has fewer, the rest of its list names the particle itself: an offset of
-    /// 0, which adds nothing to a sum unless its origin is moved to the mean.
+    /// [`K`] neighbours of each particle. If it has fewer, the rest of its list names the particle itself. The offset
+    /// of 0 then adds nothing to a sum, except where the sum's origin is moved to the mean.
     pub lists: Vec<u32>,
     /// The input of our solve.
     pub baked: BakedParticles,
-    /// The reference view.
     reference: ScreenMap,
     /// The view of this frame.
     pub now: ScreenMap,

@@ -51,7 +51,6 @@ fn cells(figure: &Figure) -> [String; 3] {
     [figure.who.clone(), shown, spread]
 }
 
-/// The remark on a figure.
 fn remark(figure: &Figure) -> String {
     match &figure.value {
         Ok(value) if value.runs == 1 && figure.unit == Unit::Seconds => [figure.note.as_str(), "one run"]

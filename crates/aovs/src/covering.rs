@@ -23,7 +23,7 @@ const NO_REGION: &str = "everything else";
 
 /// What shows in each pixel, top row first.
 pub(crate) struct Covering {
-    /// The strokes.
+    /// How much of each pixel each stroke covers.
     pub(crate) shares: PixelShares,
     /// The share of each pixel that shows the toned ground.
     pub(crate) ground: Vec<f32>,
@@ -53,7 +53,6 @@ impl Covering {
         Self { shares, ground, body_id }
     }
 
-    /// Adds the mattes that are wanted.
     pub(crate) fn add_mattes(&self, drawn: &Drawn<'_>, wanted: AovSet, found: &mut Found) {
         let (frame, scene) = (drawn.frame, drawn.painting.scene());
         let mut add = |matte: &Matte, of_stroke: &[u32], of_ground: &(dyn Fn(usize) -> u32 + Sync)| {
@@ -67,8 +66,8 @@ impl Covering {
             found.notes.extend(matte.notes());
         };
         let object_of = |id: u32| &scene.objects[id as usize - 1].name;
-        // The ground takes its name from a stroke: of the strokes on the same body, the one that shows most in the
-        // pixel.
+        // The ground takes its material and its region from a stroke: of the strokes on the same body, the one that
+        // shows most in the pixel.
         let near = |pixel: usize, of_stroke: &[u32]| {
             let id = self.body_id[pixel];
             let on_body = |share: &&Share| frame.strokes[share.stroke as usize].body_id == id;

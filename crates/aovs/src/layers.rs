@@ -98,7 +98,6 @@ fn finished(mut layers: Vec<[f32; 4]>, wanted: [f32; 4]) -> Vec<[f32; 4]> {
     let laid = over(&layers);
     for channel in 0..3 {
         let lacking = wanted[channel] - (1.0 - top[3]) * laid[channel];
-        // Differences below the precision of 16 bits are ignored.
         top[channel] =
             if lacking.abs() > LEAST_LIGHT.max(wanted[channel] * HALF_ULP) { lacking } else { 0.0 };
     }

@@ -75,7 +75,7 @@ pub fn read(renderer: &mut Renderer, drawn: &Drawn<'_>) -> Result<Found, RenderE
     Ok(found)
 }
 
-/// Adds R, G, B and A of a layer; the layer's name ends in a point, or is empty for the picture itself.
+/// Adds the channels R, G, B and A. Their names begin with `layer`, which is empty for the picture itself.
 fn color(layer: &str, pixels: impl Iterator<Item = [f32; 4]>, channels: &mut Vec<Channel>) {
     let mut planes: [Vec<half::f16>; 4] = Default::default();
     for pixel in pixels {

@@ -90,7 +90,6 @@ pub(crate) enum DriverChoice {
     Osmesa,
 }
 
-/// The names of all styles.
 fn style_names() -> PossibleValuesParser {
     let name = |style: &Style| {
         let info = style.info();

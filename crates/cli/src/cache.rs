@@ -118,7 +118,6 @@ impl Cache {
     }
 }
 
-/// A file of the folder.
 struct OpenFile(KeptFile);
 
 impl KeptBytes for OpenFile {

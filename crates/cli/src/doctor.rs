@@ -14,7 +14,6 @@ use impasto_system::System;
 use crate::args::DoctorArguments;
 use crate::failure::Failure;
 
-/// How one driver fared.
 struct Finding {
     driver: Driver,
     outcome: Result<ContextReport, String>,

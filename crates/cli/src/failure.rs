@@ -13,7 +13,6 @@ use impasto_sequence::movie::MovieError;
 /// The exit code where the command line is wrong.
 pub(crate) const USAGE: u8 = 2;
 
-/// Why a command ends early.
 #[derive(Debug)]
 pub(crate) enum Failure {
     /// Nothing more is printed; the command ends with this exit code.
@@ -26,21 +25,27 @@ pub(crate) enum Failure {
     Input(Report),
     /// What was asked for cannot be done with this input.
     Refused(String),
-    /// No OpenGL driver works.
     NoOpenGl(ContextError),
-    /// No window can be opened, and why.
     #[cfg(feature = "editor")]
     NoWindow(String),
     /// Some frames failed; the others are written.
-    SomeFrames { failed: u64, done: u64 },
+    SomeFrames {
+        failed: u64,
+        done: u64,
+    },
     /// A frame could not be written, for the reason in `words`, after `done` frames were written.
-    NotWritten { words: String, done: u64 },
+    NotWritten {
+        words: String,
+        done: u64,
+    },
     /// A signal came after `done` frames were written.
-    Interrupted { done: u64 },
+    Interrupted {
+        done: u64,
+    },
 }
 
 impl Failure {
-    /// The failure that a file could not be read or written.
+    /// For a file that could not be read or written.
     pub(crate) fn of_file(path: &Path, error: impl Display) -> Self {
         Self::Other(format!("{}: {error}", path.display()))
     }

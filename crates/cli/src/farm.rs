@@ -1,5 +1,5 @@
-//! `impasto farm` writes a job for a render farm; `impasto pack` gathers all files of a scene, or checks that they are as they
-//! were packed.
+//! `impasto farm` writes a job for a render farm. `impasto pack` gathers all files of a scene, or checks a packed
+//! folder for changes.
 
 use std::ffi::OsString;
 use std::io::Write as _;
@@ -28,7 +28,7 @@ pub(crate) fn farm(command: &FarmCommand) -> Result<(), Failure> {
     let (arguments, text) = match command {
         FarmCommand::Openjd(arguments) => {
             let mut job = job(arguments, &["--progress", "openjd"])?;
-            // A template's paths are relative to its folder, and lie in it.
+            // The template names files relative to its own folder, and only files inside that folder.
             let folder = arguments.job.as_deref().and_then(Path::parent).unwrap_or(Path::new(""));
             for path in [&mut job.scene, &mut job.output].into_iter().chain(&mut job.movie) {
                 let inside = from_folder(path, folder);
@@ -85,8 +85,8 @@ fn read(scene: &Path, asset_dirs: &[std::path::PathBuf], quiet: bool) -> Result<
     Ok(loaded)
 }
 
-/// The job; the scene is read, so that its errors are found here and not on a hundred machines.
-/// `own` are words that the job adds to the command line.
+/// Makes the job. The scene is read too, so that its errors are found here and not on a hundred machines. `own` are
+/// words that the job adds to the command line.
 fn job(arguments: &FarmArguments, own: &[&str]) -> Result<Job, Failure> {
     let list = arguments.frames.as_deref().map(FrameList::parse).transpose().map_err(Failure::Usage)?;
     let is_own = |word: &String| {
@@ -118,7 +118,7 @@ fn job(arguments: &FarmArguments, own: &[&str]) -> Result<Job, Failure> {
             return Err(Failure::Usage(words.to_owned()));
         }
     }
-    // Counted as two at least, so that the file's name gets a number even if the job is a single frame: usually other
+    // With a count of at least two, the file's name gets a number even if the job is a single frame. Usually other
     // frames of the shot are rendered, too.
     let pattern = Pattern::parse(&arguments.output, list.count().max(2));
     let text = |path: &Path| {

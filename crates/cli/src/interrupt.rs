@@ -30,12 +30,10 @@ impl Interrupt {
         Ok(interrupt)
     }
 
-    /// From now on a signal is only noted, because files are being written.
     pub(crate) fn hold_off(&self) {
         self.ends_at_once.store(false, Ordering::SeqCst);
     }
 
-    /// Whether a signal came.
     pub(crate) fn came(&self) -> bool {
         self.came.load(Ordering::SeqCst)
     }

@@ -38,7 +38,7 @@ use clap::{CommandFactory as _, Parser as _};
 use args::{Arguments, Command};
 use failure::Failure;
 
-/// The answer to `impasto --version --json`, which other programs ask before they use this one. `None` for any other
+/// The answer to `impasto --version --json`. Other programs ask for it before they use this one. `None` for any other
 /// command line.
 fn version_as_json() -> Option<String> {
     let words: Vec<_> = std::env::args_os().skip(1).collect();

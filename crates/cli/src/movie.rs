@@ -71,7 +71,6 @@ pub(crate) fn run(arguments: &MovieArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The files of the frames, in order.
 fn paths(arguments: &MovieArguments) -> Result<Vec<PathBuf>, Failure> {
     let text = arguments.pattern.as_str();
     let pattern = Pattern::parse(text, 1);

@@ -33,7 +33,7 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<(), Failure> {
     if let Some(shot) = &mut scene.shot {
         shot.clone_from(&mesh);
     }
-    // The backdrop needs no file.
+    // The backdrop is a built-in mesh, which needs no file.
     for object in scene.objects.iter_mut().filter(|object| !built_in_mesh::is_built_in(&object.mesh)) {
         object.mesh.clone_from(&mesh);
     }

@@ -1,11 +1,10 @@
-//! Says how far a command is.
+//! Progress of a command: a bar in a terminal, or lines for runners of Open Job Descriptions.
 
 use std::io::{IsTerminal as _, Write as _};
 
 use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// How a command says how far it is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Progress {
     /// A bar, in a terminal.
@@ -25,7 +24,7 @@ impl Progress {
     }
 }
 
-/// A bar that is shown in a terminal.
+/// A bar on stderr. It is hidden if `quiet`, or if stderr is not a terminal.
 pub(crate) fn progress_bar(count: u64, quiet: bool) -> ProgressBar {
     let shown = std::io::stderr().is_terminal() && !quiet;
     let target = if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };

@@ -28,14 +28,12 @@ use crate::progress::{Progress, progress_bar};
 use crate::session::{self, Prepared};
 use crate::sheet::Sheet;
 
-/// Where the pictures go.
 #[derive(Clone)]
 enum Destination {
     /// A file per frame.
     Files(Pattern),
     /// One animated PNG file.
     Animation(PathBuf),
-    /// One movie.
     Movie(PathBuf, &'static Encoding),
     /// One picture, to standard output.
     Stream,
@@ -182,12 +180,10 @@ fn picture_in(path: &Path) -> Result<Picture, FrameFileError> {
     Ok(Picture { size_px: frame.size_px, rgba8: frame.rgba })
 }
 
-/// Where the contact sheet goes.
 fn sheet_path(pattern: &Pattern) -> PathBuf {
     pattern.beside("sheet").with_extension("png")
 }
 
-/// Which outputs are made from each frame.
 fn wanted(arguments: &RenderArguments, destination: &Destination, scene: &Scene) -> Result<Wanted, Failure> {
     let picture = &arguments.picture;
     let only_exr = has_ending(&arguments.output, ".exr");
@@ -467,7 +463,6 @@ fn of_all(ending: Ending) -> Result<Fault, Failure> {
     }
 }
 
-/// What a frame cost: strokes, overdraw, memory, the time of each pass.
 fn cost_words(drawn: &Drawn, cost: &Cost) -> String {
     let memory = memory::peak_bytes()
         .map_or_else(String::new, |bytes| format!(", {} MiB at most so far", bytes >> 20));

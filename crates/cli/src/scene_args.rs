@@ -76,7 +76,7 @@ fn named<T: Copy + Send + Sync + 'static>(
 }
 
 impl PlacingArguments {
-    /// The placing of this file. If any of these arguments is given, the file must be a model.
+    /// The placing of this file. For a scene (.ron), any of these arguments is refused.
     pub(crate) fn of(self, scene: &std::path::Path) -> Result<Placing, Failure> {
         let is_scene = scene.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ron"));
         if is_scene && (self.up.is_some() || self.view.is_some() || self.ground.is_some()) {

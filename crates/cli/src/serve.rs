@@ -50,7 +50,6 @@ pub(crate) fn run(arguments: &ServeArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Writes one line.
 fn tell(line: &Value) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     writeln!(out, "{line}")?;
@@ -72,7 +71,6 @@ fn of_failure(id: u64, failure: &Failure) -> Value {
 /// What tells whether a file is still the same: its length, and when it was written. `None` if it is not there.
 type Stamp = Option<(u64, SystemTime)>;
 
-/// A scene that was prepared.
 struct Ready {
     /// Whether it was prepared to be seen from anywhere.
     is_for_anywhere: bool,
@@ -125,7 +123,8 @@ impl Server<'_> {
         Ok(())
     }
 
-    /// Prepares again if pictures of this size need particles elsewhere than those before.
+    /// Some sizes need particles for any view, others only for the views of the shot. Prepares the scene again when
+    /// that changes.
     fn ready_for(&mut self, size_px: Option<[u32; 2]>) -> Result<(), Failure> {
         let Some(ready) = &mut self.ready else { return Ok(()) };
         let painting = &ready.prepared.painting;

@@ -49,7 +49,6 @@ pub(crate) fn read_scene(arguments: &SceneArguments, quiet: bool) -> Result<Load
     Ok(loaded)
 }
 
-/// A scene that was prepared.
 pub(crate) struct Prepared {
     pub(crate) painting: Painting,
     /// Stores the painting in the cache on another thread. Dropping this waits until it is stored.
@@ -131,7 +130,6 @@ pub(crate) fn open_renderer(driver: DriverChoice, verbose: bool) -> Result<Rende
     Ok(Renderer::new(context)?)
 }
 
-/// The driver that the command line names.
 pub(crate) fn driver(choice: DriverChoice) -> Driver {
     match choice {
         DriverChoice::Auto => Driver::Auto,

@@ -12,7 +12,6 @@ const GROUND: [u8; 4] = [24, 24, 24, 255];
 /// The most frames on one sheet. Of more frames, only every second, third, … is shown.
 const MAX_COPIES: u64 = 144;
 
-/// A sheet that is being filled.
 pub(crate) struct Sheet {
     stride: u64,
     seen: u64,
@@ -37,7 +36,6 @@ impl Sheet {
         self.seen += 1;
     }
 
-    /// Whether the next frame is one that the sheet shows.
     pub(crate) fn shows_next(&self) -> bool {
         self.seen.is_multiple_of(self.stride)
     }

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 
 use impasto_system::{FOR_WAYLAND, FOR_X11, Part};
 
-/// The display for a window, and what is missing.
 pub(crate) struct Found {
     /// The display that a window would be on, such as `X11 :0`, if any.
     pub(crate) display: Option<String>,

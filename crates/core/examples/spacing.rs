@@ -1,5 +1,6 @@
-//! Prints how evenly the first particles of the progressive order are spread, for several shares of all, and how long
-//! making the order takes on one thread: `cargo run --release -p impasto-core --example spacing -- 355467`.
+//! Prints how evenly the first particles of the progressive order are spread, for several shares of all particles.
+//! Also prints how long it takes to make the order on one thread. For 355,467 particles:
+//! `cargo run --release -p impasto-core --example spacing -- 355467`.
 #![expect(clippy::print_stdout, reason = "its output is what it is for")]
 
 use std::time::Instant;
@@ -12,8 +13,8 @@ use impasto_core::sampling::{Particle, Surface, hexagonal_spacing, progressive};
 /// Shares of the count. They are not matched to the levels of the order, so most of them end inside a level.
 const BEGINNINGS: [f64; 7] = [0.02, 0.11, 0.25, 0.37, 0.5, 0.71, 1.0];
 
-/// Mean of the particles' distances to their nearest neighbours, and the distance that only one particle in a thousand
-/// falls below. Both are divided by the spacing of the hexagonal lattice.
+/// The mean and the 0.1 % quantile of the distances to the nearest neighbour. Both are divided by the spacing of the
+/// hexagonal lattice.
 fn spacing(particles: &[Particle], area: f64) -> [f64; 2] {
     let hexagonal = hexagonal_spacing(area, particles.len());
     let (positions, normals): (Vec<Vec3>, Vec<Vec3>) =

@@ -43,8 +43,8 @@ pub struct Bend {
     pub skin: Option<SkinWeights>,
     /// The pose in which the mesh is at rest.
     pub rest: BendPose,
-    /// Whether the file does not say how targets change normals. Then the normals that [`Bend::at`] gives are not used:
-    /// [`Gradients::normals`] finds them from how the bent surface turns.
+    /// True if the file does not say how targets change normals. Then the normals that [`Bend::at`] gives are not
+    /// used: [`Gradients::normals`] finds normals from how the bent surface turns.
     pub turns_normals: bool,
 }
 
@@ -75,8 +75,8 @@ pub struct SkinWeights {
 pub struct BendPose {
     /// The weight of each target; those left out are 0.
     pub weights: Vec<f32>,
-    /// For each joint, from the space in which the mesh was bound to model space. With no joints, vertices stay where
-    /// targets put them.
+    /// For each joint, the map into model space from the space in which the mesh was bound. With no joints, vertices
+    /// stay where targets put them.
     pub joints: Vec<DAffine3>,
 }
 
@@ -107,7 +107,6 @@ impl Target {
         }
     }
 
-    /// The entries for a range of vertices.
     fn entries(&self, vertices: &Range<usize>) -> Range<usize> {
         let first = |limit: usize| self.vertices.partition_point(|&vertex| (vertex as usize) < limit);
         first(vertices.start)..first(vertices.end)

@@ -1,10 +1,10 @@
 //! Brush marks, made by code: what one stroke of a brush leaves on the canvas.
 //!
-//! A mark is three fields over a rectangle. `u` runs along the stroke, from its loaded start, `v` across it:
+//! A mark is three fields over a rectangle. `u` runs along the stroke from its loaded start, `v` runs across it.
 //!
 //! * **paint**: where there is paint. It shows where this value is above a threshold: a low threshold gives a wet
-//!   stroke, a higher one a dry stroke, the highest a few hairs. Values are equalised: a threshold of `1 − s` leaves
-//!   the share `s`.
+//!   stroke, a higher one a dry stroke, the highest a few hairs. Values are equalised, so a threshold of `1 − s` leaves
+//!   the share `s` of the paint.
 //! * **height**: how thick the paint lies: furrows, paint pushed aside along the edges, a ridge where the brush lifts.
 //! * **tint**: streaks where another colour is half mixed in. The middle value changes nothing; values above and below
 //!   it change the colour in opposite ways.

@@ -13,9 +13,9 @@ const MOST_SAMPLES: usize = 2048;
 /// The cosine of 25 degrees: samples whose normals differ by more do not lie on the same form.
 const LEAST_COSINE: f32 = 0.906;
 
-/// Samples on the same form also lie off each other's tangent planes by at most this share of their distance: as much
-/// as points of a ball whose normals differ by 25 degrees. So an eye ends at its lids, although the cheek faces the
-/// same way.
+/// A sample on the same form as a point is also near the point's tangent plane: it lies off the plane by at most this
+/// share of its distance. Two points of a ball whose normals differ by 25 degrees lie off by about as much. So an eye
+/// ends at its lids, although the cheek faces the same way.
 const MOST_RISE: f32 = 0.22;
 
 /// The form ends at the radius at which it fills only this share of the disc with that radius; a right-angled corner of
@@ -32,11 +32,11 @@ const RADII: usize = 24;
 /// The sizes are smoothed over samples within this radius, in spacings: 26 of them on a plane.
 const SMOOTHING_RADIUS: f32 = 2.7;
 
-/// Where sheets lie so close together that more samples than this are within that radius, the radius is smaller. So a
-/// size is found as quickly in a heap of triangles as on a plane.
+/// If more samples than this would lie within the smoothing radius on average, as where many sheets lie close
+/// together, the radius is made smaller. So a size is found as quickly in a heap of triangles as on a plane.
 const MOST_NEIGHBOURS: usize = 128;
 
-/// At most this many samples are used to measure how far neighbours are.
+/// At most this many samples are asked how far away their neighbours are.
 const ASKED: usize = 64;
 
 /// The size of the form all over a surface, measured at samples of it.
@@ -115,7 +115,6 @@ impl FormSize {
         Self { least: least_ln.exp(), ..Self::of_samples(&samples, smoothing_radius) }
     }
 
-    /// A field of samples whose sizes are known.
     fn of_samples(samples: &[Sample], smoothing_radius: f32) -> Self {
         let buckets = samples.len().next_power_of_two();
         let mut in_bucket = vec![Vec::new(); buckets];
@@ -146,7 +145,7 @@ impl FormSize {
         if self.starts.is_empty() { f32::INFINITY } else { self.least }
     }
 
-    /// The buckets of the two by two by two cells that hold all samples within the smoothing radius, each once.
+    /// The buckets of the 2 × 2 × 2 cells that hold all samples within the smoothing radius. No bucket comes twice.
     #[inline(always)]
     fn buckets_round(&self, position: Vec3) -> impl Iterator<Item = usize> {
         let buckets = self.starts.len() - 1;
@@ -171,14 +170,14 @@ impl Block {
                 block.positions[axis][lane] = sample.position[axis];
                 block.normals[axis][lane] = sample.normal[axis];
             }
-            // A size of 0 would make a sum of its whole block meaningless.
+            // The ln of a size of 0 is −∞, which times a weight of 0 would make the whole sum NaN.
             block.sizes_ln[lane] = sample.size_ln.max(f32::MIN_POSITIVE.ln());
         }
         block
     }
 }
 
-/// The weights of the samples round a point, and their sum weighed with the ln of the sizes.
+/// Weighs the samples round a point. Near ones that face the same way count most.
 struct Weighing<'a> {
     form: &'a FormSize,
     position: Vec3,
@@ -186,7 +185,7 @@ struct Weighing<'a> {
 }
 
 impl Wide for Weighing<'_> {
-    /// The weighed sum, and the sum of the weights.
+    /// The weighted sum of the ln of the sizes, and the sum of the weights.
     type Output = [f32; 2];
 
     #[inline(always)]
@@ -241,7 +240,8 @@ impl Axes {
         Self(std::array::from_fn(axis))
     }
 
-    /// For each sample the square of its distance in squares of `unit`, infinite where it lies on another form.
+    /// Fills `beyond` with the squared distance to each sample, in squares of `unit`. It is infinite for a sample on
+    /// another form.
     fn distances_over_form(&self, at: Vec3, normal: Vec3, unit: f32, beyond: &mut [f32]) {
         let [x, y, z, normal_x, normal_y, normal_z] = self.0.each_ref().map(|axis| &axis[..beyond.len()]);
         let per_unit_sq = 1.0 / (unit * unit);

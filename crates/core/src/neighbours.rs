@@ -41,7 +41,7 @@ pub struct NeighbourArrays<'a> {
     pub slots: &'a [u32],
     /// Length of each list, by slot.
     pub lengths: &'a [u8],
-    /// `most` indices for each slot, of which those beyond its length mean nothing.
+    /// `most` indices for each slot. Those beyond the length of the slot's list mean nothing.
     pub indices: &'a [u32],
     /// How many indices are reserved for each list.
     pub most: usize,
@@ -136,7 +136,7 @@ pub struct PointIndex {
 impl PointIndex {
     /// Sorts the points for searches within `radius`, model units.
     pub fn new(points: Points<'_>, radius: f32) -> Self {
-        // With a radius of NaN no distance passes.
+        // A negative radius becomes NaN, so that no distance is within it.
         let radius = if radius >= 0.0 { radius } else { f32::NAN };
         let space = CellSpace::new(points.positions, radius);
         Self { points: SortedPoints::new(points, &space), space, radius }
@@ -153,7 +153,6 @@ impl PointIndex {
     }
 }
 
-/// What all parts of a search share.
 struct Search<'a> {
     queries: &'a SortedPoints,
     /// The points among which neighbours are searched; `None` for the queries themselves.

@@ -41,7 +41,7 @@ pub struct VertexNoise {
     pub scale: f64,
     /// The directions along which the vertices are moved.
     pub along: Along,
-    /// Whether normals are those of the moved surface, so that the light shows how it is moved.
+    /// Whether normals are those of the moved surface, so that the light shows the displacement.
     pub moves_normals: bool,
 }
 

@@ -150,7 +150,6 @@ mod tests {
     use super::*;
     use glam::DQuat;
 
-    /// A box as twelve triangles.
     fn brick(half: DVec3, turn: DQuat, at: DVec3) -> TriangleMesh {
         let corner = |index: usize| {
             let sign = |bit: usize| if index >> bit & 1 == 1 { 1.0 } else { -1.0 };

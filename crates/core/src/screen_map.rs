@@ -29,7 +29,7 @@ pub struct UnevenPose {
     pub world_from_normal: DMat3,
 }
 
-/// How the camera projects, with the picture's height.
+/// How the camera projects onto a picture of a given height.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PixelLens {
     /// `focal_px` = height / (2 tan(fov_y / 2)).
@@ -69,14 +69,14 @@ impl ScreenMap {
         Self { row_x, row_y, ..self }
     }
 
-    /// As [`facing`], also where the body's pose scales directions differently.
+    /// As [`facing`], but right also where the body's pose scales directions differently.
     #[inline]
     pub fn facing(&self, jacobian: [DVec3; 2], normal_in_model: DVec3) -> f64 {
         let Some(UnevenPose { world_from_model, world_from_normal }) = self.uneven else {
             return facing(jacobian, normal_in_model);
         };
         // Let M be the pose, and n and m the normal and the direction to the eye in model space. In world space these
-        // two are M⁻ᵀ n and M m.
+        // two are M⁻ᵀ n and M m, and their dot product is still n·m.
         let towards_eye = jacobian[0].cross(jacobian[1]);
         let lengths =
             (world_from_normal * normal_in_model).length() * (world_from_model * towards_eye).length();

@@ -170,7 +170,6 @@ impl BakedParticles {
         self.arrays_mut().into_iter().for_each(|array| resize(array, count));
     }
 
-    /// The particles in chunks of `size`, to be written one by one.
     pub(crate) fn chunks_mut(&mut self, size: usize) -> Vec<ParticleChunk<'_, 12>> {
         ParticleChunk::cut(self.arrays_mut().map(|array| &mut array[..]), size)
     }
@@ -222,10 +221,11 @@ fn vector(arrays: &[Vec<f32>; 3], particle: usize) -> DVec3 {
 }
 
 /// Projects every particle of a body and finds its stroke's angle. Serves tests and benchmarks: a picture solves only
-/// the particles that show, one by one ([`ParticleView`]). With flatness 1 the angle is φ, that of the rotation nearest
-/// to A = J N'. With flatness 0 it is the direction of A e₁, the first column of A. With a flatness F between, the two
-/// unit vectors are blended: `arg(F·e^{iφ} + (1 − F)·A e₁/|A e₁|)`. The result depends on the inputs alone, not on the
-/// threads.
+/// the particles that show, one by one ([`ParticleView`]).
+///
+/// With flatness 1 the angle is φ, that of the rotation nearest to A = J N'. With flatness 0 it is the direction of
+/// A e₁, the first column of A. With a flatness F between, the two unit vectors are blended:
+/// `arg(F·e^{iφ} + (1 − F)·A e₁/|A e₁|)`. The number of threads changes no bit of the result.
 pub fn solve(particles: &BakedParticles, map: &ScreenMap, solved: &mut SolvedParticles) {
     let count = particles.len();
     for array in

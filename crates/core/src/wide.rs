@@ -7,14 +7,11 @@
 /// A loop over plain arrays. `run` and all functions that it calls are marked `#[inline(always)]`: what is not inlined
 /// is compiled for the oldest processor.
 pub(crate) trait Wide {
-    /// The result.
     type Output;
 
-    /// Runs the loop.
     fn run(self) -> Self::Output;
 }
 
-/// Runs the loop in the widest version that the processor can run.
 #[inline]
 #[expect(unsafe_code, reason = "a function compiled for vectors may only be called where they were found")]
 pub(crate) fn widest<W: Wide>(work: W) -> W::Output {

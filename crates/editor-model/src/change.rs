@@ -2,7 +2,6 @@
 
 use impasto_scene::document::{AmountDab, Guide, Object, PaintedAmount, Region, Scene, Touch};
 
-/// The difference between two scenes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct SceneChange {
     parts: Vec<Part>,
@@ -98,7 +97,7 @@ impl SceneChange {
         }
     }
 
-    /// How much memory it takes, bytes, estimated.
+    /// An estimate of its memory, bytes.
     pub(crate) fn bytes(&self) -> usize {
         let of_guides =
             |guides: &[Guide]| guides.iter().map(|guide| 96 + guide.points.len() * 56).sum::<usize>();

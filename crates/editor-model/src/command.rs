@@ -50,7 +50,6 @@ pub enum Command {
     Several(String, Vec<Command>),
 }
 
-/// The result of an edit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Done {
     /// The text that the history shows.
@@ -112,7 +111,6 @@ pub(crate) fn region_mut<'a>(scene: &'a mut Scene, name: &str) -> Result<&'a mut
     region.ok_or_else(|| Refusal::unknown("region", name))
 }
 
-/// An object that may be changed.
 pub(crate) fn unlocked_object<'a>(scene: &'a mut Scene, name: &str) -> Result<&'a mut Object, Refusal> {
     let object = object_mut(scene, name)?;
     if object.locked { Err(Refusal::new(format!("{name} is locked"))) } else { Ok(object) }
@@ -154,7 +152,6 @@ pub(crate) fn counted(names: &[impl AsRef<str>], what: &str) -> String {
     }
 }
 
-/// A number that a document can hold.
 pub(crate) fn finite(value: f64) -> Result<f64, Refusal> {
     if value.is_finite() { Ok(value) } else { Err(Refusal::new("That is no number")) }
 }

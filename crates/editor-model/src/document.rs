@@ -77,7 +77,6 @@ impl Trial {
     }
 }
 
-/// A scene after a command, and what the command did.
 fn edited(
     loaded: &LoadedScene,
     folders: &AssetFolders,
@@ -386,7 +385,8 @@ impl Document {
         folder.unwrap_or(Path::new("."))
     }
 
-    /// Makes paths relative to another folder, if the scene has no file and names no files. Returns whether it did.
+    /// Makes the scene's paths relative to another folder. Does so only if the scene was never saved and names no
+    /// files; returns whether it did.
     pub fn live_in(&mut self, folder: &Path) -> bool {
         let is_free = self.file.is_none() && self.files_named().next().is_none();
         if is_free {

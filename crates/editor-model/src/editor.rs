@@ -45,7 +45,7 @@ pub use mending::{Mend, Mended, Took};
 pub use pointer::{PointerEvent, PointerKind};
 pub use request::{Offer, Request, Said};
 
-/// A transform of objects under way.
+/// A transform under way, of objects or of one light.
 #[derive(Debug)]
 struct TransformDrag {
     machine: Transforming,
@@ -59,7 +59,6 @@ struct TransformDrag {
 /// The interaction under way.
 #[derive(Debug, Default)]
 enum Busy {
-    /// Nothing.
     #[default]
     Idle,
     /// A drag moves the view: orbits about this point, or pans or zooms with respect to it.

@@ -20,8 +20,8 @@ const SQUARE: [f64; 2] = [0.3, 0.16];
 const REACH_PX: f64 = 12.0;
 /// Radius of the dot in the middle, pixels.
 const CENTRE_PX: f64 = 10.0;
-/// An arm that points nearly at the eye is left out: one that appears at less than this share of its length. A square
-/// is left out if it appears at less than this share of its area.
+/// An arm that points nearly at the eye appears short. It is left out if it appears at less than this share of its
+/// length, and a square if it appears at less than this share of its area.
 const LEAST_SHOWN: f64 = 0.15;
 const RING_PIECES: usize = 64;
 
@@ -145,7 +145,6 @@ pub(crate) fn off_px(at_px: DVec2, from_px: DVec2, to_px: DVec2) -> f64 {
     (from_px + piece * t).distance(at_px)
 }
 
-/// Where a gizmo stands.
 struct Placement<'a> {
     /// The axes of the handles in the world, unit columns.
     axes: DMat3,

@@ -34,8 +34,8 @@ pub(crate) struct History {
     next_serial: u64,
     /// The serial of the last entry that was dropped to save memory.
     forgotten: u64,
-    /// The serial of the last done entry when the file was saved, or 0 if there was no entry then. None if the file was
-    /// never saved in a state of this history.
+    /// The serial of the last done entry when the file was saved, or `forgotten` if no entry was done then. None if the
+    /// file was never saved in a state of this history.
     saved: Option<u64>,
 }
 

@@ -1,6 +1,6 @@
 //! The keymap: what each key does, in two presets (Blender's keys and Maya's). `Editor::key` decides which scope is
-//! active. A modal tool takes every key. In the other scopes, a key without a binding there does what it does
-//! everywhere; but while text is typed, keys that text fields use do not.
+//! active. A modal tool takes every key. In the other scopes, a key that is not bound there does what it does
+//! everywhere. Text fields keep the keys that they use themselves.
 
 mod hints;
 mod own;
@@ -286,7 +286,6 @@ pub enum Scope {
     Animate,
 }
 
-/// The scope of a binding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Where {
     Everywhere,

@@ -30,7 +30,6 @@ pub(crate) fn typed(name: &str) -> Result<String, Refusal> {
     Ok(name.to_owned())
 }
 
-/// Renames an object wherever the document names it.
 pub(crate) fn rename_object(scene: &mut Scene, old: &str, new: &str) {
     for object in &mut scene.objects {
         if object.name == old {

@@ -5,8 +5,7 @@
 //! events ─▶ curve through them ─▶ steps of one pixel ─▶ pulled string ─▶ a ray per step ─▶ pieces on the surface
 //! ```
 //!
-//! The string steadies the hand: its tip draws. The pointer pulls the tip only when the tip is farther from it than the
-//! string is long.
+//! The string steadies the hand: its tip draws, and the pointer pulls the tip along only while the string is taut.
 
 use glam::{DAffine3, DVec2, DVec3};
 use impasto_scene::document::{Falloff, Guide, GuideMode, GuidePoint};
@@ -27,7 +26,7 @@ pub use view::ObjectView;
 
 /// Points of a path lie this far apart on the screen.
 const STEP_PX: f64 = 1.0;
-/// Stamps lie this share of the radius apart on the surface.
+/// Stamps, the points where a brush touches, lie this share of the radius apart on the surface.
 pub(crate) const STAMP_SHARE: f64 = 0.25;
 /// A guide leaves out points of its path as long as its line stays within this distance of the path.
 const TOLERANCE_PX: f64 = 0.5;

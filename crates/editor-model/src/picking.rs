@@ -123,8 +123,8 @@ impl Picker {
         self.trees.get(object)?.closest(position_in_model, max_distance, facing)
     }
 
-    /// The map that carries the surroundings of a point near an object's surface at rest to where they are now, in the
-    /// object's own space.
+    /// A map from an object at rest to the object as it is now, both in its own space. It holds near `at_rest`, a point
+    /// close to the surface at rest.
     pub fn now_from_rest(&self, object: usize, at_rest: DVec3) -> DAffine3 {
         self.trees.get(object).map_or(DAffine3::IDENTITY, |tree| tree.now_from_rest(at_rest))
     }

@@ -12,10 +12,10 @@ use std::collections::BTreeSet;
 #[cfg(test)]
 mod tests;
 
-/// If the clock jumps ahead by more than this, seconds, the machine was suspended: playback goes on from the frame that
-/// is shown.
+/// If the clock jumps ahead by more than this many seconds, the machine is taken to have been suspended. Playback then
+/// goes on from the frame that is shown.
 const SLEPT_SECS: f64 = 5.0;
-/// The greatest lead: no picture is asked for earlier than this before it is due, seconds.
+/// The greatest lead, seconds. The lead is the time by which pictures are asked for before they are due.
 const MOST_LEAD_SECS: f64 = 0.4;
 /// The share of a picture's lateness that is added to the lead.
 const LEAD_GAIN: f64 = 0.2;
@@ -81,8 +81,8 @@ impl Course {
         self.last.saturating_sub(self.first).saturating_add(1).max(1)
     }
 
-    /// The frame at which playing begins: the playhead's, or the first if the playhead is outside the range or at the
-    /// end of one that is not looped.
+    /// The frame at which playing begins: the playhead's. If the playhead is outside the range, or at the end of a
+    /// range that is not looped, it is the first frame.
     fn start(&self, frame: f64) -> i64 {
         let is_inside = frame >= self.first as f64 && frame < self.last as f64 + 1.0;
         let start = if is_inside { frame.floor() as i64 } else { self.first };

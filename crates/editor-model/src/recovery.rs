@@ -44,7 +44,7 @@ pub struct Recovery {
     _lock: File,
 }
 
-/// A copy that no living session holds. While this exists, no other session is offered the copy.
+/// A copy that no living session holds. While the offer exists, no other session is offered the copy.
 #[derive(Debug)]
 pub struct Offer {
     /// The copy.
@@ -92,7 +92,7 @@ impl Recovery {
     /// Makes an offered copy this session's own, so that work goes on with it.
     ///
     /// # Errors
-    /// What the system said. The copy then stays an offered one, unless only the last step failed: writing the folder
+    /// What the system said. The copy can then be offered again, unless only the last step failed: writing the folder
     /// to the disk.
     pub fn take_over(&self, offer: Offer) -> io::Result<()> {
         fs::rename(&offer.file, self.file())?;

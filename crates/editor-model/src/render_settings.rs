@@ -64,7 +64,7 @@ pub enum Existing {
     /// They are rendered again.
     #[default]
     Replace,
-    /// Whole ones stay, and their frames are left out.
+    /// Files that are whole stay, and their frames are left out.
     Keep,
 }
 
@@ -77,7 +77,7 @@ pub struct RenderSettings {
     pub list: String,
     /// Width and height in pixels.
     pub size_px: [u32; 2],
-    /// Which files each frame becomes.
+    /// Which files are written for each frame.
     pub kind: FileKind,
     /// What EXR files hold beside the colour.
     pub aovs: AovChoice,
@@ -125,7 +125,7 @@ pub struct RenderPlan {
     pub transparent: bool,
     /// What happens to files that are there.
     pub existing: Existing,
-    /// Which files each frame becomes.
+    /// Which files are written for each frame.
     pub kind: FileKind,
     aovs: AovChoice,
     pattern: Pattern,
@@ -218,8 +218,8 @@ impl RenderPlan {
         Self { existing: Existing::Keep, ..self }
     }
 
-    /// The file of a frame. If a frame becomes two files, both have this name, each with its own ending. A movie is one
-    /// file for all frames.
+    /// The file of a frame. If two files are written for it, both have this name, each with its own ending. A movie is
+    /// one file for all frames.
     pub fn path(&self, frame: i64) -> PathBuf {
         match self.kind {
             FileKind::Movie => self.output.clone(),
@@ -292,7 +292,6 @@ impl RenderPlan {
     }
 }
 
-/// The names of all that is in a folder.
 fn names_in(folder: &Path) -> HashSet<OsString> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     entries.map(|entry| entry.file_name()).collect()

@@ -76,7 +76,7 @@ impl LoosePoses {
 }
 
 impl TimeHand {
-    /// Whether the film was played since the document was opened.
+    /// Whether the shot was played since the document was opened.
     pub fn has_played(&self) -> bool {
         self.played.is_some()
     }

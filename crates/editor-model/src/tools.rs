@@ -174,7 +174,6 @@ pub(crate) struct Paintable {
     pub(crate) object_name: Option<String>,
 }
 
-/// The message where nothing is under the ring.
 pub(crate) const NOTHING_HERE: &str = "Nothing to paint here: the ring must lie on an object";
 
 impl<'a> Surroundings<'a> {
@@ -232,7 +231,6 @@ impl<'a> Surroundings<'a> {
         (camera, pose.unwrap_or(DAffine3::IDENTITY))
     }
 
-    /// The frame of a region's reference.
     pub(crate) fn reference_frame(&self, region: Option<usize>) -> f64 {
         let scene = self.scene();
         let own = region.and_then(|region| scene.regions.get(region)?.reference.as_ref());

@@ -123,7 +123,6 @@ pub struct Transforming {
     /// The object's pose when the transform began.
     world_from_model: DAffine3,
     from_px: DVec2,
-    /// Where the pointer was last, pixels.
     at_px: DVec2,
     snap: Snap,
     /// Angle by which the pointer has gone round the pivot, radians, counter-clockwise; not wrapped at whole turns.
@@ -292,8 +291,8 @@ impl Transforming {
         }
     }
 
-    /// Sets a constraint. The same one a second time in a row means the object's own axes (or the world's, if the
-    /// object's were first). A third time removes it.
+    /// Sets a constraint. Setting the same one again switches to the object's own axes, or to the world's if the
+    /// object's came first. Setting it a third time removes it.
     fn hold(&mut self, constraint: Constraint) {
         let other = if self.first_space == Axes::Local { Axes::World } else { Axes::Local };
         if self.constraint != constraint {
@@ -423,9 +422,9 @@ impl TransformDelta {
         }
     }
 
-    /// Where each point of the world goes, with turns and scalings about a pivot. The columns of `world_from_space` are
-    /// the axes of the delta. (Commands on poses cannot take the matrix of uneven factors; `Arrange::Stretch` takes the
-    /// factors themselves.)
+    /// Maps each point of the world to its place after the transform. Turns and scalings are about `pivot`. The columns
+    /// of `world_from_space` are the axes of the delta. Commands on poses cannot take the matrix of an uneven scaling;
+    /// `Arrange::Stretch` takes its factors instead.
     pub fn world_from_world(&self, pivot: DVec3, world_from_space: DMat3) -> DAffine3 {
         let about_pivot = |linear: DMat3| DAffine3::from_mat3_translation(linear, pivot - linear * pivot);
         match *self {
@@ -434,7 +433,7 @@ impl TransformDelta {
                 let axis = (world_from_space * axis).normalize_or(DVec3::Y);
                 about_pivot(DMat3::from_quat(DQuat::from_axis_angle(axis, angle_rad)))
             }
-            // Exact: the same along all axes of any space.
+            // An even scaling is the same in any space. Without the axes the result is exact.
             Self::Scale(by) if by == DVec3::splat(by.x) => about_pivot(DMat3::from_diagonal(by)),
             Self::Scale(by) => {
                 about_pivot(world_from_space * DMat3::from_diagonal(by) * world_from_space.transpose())

@@ -24,7 +24,8 @@ mod tests;
 /// The greatest width and height of a picture, in pixels.
 const MOST_PX: [u32; 2] = [288, 162];
 
-/// Strokes are this much larger than in the scene's picture, so that they can be told apart in a small one.
+/// Relative to the picture, strokes are this many times larger than in the scene. Otherwise they could not be told
+/// apart in a small picture.
 const LARGER: f32 = 3.0;
 
 /// Preparing a picture may use the available memory divided by this. The scene itself is in memory once already.
@@ -33,7 +34,7 @@ const SHARE: u64 = 4;
 /// How long dropping waits for the thread.
 const CLOSING: Duration = Duration::from_millis(1500);
 
-/// Makes a scene with a preset; none if the scene does not take it.
+/// Makes a scene with a preset; `None` if the preset cannot be applied.
 pub type SceneOf = Arc<dyn Fn() -> Option<LoadedScene> + Send + Sync>;
 
 /// A picture to paint.

@@ -32,7 +32,7 @@ pub use pictures::Pictures;
 /// What the viewport shows.
 #[derive(Clone, Copy)]
 pub struct ViewportInput<'a> {
-    /// The worker's pictures; in a comparison the first is the reference.
+    /// The last picture of each view. In a comparison, the first is the reference.
     pub pictures: &'a Pictures,
     /// Mode, shading, overlays.
     pub session: &'a Session,

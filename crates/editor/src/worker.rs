@@ -170,7 +170,8 @@ impl Worker {
         Ok(Self { mailbox, thread: Some(thread) })
     }
 
-    /// Shows this from now on. A job that was not begun is dropped; one that is under way gives up its exact pictures.
+    /// Shows this job from now on. An earlier job that has not begun is dropped. One that is under way gives up its
+    /// exact pictures.
     pub fn show(&self, job: Job) {
         self.mailbox.put(job, Later::default());
     }
@@ -192,8 +193,8 @@ impl Worker {
         self.mailbox.stop_preparing();
     }
 
-    /// The reports since the last call: the newest of each kind, but the newest picture of each view, and the first few
-    /// failures.
+    /// The reports since the last call: the newest picture of each view, the first few failures, and of every other
+    /// kind the newest report.
     pub fn poll(&self) -> Vec<Report> {
         self.mailbox.collect()
     }

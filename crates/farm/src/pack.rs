@@ -21,7 +21,8 @@ const WRITTEN_S: u64 = 315_532_800;
 /// Why a shot is not packed, or a pack is not whole.
 #[derive(Debug, thiserror::Error)]
 pub enum PackError {
-    /// A file outside the scene's folder is named by a path that leads out of that folder: no place in a pack fits.
+    /// A file outside the scene's folder is named by a path that leads out of that folder. So no place in a pack fits
+    /// the file.
     #[error("{} is used from outside the scene's folder under a name that finds it nowhere else: copy it into the scene's folder", .0.display())]
     NoPlace(PathBuf),
     /// Two files that would lie at one place.
@@ -209,7 +210,7 @@ fn what_changed(folder: &Path, known: &PackedFile) -> Option<String> {
     }
 }
 
-/// The name of the scene in the pack, and for each place in it the file that goes there.
+/// The name of the scene in the pack, and for each path in the pack the file that goes there.
 fn sources(loaded: &LoadedScene) -> Result<(String, BTreeMap<String, PathBuf>), PackError> {
     let name = PathBuf::from(loaded.path.file_name().unwrap_or_default());
     let scene = as_text(&name)?;

@@ -9,8 +9,8 @@ const MOST_TASKS: usize = 1000;
 /// Frames of a task, if the user does not say how many.
 const USUAL_FRAMES: usize = 10;
 
-/// The script of a job. Submitted by `sbatch`, it paints the frames. If a movie is wanted, it can be run by a shell
-/// instead: it then submits itself, and a second job that makes the movie when all frames are done.
+/// The script of a job. Submitted by `sbatch`, the script paints the frames. If a movie is wanted, a shell can run the
+/// script instead. It then submits itself, and a second job that makes the movie when all frames are done.
 ///
 /// # Errors
 /// Words that say that tasks of `frames_a_task` frames are too many for one array.
@@ -69,7 +69,6 @@ pub fn script(job: &Job, frames_a_task: Option<usize>) -> Result<String, String>
     ))
 }
 
-/// How many frames in how many tasks.
 fn in_words(frames: usize, tasks: usize) -> String {
     let of = |count: usize, one: &str| format!("{count} {one}{}", if count == 1 { "" } else { "s" });
     format!("{} in {}", of(frames, "frame"), of(tasks, "task"))

@@ -14,7 +14,7 @@ const MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 /// Where the first attribute begins.
 const FIRST: usize = 8;
 
-/// Longer heads are not read; ours are shorter.
+/// Longer heads are not read. Those that Impasto writes are shorter.
 const LONGEST: u64 = 64 << 20;
 
 /// Where the attributes are and where the head ends; `None` if the bytes end before the head does.
@@ -41,7 +41,7 @@ pub(crate) fn sort_attributes(bytes: &mut [u8]) {
     bytes[FIRST..end - 1].copy_from_slice(&sorted);
 }
 
-/// Whether a file is an EXR file with all its rows, as far as its table tells; a truncated file is not.
+/// Whether a file is an EXR file that ends with the last block of its table. A truncated file does not.
 pub(crate) fn is_whole(path: &Path) -> bool {
     ends_with_its_last_block(path).unwrap_or(false)
 }

@@ -70,7 +70,7 @@ impl Range {
             None => (text, 1),
         };
         let number = |text: &str| text.trim().parse::<i64>().map_err(|_| wrong());
-        // A leading minus is a sign; the first one after it is the dash.
+        // A leading minus is a sign. The next minus is the dash of a range.
         let dash = range.get(1..).and_then(|rest| rest.find('-')).map(|at| at + 1);
         let (first, last) = match (range.split_once(".."), dash) {
             (Some((first, last)), _) => (number(first)?, number(last)?),

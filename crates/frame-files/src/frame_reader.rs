@@ -186,7 +186,7 @@ fn of_grey(pixels: &[u8], channels: usize, channel_bytes: usize) -> Vec<u8> {
 }
 
 impl FramePixels {
-    /// Whether no pixel is transparent, not even a little.
+    /// Whether every pixel is fully opaque.
     pub fn is_opaque(&self) -> bool {
         match self.depth {
             Depth::Eight => self.rgba.chunks_exact(4).all(|pixel| pixel[3] == u8::MAX),

@@ -13,9 +13,9 @@ pub struct Pattern {
 }
 
 impl Pattern {
-    /// Finds `####` (as many digits as there are `#`), `%04d` or `$F4` in the file's name; folders are taken as they
-    /// are. A name without such a place is used as it is for a single frame; for several, it gets `_####` before its
-    /// ending.
+    /// Finds `####` (as many digits as there are `#`), `%04d` or `$F4` in the file's name. Folders are taken as they
+    /// are. If the name has no such place, a single frame gets the name as it is. For several frames, `_####` is put
+    /// before the name's ending.
     pub fn parse(text: &str, frames: u64) -> Self {
         let name_at = text.rfind(['/', '\\']).map_or(0, |at| at + 1);
         let name = &text[name_at..];

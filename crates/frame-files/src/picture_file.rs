@@ -103,7 +103,7 @@ pub fn begin_animation<'a>(
 ) -> anyhow::Result<png::Writer<&'a mut dyn Write>> {
     let mut encoder = encoder(file, size_px, provenance)?;
     encoder.set_animated(pictures, 0)?;
-    // In the file, each number of the fraction has 16 bits.
+    // PNG stores the delay as a fraction of two 16-bit numbers.
     let delay_s = match fraction(fps).map(u16::try_from) {
         [Ok(over), Ok(under)] => [under, over],
         _ => [(1000.0 / fps).round().clamp(1.0, 65535.0) as u16, 1000],
@@ -112,7 +112,8 @@ pub fn begin_animation<'a>(
     Ok(encoder.write_header()?)
 }
 
-/// The text that a PNG file has under this keyword, before its pixels; `None` if it has none, or is no PNG file.
+/// The text stored under this keyword before the pixels of a PNG file; `None` if there is none, or if the file is no
+/// PNG.
 pub(crate) fn text(path: &Path, keyword: &str) -> Option<String> {
     let limits = png::Limits { bytes: 1 << 20 };
     let file = BufReader::new(File::open(path).ok()?);

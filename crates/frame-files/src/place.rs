@@ -1,4 +1,4 @@
-//! Checks of the place where a file is to be written: the folder can be written into, and no input is overwritten.
+//! Checks before a file is written: its folder can be written into, and no input is overwritten.
 
 use std::path::{Path, PathBuf};
 

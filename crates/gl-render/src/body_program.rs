@@ -28,7 +28,6 @@ pub(crate) fn set_color<'a>(bound: Bound<'a>, body: &FrameBody, part: &Part) -> 
 /// The uniforms of `shared/cutout.glsl`.
 const CUTOUT: [&str; 2] = ["cut_texture", "cutoff"];
 
-/// A program that draws bodies.
 pub(crate) struct BodyProgram {
     gpu: Gpu,
     files: &'static [&'static [ShaderFile]],

@@ -16,7 +16,7 @@ pub struct Picture {
 pub struct ResolvedStroke {
     /// Display-linear colour.
     pub color_linear: [f32; 3],
-    /// Opacity of the stroke, 0..=1: its presence, reduced where bodies hide the stroke.
+    /// How much of the stroke is there, 0..=1; less where bodies hide it.
     pub alpha: f32,
     /// Centre in pixels, origin at the lower left, as painted. Each stroke was moved along itself onto its body. A
     /// contour stroke was also moved to its body's outline, a highlight stroke towards the highlight's peak, and a

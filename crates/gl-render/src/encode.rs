@@ -36,7 +36,6 @@ pub(crate) struct Output<'a> {
 }
 
 impl Output<'_> {
-    /// The pass that writes the picture.
     pub(crate) fn pass(&mut self) -> Result<&Framebuffer, GlError> {
         let painted = Painted::of_size(self.gpu, self.painted.take(), self.size_px)?;
         Ok(&self.painted.insert(painted).pass)
@@ -62,7 +61,6 @@ impl Encoder {
         })
     }
 
-    /// Lets its target go.
     pub(crate) fn let_go(&mut self) {
         self.target = None;
     }

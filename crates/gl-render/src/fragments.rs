@@ -42,7 +42,7 @@ pub struct Share {
 /// Shares of the pixels of a picture, top row first.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PixelShares {
-    /// Where the shares of each pixel begin in `shares`; one more than there are pixels.
+    /// Where the shares of each pixel begin in `shares`; one entry more than there are pixels.
     pub starts: Vec<u32>,
     /// The shares of all pixels, one pixel after the other; within a pixel the topmost stroke first.
     pub shares: Vec<Share>,
@@ -54,7 +54,7 @@ impl PixelShares {
         &self.shares[self.starts[pixel] as usize..self.starts[pixel + 1] as usize]
     }
 
-    /// Joins rows of pixels: for each row, how many shares each pixel has, and the shares of all its pixels.
+    /// Joins rows of pixels. A row is a list of how many shares each of its pixels has, and a list of these shares.
     pub fn from_rows(rows: Vec<(Vec<u32>, Vec<Share>)>) -> Self {
         let mut starts = vec![0];
         let mut shares = Vec::with_capacity(rows.iter().map(|(_, shares)| shares.len()).sum());
@@ -71,7 +71,7 @@ impl PixelShares {
 /// One layer of paint of a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaintedLayer {
-    /// The `layer` of its strokes' regions.
+    /// The `layer` that the scene states for the regions of its strokes.
     pub order: i32,
     /// Which of the layers of paint it is.
     pub kind: LayerKind,
@@ -81,10 +81,8 @@ pub struct PaintedLayer {
     pub shares: PixelShares,
 }
 
-/// Gathers the fragments of a picture.
 pub(crate) struct FragmentGatherer {
     buffer: Buffer,
-    /// How many fragments the buffer can hold.
     capacity: usize,
     /// The fragments noted so far of the layer that is being painted.
     fragments: Vec<[u32; 3]>,
@@ -121,7 +119,6 @@ impl FragmentGatherer {
         self.buffer.reserve(COUNT_BYTES + self.capacity * FRAGMENT_BYTES)
     }
 
-    /// Begins to note fragments.
     pub(crate) fn begin(&self) {
         self.buffer.begin_storing();
     }
@@ -147,7 +144,6 @@ impl FragmentGatherer {
         Ok(())
     }
 
-    /// Ends a layer of the picture.
     pub(crate) fn end_layer(&mut self, run: LayerRun, size_px: [u32; 2]) {
         let fragments = std::mem::take(&mut self.fragments);
         let (rgba, shares) = laid_over(&fragments, size_px);
@@ -244,7 +240,7 @@ mod tests {
         [pixel, stroke << ALPHA_BITS | (alpha * 1023.0).round() as u32, word]
     }
 
-    /// Two strokes of alpha ½ over each other leave a quarter see-through, in whichever order the buffer has them.
+    /// Two strokes of alpha ½ over each other let a quarter through.
     #[test]
     fn strokes_lie_over_each_other_in_their_order_whatever_that_of_their_fragments() {
         let red = fragment(1, 7, 0.5, [1.0, 0.0, 0.0]);

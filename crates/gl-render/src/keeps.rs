@@ -21,9 +21,9 @@ pub enum Keeps {
 }
 
 impl Keeps {
-    /// What to keep of a picture of this size: everything, unless the picture is huge. It is not for callers of
-    /// [`Renderer::read_paint`](crate::Renderer::read_paint), which needs `Everything`. `surfaces` says whether surfaces
-    /// will be read.
+    /// What to keep of a picture of this size: everything, unless the picture is huge. `surfaces` says whether surfaces
+    /// will be read. Where [`Renderer::read_paint`](crate::Renderer::read_paint) will be called, use `Everything`
+    /// instead.
     pub fn of_size(size_px: [u32; 2], surfaces: bool) -> Self {
         match (Self::is_huge(size_px), surfaces) {
             (false, _) => Self::Everything,

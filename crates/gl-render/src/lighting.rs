@@ -89,7 +89,6 @@ impl LightSetup {
         (self.shadowed_light >= 0).then_some(self.sight.shadow_from_world)
     }
 
-    /// Sets the uniforms.
     pub(crate) fn set<'a>(&self, bound: Bound<'a>) -> Bound<'a> {
         bound
             .texture("lights", &self.lights)

@@ -1,5 +1,5 @@
-//! Surfaces on the GPU: each is uploaded once and stays until no frame uses it any more. The vertices of a body that is
-//! not at rest are uploaded for each frame; every pass draws from them.
+//! Surfaces on the GPU: each is uploaded once and stays until no frame uses it any more. The vertices of a deformed
+//! ("bent") body are uploaded for each frame; every pass draws from them.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -21,7 +21,6 @@ pub(crate) struct DrawnBody<'a> {
     pub(crate) array: Rc<VertexArray>,
 }
 
-/// One uploaded surface.
 pub(crate) struct MeshOnGpu {
     /// The shader inputs with the vertices at rest.
     array: Rc<VertexArray>,
@@ -59,13 +58,11 @@ pub(crate) struct Part {
 }
 
 impl Part {
-    /// What to draw of the mesh for this part.
     pub(crate) fn vertices(&self) -> Vertices {
         Vertices::Indexed { first: self.first_index, count: self.index_count }
     }
 }
 
-/// All surfaces on the GPU.
 pub(crate) struct MeshCache {
     /// Keyed by the address of the surface; the weak pointer keeps the address from being used again.
     entries: HashMap<*const BodySurface, (Weak<BodySurface>, Rc<MeshOnGpu>)>,
@@ -73,7 +70,7 @@ pub(crate) struct MeshCache {
     white: Rc<Texture>,
 }
 
-/// The vertices of a body that is not at rest.
+/// The vertices of a deformed body.
 struct BentOnGpu {
     mesh: RcWeak<MeshOnGpu>,
     /// The bent surface whose vertices the buffer holds.
@@ -121,7 +118,7 @@ impl MeshOnGpu {
         let mut ranges = Vec::with_capacity(self.parts.len());
         for part in &self.parts {
             let first = indices.len();
-            // The far side is seen through holes.
+            // The far side is seen through holes, so parts with holes keep all their triangles.
             let showing = part.triangles.iter().filter(|&&triangle| part.cutoff.is_some() || shows(triangle));
             indices.extend(showing.map(|&triangle| mesh.triangles[triangle as usize]));
             ranges.push([first, indices.len() - first].map(|count| count as u32 * 3));
@@ -191,7 +188,6 @@ impl MeshCache {
         Ok(Self { entries: HashMap::new(), bent: Vec::new(), white: Rc::new(white) })
     }
 
-    /// A body with its surface on the GPU.
     pub(crate) fn drawn<'a>(&mut self, gpu: &Gpu, body: &'a FrameBody) -> Result<DrawnBody<'a>, GlError> {
         let mesh = self.get(gpu, &body.surface)?;
         let array = match body.bent.as_ref().filter(|_| !body.hidden) {
@@ -223,7 +219,7 @@ impl MeshCache {
         VertexArray::new(gpu, &inputs, Some(&mesh.indices))
     }
 
-    /// The vertices of a body that is not at rest. If they are new, uploads them into a buffer that no drawn body uses.
+    /// The vertices of a deformed body. If they are new, uploads them into a buffer that no drawn body uses.
     fn bent(&mut self, gpu: &Gpu, mesh: &Rc<MeshOnGpu>, bent: &Arc<Bent>) -> Result<&BentOnGpu, GlError> {
         if let Some(known) = self.bent.iter().position(|known| known.is_of(bent)) {
             return Ok(&self.bent[known]);

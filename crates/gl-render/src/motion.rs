@@ -43,7 +43,7 @@ impl MotionPass {
         })
     }
 
-    /// Creates at once every program that is otherwise created when it is first needed.
+    /// Creates all programs at once, also those that are usually created when first needed.
     pub(crate) fn ready_all(&mut self) -> Result<(), GlError> {
         self.program.ready_all()
     }

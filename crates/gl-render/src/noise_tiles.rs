@@ -9,7 +9,6 @@ use impasto_painting::Frame;
 
 use crate::gl::{Format, GlError, Gpu, Texture};
 
-/// All tiles on the GPU.
 pub(crate) struct NoiseTiles {
     gpu: Gpu,
     tiles: Vec<(Weak<Tile>, Rc<Texture>)>,

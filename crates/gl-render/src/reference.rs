@@ -85,8 +85,8 @@ impl ReferencePass {
         watch.passed("shadow")?;
         self.draw_surfaces(frame, &bodies, targets)?;
         watch.passed("surface")?;
-        // The pixels of a huge picture are far smaller than a stroke, so its light needs no samples. They are drawn
-        // later, when memory is free.
+        // The pixels of a huge picture are far smaller than a stroke, so its light needs no samples. The samples are
+        // then drawn later, when memory is free.
         self.drawn = match styles::samples(frame, self.gpu.limits().max_side_px) {
             per_side if per_side > 1 && !Keeps::is_huge(frame.size_px) => {
                 Some(self.ready_samples()?.draw(frame, &bodies, (per_side, true))?)
@@ -149,7 +149,6 @@ impl ReferencePass {
         }
     }
 
-    /// Lets go of the targets that it holds.
     pub(crate) fn let_go(&mut self) {
         self.noise.let_go();
         if let Some(samples) = &mut self.samples {
@@ -178,7 +177,7 @@ impl ReferencePass {
         Ok([pass.read_halves(0), pass.read_halves(1)])
     }
 
-    /// Creates at once every program that is otherwise created when it is first needed.
+    /// Creates all programs at once, also those that are usually created when first needed.
     pub(crate) fn ready_all(&mut self) -> Result<(), GlError> {
         self.ready_samples()?.ready_all()?;
         self.ready_drafts()?;
@@ -188,7 +187,6 @@ impl ReferencePass {
         self.noise.ready_all()
     }
 
-    /// The pass for samples; creates it unless it exists.
     fn ready_samples(&mut self) -> Result<&mut SamplePass, GlError> {
         let pass = match self.samples.take() {
             Some(pass) => pass,
@@ -197,7 +195,6 @@ impl ReferencePass {
         Ok(self.samples.insert(pass))
     }
 
-    /// Creates the program for the parts of light, unless it exists.
     fn ready_light_parts(&mut self) -> Result<(), GlError> {
         if self.light_parts.is_none() {
             self.light_parts = Some(Program::new(&self.gpu, FILES, &LIGHT_PARTS)?);
@@ -205,7 +202,6 @@ impl ReferencePass {
         Ok(())
     }
 
-    /// Creates the program for drafts, unless it exists.
     fn ready_drafts(&mut self) -> Result<(), GlError> {
         if self.draft_light.is_none() {
             self.draft_light = Some(Program::new(&self.gpu, FILES, &DRAFT_LIGHT)?);
@@ -218,7 +214,6 @@ impl ReferencePass {
         &self.shadow
     }
 
-    /// The bodies of a frame with their surfaces on the GPU.
     pub(crate) fn bodies<'a>(&mut self, frame: &'a Frame) -> Result<Vec<DrawnBody<'a>>, GlError> {
         let gpu = self.gpu.clone();
         self.meshes.free_unused();
@@ -247,7 +242,8 @@ impl ReferencePass {
                 continue;
             }
             // A draft draws only the triangles that face the eye. They are found on the mesh at rest, so all triangles
-            // of a bent body are drawn. So are all of a body that the eye may be inside: it sees their backs.
+            // of a deformed body are drawn. All are drawn too where the eye may be inside the body, because their backs
+            // show.
             let front = match frame.quality {
                 Quality::Draft if body.bent.is_none() => {
                     let eye = body.world_from_model.inverse() * eye;

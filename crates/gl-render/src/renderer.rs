@@ -70,7 +70,6 @@ pub struct Renderer {
     /// Whether paint is gathered too: see [`Renderer::gather_paint`].
     gathers: bool,
     keeps: Keeps,
-    /// Name of the style of the last frame.
     last_style: Option<&'static str>,
     context: Context,
 }

@@ -22,7 +22,6 @@ pub(crate) struct Samples {
     pub(crate) per_side: u32,
 }
 
-/// Draws the samples.
 pub(crate) struct SamplePass {
     gpu: Gpu,
     program: BodyProgram,
@@ -40,12 +39,11 @@ impl SamplePass {
         Ok(Self { gpu: gpu.clone(), program: BodyProgram::new(gpu, FILES, SAMPLE)?, targets: None })
     }
 
-    /// Creates at once every program that is otherwise created when it is first needed.
+    /// Creates all programs at once, also those that are usually created when first needed.
     pub(crate) fn ready_all(&mut self) -> Result<(), GlError> {
         self.program.ready_all()
     }
 
-    /// Lets its targets go.
     pub(crate) fn let_go(&mut self) {
         self.targets = None;
     }

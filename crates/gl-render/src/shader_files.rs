@@ -24,7 +24,6 @@ impl ShaderTexts {
     }
 }
 
-/// All shader files.
 const ALL: &[&[ShaderFile]] =
     &[SHARED, REFERENCE, LIGHT_BILLBOARDS, ROTATING_STROKES, SUMI_E, NOISE_DISPLACE];
 

@@ -14,13 +14,11 @@ use crate::marks::Marks;
 /// numbers whose meaning depends on the style.
 const RESOLVED_BYTES: usize = 32;
 
-/// The strokes of one frame.
 pub(crate) struct StrokeBuffers {
     gpu: Gpu,
     marks: Option<Marks>,
     strokes: Buffer,
     resolved: Buffer,
-    /// The vertices of the frame's lines.
     lines: Buffer,
     count: usize,
     /// A point for each stroke.
@@ -94,7 +92,6 @@ impl StrokeBuffers {
         self.gpu.draw(bound, &self.quads, Vertices::Strip { count: strip.count })
     }
 
-    /// The marks that were uploaded last.
     pub(crate) fn marks(&self) -> Option<&Marks> {
         self.marks.as_ref()
     }
@@ -160,8 +157,8 @@ fn stroke_inputs(buffer: &Buffer, first: i32, per_instance: bool) -> Vec<Attribu
     ]
 }
 
-/// Taper and bend as a shader input, from stroke `first` on; everything else as in `other`, another input of the
-/// strokes.
+/// Taper and bend as a shader input, from stroke `first` on. Its buffer and stride are those of `other`, another input
+/// of the strokes.
 fn shape_input<'a>(other: &Attribute<'a>, first: i32) -> Attribute<'a> {
     let offset = first * size_of::<Stroke>() as i32 + offset_of!(Stroke, taper) as i32;
     Attribute { location: 8, components: 2, offset_bytes: offset, ..*other }

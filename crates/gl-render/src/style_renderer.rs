@@ -40,7 +40,7 @@ pub(crate) trait StyleRenderer {
         watch: &mut Watch<'_>,
     ) -> Result<(), Halt>;
 
-    /// Creates at once every program that is otherwise created when it is first needed.
+    /// Creates all programs at once, also those that are usually created when first needed.
     fn ready_all(&mut self) -> Result<(), GlError> {
         Ok(())
     }

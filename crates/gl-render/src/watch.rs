@@ -3,7 +3,6 @@
 
 use crate::gl::{Gpu, Halt};
 
-/// Times passes, and asks whether to stop.
 pub(crate) struct Watch<'a> {
     gpu: Gpu,
     stop: Option<&'a mut dyn FnMut() -> bool>,

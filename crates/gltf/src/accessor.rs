@@ -65,7 +65,6 @@ impl Shape {
         })
     }
 
-    /// How many numbers an element has.
     pub fn width(self) -> usize {
         match self {
             Self::Scalar => 1,
@@ -152,7 +151,6 @@ pub(crate) struct Accessor {
     pub max: Option<Vec<f64>>,
 }
 
-/// Reads `accessors`.
 pub(crate) fn read_all(
     root: &Cursor<'_, '_>,
     views: &[View],
@@ -331,7 +329,7 @@ fn read_sparse(
 }
 
 impl Accessor {
-    /// Fails when the numbers are not in the file.
+    /// Fails if the numbers are compressed or not in the file.
     pub fn check_present(&self, cursor: &Cursor<'_, '_>) -> Checked<()> {
         match self.is_absent {
             None => Ok(()),

@@ -20,7 +20,7 @@ impl Animation {
     }
 }
 
-/// The keys of one thing. Lists that several tracks read from one accessor are one list in memory.
+/// The keys of one property. Tracks that read the same accessor share one list in memory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
     /// What it drives.
@@ -29,8 +29,8 @@ pub struct Track {
     pub channel: usize,
     /// Times of the keys, seconds: finite, increasing, at least one.
     pub times_s: Arc<Vec<f32>>,
-    /// The values, finite: `width` for each key; with cubic splines three times as many, the tangent into the key, the
-    /// value, and the tangent out of it (per second).
+    /// The values, all finite: `width` numbers for each key. Cubic splines have three times as many for each key: the
+    /// tangent into the key, the value, and the tangent out of it. Tangents are per second.
     pub values: Arc<Vec<f32>>,
     /// How many numbers a value has.
     pub width: usize,

@@ -80,7 +80,6 @@ pub struct LightValues {
     pub outer_cone_rad: f64,
 }
 
-/// Reads `cameras`.
 pub(crate) fn cameras(root: &Cursor<'_, '_>, findings: &mut Findings) -> Checked<Vec<Camera>> {
     let list = root.list("cameras")?;
     let mut cameras = Vec::new();

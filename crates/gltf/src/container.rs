@@ -1,4 +1,5 @@
-//! The outside of a file: plain JSON, or a binary `.glb` with a JSON chunk and a chunk of bytes.
+//! Splits a file into its JSON and its bytes. The file is plain JSON, or a binary `.glb` with a JSON chunk and a chunk
+//! of bytes.
 
 use crate::bytes::Bytes;
 use crate::cursor::Cursor;
@@ -11,7 +12,6 @@ const BIN_CHUNK: u32 = 0x004E_4942;
 
 /// The two parts of a file.
 pub(crate) struct Container {
-    /// The JSON text.
     pub json: Bytes,
     /// The bytes of a `.glb`'s second chunk.
     pub bin: Option<Bytes>,

@@ -18,12 +18,10 @@ pub(crate) struct Cursor<'p, 't> {
 const GREATEST: f64 = 9_007_199_254_740_992.0;
 
 impl<'p, 't> Cursor<'p, 't> {
-    /// The root of a document.
     pub fn root(value: &'t Json<'t>) -> Self {
         Self { value, parent: None, step: Step::Item(0) }
     }
 
-    /// The JSON pointer.
     pub fn pointer(&self) -> String {
         let mut pointer = self.parent.map_or_else(String::new, Cursor::pointer);
         if self.parent.is_some() {
@@ -32,7 +30,6 @@ impl<'p, 't> Cursor<'p, 't> {
         pointer
     }
 
-    /// A finding about this value.
     pub fn finding(&self, severity: Severity, message: impl Into<String>, mend: &'static str) -> Finding {
         Finding { severity, pointer: self.pointer(), message: message.into(), mend: Cow::Borrowed(mend) }
     }
@@ -42,12 +39,10 @@ impl<'p, 't> Cursor<'p, 't> {
         Box::new(self.finding(Severity::Error, message, EXPORT_ANEW))
     }
 
-    /// A warning about this value.
     pub fn warning(&self, message: impl Into<String>, mend: &'static str) -> Finding {
         self.finding(Severity::Warning, message, mend)
     }
 
-    /// The raw value.
     pub fn json(&self) -> &'t Json<'t> {
         self.value
     }
@@ -59,7 +54,6 @@ impl<'p, 't> Cursor<'p, 't> {
         Some(Cursor { value, parent: Some(self), step: Step::Member(Cow::Borrowed(name)) })
     }
 
-    /// A member that has to be there.
     pub fn required<'s>(&'s self, name: &'static str) -> Checked<Cursor<'s, 't>> {
         if !matches!(self.value, Json::Object(_)) {
             return Err(self.error(format!("{} stands where an object is expected", self.value.kind())));
@@ -134,12 +128,10 @@ impl<'p, 't> Cursor<'p, 't> {
         })
     }
 
-    /// An index member, if it is there.
     pub fn optional_index(&self, name: &'static str, count: usize, what: &str) -> Checked<Option<usize>> {
         self.member(name).map(|member| member.index(count, what)).transpose()
     }
 
-    /// A whole number member, or `default` where it is missing.
     pub fn whole_or(&self, name: &'static str, default: u64) -> Checked<u64> {
         self.member(name).map_or(Ok(default), |member| member.whole())
     }
@@ -153,7 +145,6 @@ impl<'p, 't> Cursor<'p, 't> {
         }
     }
 
-    /// A number member, or `default` where it is missing.
     pub fn number_or(&self, name: &'static str, default: f64) -> Checked<f64> {
         self.member(name).map_or(Ok(default), |member| member.number())
     }
@@ -171,12 +162,10 @@ impl<'p, 't> Cursor<'p, 't> {
         Ok(numbers)
     }
 
-    /// A member of exactly `N` numbers, or `default` where it is missing.
     pub fn numbers_or<const N: usize>(&self, name: &'static str, default: [f64; N]) -> Checked<[f64; N]> {
         self.member(name).map_or(Ok(default), |member| member.numbers())
     }
 
-    /// This text.
     pub fn text(&self) -> Checked<&'t str> {
         match self.value {
             Json::Text(text) => Ok(text),
@@ -184,12 +173,10 @@ impl<'p, 't> Cursor<'p, 't> {
         }
     }
 
-    /// A text member, if it is there.
     pub fn optional_text(&self, name: &'static str) -> Checked<Option<&'t str>> {
         self.member(name).map(|member| member.text()).transpose()
     }
 
-    /// This truth value.
     pub fn truth(&self) -> Checked<bool> {
         match *self.value {
             Json::Bool(value) => Ok(value),
@@ -197,25 +184,22 @@ impl<'p, 't> Cursor<'p, 't> {
         }
     }
 
-    /// A truth value, or `default` where it is missing.
     pub fn truth_or(&self, name: &'static str, default: bool) -> Checked<bool> {
         self.member(name).map_or(Ok(default), |member| member.truth())
     }
 }
 
-/// An array member; a missing one is empty.
+/// An array. A missing one counts as empty.
 pub(crate) struct List<'p, 't> {
     cursor: Option<Cursor<'p, 't>>,
     items: &'t [Json<'t>],
 }
 
 impl<'p, 't> List<'p, 't> {
-    /// How many items.
     pub fn len(&self) -> usize {
         self.items.len()
     }
 
-    /// The items in order.
     pub fn iter<'s>(&'s self) -> impl Iterator<Item = Cursor<'s, 't>> + use<'s, 'p, 't> {
         let parent = self.cursor.as_ref();
         self.items.iter().enumerate().map(move |(index, value)| Cursor {
@@ -225,7 +209,6 @@ impl<'p, 't> List<'p, 't> {
         })
     }
 
-    /// One item.
     pub fn get<'s>(&'s self, index: usize) -> Option<Cursor<'s, 't>> {
         let value = self.items.get(index)?;
         Some(Cursor { value, parent: self.cursor.as_ref(), step: Step::Item(index) })

@@ -21,7 +21,7 @@ pub(crate) enum Integers {
     Normalized,
 }
 
-/// A fault that is looked for in the numbers of an accessor: once, however often the accessor is used.
+/// A fault that the numbers of an accessor are searched for, once for each accessor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Scan {
     /// NaN or an infinity.
@@ -72,7 +72,6 @@ impl<'o, 'p, 't> Accessors<'o, 'p, 't> {
         member.index(self.list.len(), "accessor")
     }
 
-    /// A checked accessor.
     pub fn get(&self, index: usize) -> &Accessor {
         &self.list[index]
     }
@@ -102,7 +101,8 @@ impl<'o, 'p, 't> Accessors<'o, 'p, 't> {
     /// The elements of an accessor whose shape has `N` numbers. NaN and infinities are passed on.
     ///
     /// # Errors
-    /// The numbers are not in the file, they need more memory than is left, or the sparse indices are bad.
+    /// The numbers are compressed or not in the file, they need more memory than is left, or the sparse indices are
+    /// bad.
     pub fn floats<const N: usize>(
         &mut self,
         index: usize,
@@ -170,7 +170,6 @@ impl<'o, 'p, 't> Accessors<'o, 'p, 't> {
         *self.scans.entry((index, scan)).or_insert_with(search)
     }
 
-    /// An error about an accessor.
     pub fn error_at(&self, index: usize, message: String) -> Box<crate::Finding> {
         match self.cursors.get(index) {
             Some(cursor) => cursor.error(message),

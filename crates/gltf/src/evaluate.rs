@@ -59,7 +59,7 @@ pub struct Posed {
     pub world_from_node: Vec<DAffine3>,
     /// For each node: whether it is in the scene that is shown, and neither it nor a node above it is hidden.
     pub is_visible: Vec<bool>,
-    /// For each node: weights of the morph targets of its mesh, as many as it has.
+    /// For each node: the weights of its mesh's morph targets.
     pub weights: Vec<Vec<f32>>,
     /// What each camera sees. Cameras stand at the nodes that name them.
     pub lenses: Vec<Lens>,
@@ -213,7 +213,7 @@ impl Animator {
         posed
     }
 
-    /// As [`Self::pose`], into memory that is used again.
+    /// As [`Self::pose`], but reuses the memory of `posed`.
     pub fn pose_into(&self, time_s: f64, posed: &mut Posed) {
         posed.clone_from_rest(&self.rest, &self.locals);
         let places: Vec<keys::Place> =
@@ -239,8 +239,8 @@ impl Animator {
     }
 }
 
-/// The lists of key times, each once: exporters write one for each track, and nearly all are equal. So a time's place
-/// among the keys is looked for once per list, not once per track.
+/// The distinct lists of key times. Exporters write one list for each track, and nearly all are equal. Because equal
+/// lists are shared, a time's place among the keys is looked up once per list instead of once per track.
 #[derive(Default)]
 struct Clocks {
     list: Vec<Arc<Vec<f32>>>,
@@ -350,8 +350,8 @@ fn rotation(track: &Track, place: keys::Place) -> DQuat {
     }
 }
 
-/// Sets a property of a camera. A field of view is clamped; another value that is out of range by itself changes
-/// nothing. Near and far are compared by [`settle_lens`].
+/// Sets a property of a camera. A field of view is clamped. Any other value that is out of range by itself is ignored.
+/// Near and far are compared by [`settle_lens`].
 fn drive_lens(lens: &mut Lens, property: CameraProperty, value: f64) {
     match (lens, property) {
         (Lens::Perspective { yfov_rad, .. }, CameraProperty::Yfov) => {

@@ -19,7 +19,6 @@ pub(crate) const WEBP: &str = "EXT_texture_webp";
 pub(crate) const DRACO: &str = "KHR_draco_mesh_compression";
 pub(crate) const MESHOPT: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
 
-/// Extensions that are read.
 const READ: [&str; 10] = [
     LIGHTS,
     QUANTIZATION,

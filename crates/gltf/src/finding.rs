@@ -70,7 +70,6 @@ pub(crate) struct Findings {
 }
 
 impl Findings {
-    /// Adds a finding.
     pub fn add(&mut self, finding: Finding) {
         if finding.is_fatal() {
             if self.fatal.len() < MOST_TOLD {

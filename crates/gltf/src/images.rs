@@ -7,7 +7,6 @@ use crate::material::Image;
 use crate::source::Source;
 use crate::uri::{self, Target};
 
-/// The largest picture file.
 const MAX_IMAGE_BYTES: u64 = 256 << 20;
 
 /// Reads `images`; pictures in files of their own are opened only where `is_needed`.
@@ -94,8 +93,8 @@ fn image(
     Ok(Image { name, bytes, media_type })
 }
 
-/// If `open` fails, the picture is left out with a warning. It is an error if the name is refused, or if `open` gives
-/// more bytes than it was asked for.
+/// Gets the bytes of a picture. If the caller's `open` fails, the picture is left out with a warning. It is an error if
+/// the name is refused, or if `open` gives more bytes than it was asked for.
 fn fetch(
     source: &mut Source<'_>,
     uri: &Cursor<'_, '_>,

@@ -8,8 +8,8 @@ use serde::de::{DeserializeSeed, Error as _, MapAccess, SeqAccess, Visitor};
 
 use crate::finding::{Checked, EXPORT_ANEW, Finding, Severity};
 
-/// The most values of one file's JSON. Each takes up to 64 bytes in memory and may have two in the file, as in
-/// `[0,0,0]`; all together they take at most 256 MiB.
+/// The most values of one file's JSON. A value may take only two bytes in the file, as in `[0,0,0]`, but up to 64 bytes
+/// in memory: at most 256 MiB for all.
 pub(crate) const MOST_VALUES: usize = 4_000_000;
 
 /// A JSON value. Numbers are kept as `f64`: whole ones are exact up to 2^53, far beyond any length that is accepted.

@@ -13,7 +13,8 @@ const ROUNDED: f64 = 2.0 * f32::EPSILON as f64;
 pub(crate) struct Place {
     /// The key at or before the time; the first, if the time is before all.
     pub before: usize,
-    /// The key whose value a stepped track has: `before`, or the next key if the time is before it by rounding alone.
+    /// The key whose value a stepped track has: `before`, or the next key if only rounding puts the time before that
+    /// one.
     pub reached: usize,
     /// From the key before to the one after, seconds; 0 at or beyond the ends.
     span_s: f64,
@@ -47,7 +48,6 @@ impl Place {
         Self { before, reached, span_s, fraction: (time_s - time(before)) / span_s }
     }
 
-    /// How far the time is between its keys: 0 at a key and beyond the ends.
     pub fn fraction(self) -> f64 {
         self.fraction
     }
@@ -60,7 +60,8 @@ impl Place {
         array::from_fn(|axis| f64::from(track.values[start + axis]))
     }
 
-    /// The first `N` numbers of the value at the time. Each is interpolated alone, so linear rotations cannot use this.
+    /// The first `N` numbers of the value at the time. Each is interpolated alone, so linear rotations cannot use this:
+    /// they need a slerp.
     pub fn numbers<const N: usize>(self, track: &Track) -> [f64; N] {
         array::from_fn(|axis| self.number(track, axis))
     }

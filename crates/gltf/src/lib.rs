@@ -54,7 +54,7 @@ pub use read::read;
 pub use source::{MAX_FILE_BYTES, MAX_TOTAL_BYTES, Open, SPARE_BYTES};
 
 /// A shot: everything of a glTF file that is read. Every index in it is within its list, except those of joints with
-/// weight 0.
+/// weight 0 and those of groups ([`Primitive::groups`]).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Gltf {
     /// All nodes of the file, also those of scenes that are not shown. They make trees.

@@ -107,9 +107,9 @@ pub struct Texture {
 /// How a picture is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Sampler {
-    /// Beyond the left and right border.
+    /// What lies beyond the left and right border.
     pub wrap_u: Wrap,
-    /// Beyond the upper and lower border.
+    /// What lies beyond the upper and lower border.
     pub wrap_v: Wrap,
     /// Whether pixels show as squares when the picture is enlarged.
     pub is_nearest: bool,
@@ -205,7 +205,6 @@ fn texture(
     Ok(Texture { name, image, sampler: sampler.map_or(Sampler::default(), |sampler| samplers[sampler]) })
 }
 
-/// Reads `materials`.
 pub(crate) fn materials(
     root: &Cursor<'_, '_>,
     textures: usize,

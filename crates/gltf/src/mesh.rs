@@ -23,7 +23,7 @@ pub struct Mesh {
 /// except colours without alpha, `points` and `groups`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Primitive {
-    /// Its index in the file's list of the mesh's primitives. Some of that list may be left out here.
+    /// Its index among the mesh's primitives in the file. Some of those may be left out here.
     pub index: usize,
     /// One position per vertex, finite, in the space of the node.
     pub positions: Arc<Vec<[f32; 3]>>,
@@ -43,8 +43,8 @@ pub struct Primitive {
     pub material: Option<usize>,
     /// The point of the modelling program at which each vertex lies (the attribute `_POINT`), counted from 0.
     pub points: Option<Arc<Vec<u32>>>,
-    /// The group of each vertex (the attribute `_GROUP`): 0 for none, else its place in [`Mesh::group_names`] counted
-    /// from 1, which may be beyond the end.
+    /// The group of each vertex (the attribute `_GROUP`): 0 for none, else 1 plus an index into [`Mesh::group_names`].
+    /// That index may be beyond the end of the list.
     pub groups: Option<Arc<Vec<u32>>>,
     /// Vertex indices, each less than `positions.len()`, counter-clockwise seen from outside.
     pub triangles: Arc<Vec<[u32; 3]>>,

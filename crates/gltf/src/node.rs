@@ -25,7 +25,7 @@ pub struct Node {
     /// Index into the skins. With a skin, the mesh stands where the joints put it, and the node's own place means
     /// nothing for it.
     pub skin: Option<usize>,
-    /// Weights of the mesh's morph targets, where they are not the mesh's own; as many as it has targets.
+    /// Weights of the mesh's morph targets, one for each. `None`: the mesh's own weights apply.
     pub weights: Option<Vec<f32>>,
     /// Whether the node and the nodes below it show (KHR_node_visibility).
     pub is_visible: bool,

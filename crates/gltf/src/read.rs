@@ -152,7 +152,8 @@ fn warn_of_empty_lists(root: &Cursor<'_, '_>, findings: &mut Findings) -> Checke
     Ok(())
 }
 
-/// Accounts for the lists that are made from the JSON: `{}` has two bytes in the file, and may be a node in memory.
+/// Accounts for the memory of the lists that are made from the JSON: `{}` has two bytes in the file, and may become a
+/// node.
 fn take_memory_of_lists(root: &Cursor<'_, '_>, accessors: &mut Accessors<'_, '_, '_>) -> Checked<()> {
     const BYTES_EACH: usize = 600;
     for name in LISTS {
@@ -190,7 +191,6 @@ fn version(cursor: &Cursor<'_, '_>) -> Checked<[u32; 2]> {
     parse(cursor.text()?).ok_or_else(|| cursor.error("it is no version, as in 2.0"))
 }
 
-/// Names of KHR_materials_variants.
 fn variants(root: &Cursor<'_, '_>, findings: &mut Findings) -> Checked<Vec<String>> {
     let Some(extensions) = root.object("extensions")? else { return Ok(Vec::new()) };
     let Some(extension) = extensions.object(extensions::VARIANTS)? else { return Ok(Vec::new()) };

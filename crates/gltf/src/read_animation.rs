@@ -42,7 +42,6 @@ struct Sampler<'p, 't> {
     output: Cursor<'p, 't>,
 }
 
-/// Reads `animations`.
 pub(crate) fn read_all(
     root: &Cursor<'_, '_>,
     driven: &Driven<'_>,

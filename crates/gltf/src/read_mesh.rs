@@ -37,7 +37,6 @@ pub(crate) struct MeshReader<'a, 'o, 'p, 't> {
 const SMALL: [Component; 5] = [Component::F32, Component::I8, Component::U8, Component::I16, Component::U16];
 const UNIT: [Component; 3] = [Component::F32, Component::U8, Component::U16];
 
-/// Reads `meshes`.
 pub(crate) fn read_all(
     root: &Cursor<'_, '_>,
     accessors: &mut Accessors<'_, '_, '_>,
@@ -309,7 +308,6 @@ impl MeshReader<'_, '_, '_, '_> {
         self.accessors.finite_floats::<3>(index, Integers::AsStated, self.findings).map(Some)
     }
 
-    /// A finding about an accessor, as an error of the file.
     pub fn error_at(&self, index: usize, message: String) -> Box<Finding> {
         self.accessors.error_at(index, message)
     }

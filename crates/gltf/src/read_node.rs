@@ -34,7 +34,6 @@ pub(crate) struct Joints {
 }
 
 impl Joints {
-    /// What a mesh asks for.
     pub fn of(mesh: &Mesh) -> Self {
         let largest =
             |primitive: &Primitive| primitive.influences.as_ref().map(|joints| joints.largest_joint);
@@ -45,7 +44,6 @@ impl Joints {
     }
 }
 
-/// Reads `skins`.
 pub(crate) fn skins(
     root: &Cursor<'_, '_>,
     accessors: &mut Accessors<'_, '_, '_>,

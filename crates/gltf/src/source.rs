@@ -78,7 +78,6 @@ impl<'o> Source<'o> {
         }
     }
 
-    /// Gives back memory that is free again.
     pub fn give_back_memory(&mut self, count: u64, bytes_each: usize) {
         self.spare_bytes += count * bytes_each as u64;
     }

@@ -121,12 +121,12 @@ impl<'a> MeasureContext<'a> {
         Ok(painting)
     }
 
-    /// The frame whose object poses the reference uses.
+    /// The frame whose object poses the scene's reference view shows.
     pub fn reference_frame(&self) -> f64 {
         motion::referred_to(&self.loaded.scene, &self.loaded.scene.reference).1
     }
 
-    /// The camera of the reference.
+    /// The camera of the scene's reference view.
     pub fn reference_camera(&self) -> CameraPose {
         motion::referred_to(&self.loaded.scene, &self.loaded.scene.reference).0
     }
@@ -250,7 +250,8 @@ impl<'a> MeasureContext<'a> {
         Ok(self.renderer.motion(now, then)?)
     }
 
-    /// Drops cached frames, except those of the shot on a board, which several metrics use.
+    /// Drops the cached frames, except those of [`SceneVersion::Board`] whose strokes turn ([`Rotation::On`]): several
+    /// metrics use these.
     pub fn forget(&mut self) {
         self.drawn.retain(|(version, rotation, _), _| *version == SceneVersion::Board && *rotation == 0);
     }

@@ -18,8 +18,8 @@ pub fn overruns_px(strokes: &[Stroke]) -> BTreeMap<u32, f32> {
     overruns_px
 }
 
-/// 1 at the pixels of bodies that the paint of a nearer body may cover, 0 elsewhere and where no body is. `overruns_px`
-/// is how far the paint of each body may run past its border, from [`overruns_px`].
+/// 1 at each pixel of a body that the paint of a nearer body may cover, 0 elsewhere. `overruns_px` comes from the
+/// function of this name.
 pub fn covered(size_px: [usize; 2], reference: &ReferencePixels, overruns_px: &BTreeMap<u32, f32>) -> Plane {
     let [width, height] = size_px.map(|side| side as i64);
     let mut covered = Plane::filled(size_px, 0.0);

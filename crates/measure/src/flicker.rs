@@ -60,7 +60,7 @@ impl Flicker {
         }
     }
 
-    /// The second difference (as a share of 255) that a `share` of the pixels, 0..=1, stays below.
+    /// The second difference, as a share of 255, below which this `share` (0..=1) of the pixels stay.
     pub fn percentile(&self, share: f64) -> f64 {
         let wanted = (share * self.pixels as f64).ceil() as usize;
         let mut sum = 0;

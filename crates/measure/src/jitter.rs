@@ -34,8 +34,8 @@ impl Jitter {
         Self { drawn_deg: mean(drawn), analytic_deg: mean(analytic), triples: count }
     }
 
-    /// How much more the strokes accelerate than expected, as a share of the expected acceleration, which counts as at
-    /// least what rounding alone gives.
+    /// How much more the strokes accelerate than expected, as a share of the expected acceleration. The expected
+    /// acceleration counts as at least what rounding alone gives.
     pub fn excess(&self) -> f64 {
         let expected = self.analytic_deg.max(FLOOR_DEG);
         (self.drawn_deg - expected).max(0.0) / expected

@@ -169,7 +169,6 @@ impl Taps {
         })
     }
 
-    /// The weighted sum.
     pub(crate) fn mix(&self, value: impl Fn(usize) -> f32) -> f32 {
         self.indices.iter().zip(self.weights).map(|(&index, weight)| value(index) * weight).sum()
     }

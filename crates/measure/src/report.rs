@@ -19,7 +19,7 @@ pub struct MeasureReport {
     pub driver: String,
     /// Width and height of the pictures.
     pub size_px: [u32; 2],
-    /// Wall clock seconds of the whole.
+    /// Wall clock seconds of the whole measurement.
     pub seconds: f64,
     /// One per metric.
     pub rows: Vec<Row>,

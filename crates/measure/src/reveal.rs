@@ -87,7 +87,6 @@ pub fn revealed(painting: &Painting, strokes: &StrokesByKey, size_px: [u32; 2]) 
         .collect()
 }
 
-/// A visible stroke.
 struct Visible {
     position: DVec3,
     normal: DVec3,

@@ -23,7 +23,7 @@ const SHEET: &str = "#![enable(implicit_some)]
 
 /// A scene of a sheet, 2 by 2 units, that fills a square picture. Its strokes, all of one size, have the length, width
 /// and coverage that the body layer has in `region` of another scene, or outside all regions if `region` is `None`.
-/// Returns `None` if the sheet's own text cannot be read.
+/// Returns `None` if the text of the sheet's scene, `SHEET`, cannot be read.
 pub fn sheet(loaded: &LoadedScene, region: Option<usize>, side_px: u32) -> Option<LoadedScene> {
     let mut version = loaded.clone();
     let body = presets::resolve(&loaded.scene, region).body().clone();

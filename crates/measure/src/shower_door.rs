@@ -93,7 +93,7 @@ fn fine(picture: &Plane, body_ids: &[u32], sigma_px: f64) -> Plane {
     sum
 }
 
-/// The share of the pixels of some bodies whose point has moved by more than `by_px`.
+/// Of the pixels of the bodies that `is_counted` picks: the share whose surface point has moved by more than `by_px`.
 pub fn share_moved(
     motion: &impasto_gl_render::MotionPixels,
     is_counted: impl Fn(u32) -> bool,

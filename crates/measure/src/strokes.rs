@@ -13,7 +13,7 @@ pub struct StrokeKey {
     pub body_id: u32,
     /// Layer of paint.
     pub kind: LayerKind,
-    /// Index in the progressive order of its object's layer.
+    /// Index of its particle in the progressive order of the object's layer.
     pub particle: u32,
 }
 
@@ -103,7 +103,6 @@ pub fn degrees_apart(first_rad: f64, second_rad: f64) -> f64 {
     impasto_core::angle::wrap_pi(first_rad - second_rad).abs().to_degrees()
 }
 
-/// A stroke for tests of measures.
 #[cfg(test)]
 pub(crate) fn a_stroke(center_px: [f64; 2], alpha: f64, luma: f64) -> MeasuredStroke {
     MeasuredStroke {

@@ -81,7 +81,7 @@ pub struct SurfacePoint {
     pub normal: DVec3,
 }
 
-/// How a point of a surface moves in model space, from the body's shape in the reference to its current one.
+/// How a point of a surface moves in model space, from the body's shape in the reference view to its current one.
 #[derive(Clone, Copy, Debug)]
 pub struct PointMotion {
     /// The point in the reference's shape.
@@ -165,8 +165,8 @@ pub struct ScreenTurn {
 }
 
 impl ScreenTurn {
-    /// From the reference view to the current one: `A = (J_now F B)(J_ref B)⁻¹`. `None` where the reference sees the
-    /// surface edge-on.
+    /// From the reference view to the current one: `A = (J_now F B)(J_ref B)⁻¹`. `None` where the reference view sees
+    /// the surface edge-on.
     pub fn between(point_motion: &PointMotion, reference: BodyView<'_>, now: BodyView<'_>) -> Option<Self> {
         let point = point_motion.before;
         let first = point.normal.any_orthonormal_vector();
@@ -186,7 +186,8 @@ impl ScreenTurn {
         (self.map[0] - DVec2::X).length() + (self.map[1] - DVec2::Y).length() < 1e-9
     }
 
-    /// The angle at which a line on the surface shows now, if it shows at `angle_rad` in the reference: arg(A d).
+    /// The angle at which a line on the surface shows now, if it shows at `angle_rad` in the reference view: arg(A d),
+    /// where d is the line's direction there.
     pub fn material_rad(&self, angle_rad: f64) -> f64 {
         let (sin, cos) = angle_rad.sin_cos();
         let line = self.map[0] * cos + self.map[1] * sin;

@@ -12,7 +12,7 @@ use crate::strokes::{StrokeKey, StrokesByKey, degrees_apart, of_layer, strokes_b
 use crate::truth::{BodyView, PointMotion, ScreenTurn, TrueView};
 
 /// Strokes are left out if, in the reference view, the cosine between their surface's normal and the direction to the
-/// eye is smaller than this: their lift comes from the reference only in part.
+/// eye is smaller than this: the reference view decides their direction only in part.
 const FACED: f64 = 0.5;
 
 /// The turn of one stroke, drawn and expected.

@@ -36,7 +36,7 @@ pub fn turntable(loaded: &LoadedScene) -> LoadedScene {
     for ((object, bends), (pose, morph)) in scene.objects.iter_mut().zip(bends).zip(poses.iter().zip(morphs))
     {
         object.parent = None;
-        // A body that bends stays in one shape: that of the first frame, since holds count from there.
+        // A body that bends keeps its shape of the first frame, because `hold` counts frames from there.
         object.hold = if bends { limits::MAX_HOLD } else { 1 };
         object.keys = vec![ObjectKey { morph, ..motion::key_of_pose(*pose, frame) }];
     }

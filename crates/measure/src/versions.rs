@@ -11,9 +11,9 @@ use impasto_scene::presets::{LayerKind, PAPER_PRESET};
 
 use crate::cameras;
 
-/// A version of a scene. In all but the first, boil is off, because its changes are intended and must not count as
-/// errors, and the picture is on a *board*, a smooth canvas. The texture of other canvases stands still on the picture
-/// by design, which would disturb measurements.
+/// A version of a scene. In all but `Unchanged`, boil is off: it lays strokes a little elsewhere every few frames, on
+/// purpose, and that must not count as an error. In all but `Unchanged`, the picture is on a *board*, a smooth canvas:
+/// the texture of other canvases stands still on the picture by design, which would disturb measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum SceneVersion {
     /// The scene as it is.
@@ -60,7 +60,8 @@ pub enum TurnSolver {
 }
 
 impl SceneVersion {
-    /// This version of a scene. `particles` are the counts of the objects' body layers, for `NoAngleChanceTwice`.
+    /// This version of a scene. `particles` says how many particles each object's body layer has; only
+    /// `NoAngleChanceTwice` needs it.
     pub fn of(self, loaded: &LoadedScene, particles: &[usize]) -> LoadedScene {
         let mut version = loaded.clone();
         let scene = &mut version.scene;
@@ -162,7 +163,7 @@ fn layer(kind: LayerKind) -> LayerSettings {
     LayerSettings { name: kind.name().to_owned(), ..LayerSettings::default() }
 }
 
-/// Leaves only the body layer (and touches), on a board.
+/// Leaves only the body layer (and touches, the strokes placed by hand), on a board.
 pub(crate) fn body_alone(scene: &mut Scene) {
     on_board(scene);
     edit_style(scene, |style| style.underpainting = false);

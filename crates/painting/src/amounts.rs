@@ -24,7 +24,8 @@ pub(crate) struct BodyAmounts {
     of_rule: Vec<RuleAmounts>,
 }
 
-/// The amounts painted onto the strokes of one rule, in the order of [`Amount::ALL`].
+/// The amounts painted onto the strokes of one rule (a rule is the settings of one region), in the order of
+/// [`Amount::ALL`].
 #[derive(Clone, Debug, PartialEq)]
 struct RuleAmounts {
     rule: u16,
@@ -65,7 +66,6 @@ impl BodyAmounts {
         all
     }
 
-    /// Whether nothing is painted.
     pub(crate) fn is_empty(&self) -> bool {
         self.of_rule.is_empty()
     }

@@ -1,5 +1,5 @@
-//! Baking: places every particle. Finds the lift of each particle that is seen, from its references, base direction and
-//! jitter.
+//! Baking: places every particle. For each particle that is seen, finds the lift ([`Lift`]) from its references, base
+//! direction and jitter.
 
 use std::sync::Arc;
 
@@ -33,12 +33,11 @@ pub(crate) struct LiftSources {
 /// All that the lifts of a coat depend on.
 pub(crate) struct BakeInputs {
     pub(crate) sources: LiftSources,
-    /// The inputs of the traits.
     pub(crate) trait_inputs: Arc<TraitInputs>,
     /// The painted amounts at the particles; only flatness matters here.
     pub(crate) amounts: Arc<CoatAmounts>,
     pub(crate) solver: Solver,
-    /// The rules that particles of the body may have.
+    /// Indices of the rules that particles of the body may have.
     pub(crate) used: Arc<Vec<u16>>,
     /// The guides and the field that comb the directions; `None` if all directions are stated outright.
     pub(crate) combed: Option<Combed>,
@@ -96,7 +95,6 @@ pub(crate) struct BakedBody {
 }
 
 impl BakedBody {
-    /// Memory held, in bytes.
     pub(crate) fn bytes(&self) -> usize {
         self.placed.bytes() + size_of_val(&self.flatness[..]) + self.looks.bytes()
     }

@@ -97,7 +97,7 @@ impl BodySurface {
         made_once(&self.bending.gradients, || Gradients::new(&self.mesh, self.bending.bonds()))
     }
 
-    /// The vertices as targets, joints or a cache put them.
+    /// The vertices as targets, joints or a cache put them, before noise moves them.
     fn unnoised(&self, shape: &BodyShape) -> Strained {
         let BodyBend { bend, cache, rest, .. } = &self.bending;
         if let Some((cache, frame)) = cache.as_ref().zip(shape.cache_frame) {

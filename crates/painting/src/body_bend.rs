@@ -19,7 +19,7 @@ pub(crate) struct BodyBend {
     pub(crate) cache: Option<BodyCache>,
     /// The shape that the surface's mesh has, without noise.
     pub(crate) rest: BodyShape,
-    /// Gives F at each vertex; made when first asked for.
+    /// Gives the deformation gradient F at each vertex; made when first asked for.
     pub(crate) gradients: OnceLock<Gradients>,
     /// What went wrong when a point cache was read.
     pub(crate) fault: OnceLock<String>,

@@ -23,7 +23,7 @@ pub struct BodyNoise {
 pub struct NoiseLayers {
     /// The texture.
     pub tile: Arc<Tile>,
-    /// k, at least 1: the layers 1 to k − 1 are multiplied.
+    /// k, at least 1: the layers 1 to k − 1 are multiplied. With 1, the tint alone shows.
     pub count: u32,
     /// How fast layers move; also how far apart they begin.
     pub speed: f32,
@@ -50,11 +50,11 @@ pub struct NoiseLayers {
 /// The noise of a body at one time.
 #[derive(Clone, Debug)]
 pub struct FrameNoise {
-    /// Shared between frames.
+    /// The noise, shared between frames.
     pub noise: Arc<BodyNoise>,
     /// Where its vertices look their noise up.
     pub lookup: Lookup,
-    /// How far the layers have moved, in lengths of the texture, without whole lengths. Speed is multiplied in.
+    /// How far the layers have moved, in lengths of the texture: only the fractional part. Speed is multiplied in.
     pub travelled: Vec2,
 }
 

@@ -16,7 +16,7 @@ const ANGLE_RAD: f32 = 0.14;
 /// noise.
 const DRIFT: f32 = 1.6;
 
-/// How strokes are laid while one drawing holds.
+/// How strokes are laid in one drawing. A drawing shows for a few frames, then strokes are laid anew.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Boil {
     amount: f32,
@@ -97,7 +97,7 @@ mod tests {
                     most[2].max(boiled.turn_rad.abs()),
                 ]
             });
-        // Half of 3.5 standard deviations, since no number lies farther out.
+        // The strength is a half, and no normal number lies farther out than about 3.5 standard deviations.
         assert!(most[0] > 0.1 && most[0] <= 0.175, "{most:?}");
         assert!(most[1] > 1.2 && most[1] <= 1.33, "{most:?}");
         assert!(most[2] > 0.15 && most[2] <= 0.246, "{most:?}");

@@ -30,14 +30,13 @@ pub(crate) fn names_of(scene: &Scene, rules: &[RegionRule]) -> Vec<String> {
     names
 }
 
-/// The brushes of these names.
 pub(crate) fn of_names(loaded: &LoadedScene, names: Vec<String>) -> Brushes {
     make_built_in_marks(&names);
     let marks = names.iter().map(|name| marks_of(loaded, name)).collect();
     Brushes { names, marks }
 }
 
-/// Puts the marks of built-in brushes among those made in this process, if they have not been made yet.
+/// Adds marks of built-in brushes to those made in this process, where these have not been made yet.
 pub(crate) fn know(brushes: &Brushes) {
     for (name, marks) in brushes.names.iter().zip(&brushes.marks) {
         if let Some(index) = brush::NAMES.iter().position(|known| known == name) {
@@ -64,7 +63,6 @@ fn make_built_in_marks(names: &[String]) {
     }
 }
 
-/// The marks of a brush that comes with Impasto.
 fn built_in_marks(name: &str) -> Option<Arc<Vec<Mark>>> {
     let index = brush::NAMES.iter().position(|known| *known == name)?;
     let make = || Arc::new(brush::marks_of(name).unwrap_or_default());
@@ -103,9 +101,9 @@ impl Brushes {
     }
 }
 
-/// The mark of a stroke, as in [`Stroke::mark`]. `order` is the
-/// particle's place in its coat. Steps by irrational ratios (the golden one for the marks of a brush, the plastic one
-/// for the brushes) keep particles that follow each other from taking the same mark.
+/// The mark of a stroke, as in [`Stroke::mark`]. `order` is the particle's place in its coat. Steps by irrational
+/// ratios (the golden one for the marks of a brush, the plastic one for the brushes) keep particles that follow each
+/// other from taking the same mark.
 pub(crate) fn mark(first_marks: &[u32], order: u32, bits: u32) -> u32 {
     let step = |ratio: f64, count: u32| {
         ((f64::from(order) * ratio + f64::from(hash::unit(hash::combine(bits, 11))) * 0.2).fract()

@@ -12,17 +12,14 @@ impl<Inputs, Output> Default for Cached<Inputs, Output> {
 }
 
 impl<Inputs, Output> Cached<Inputs, Output> {
-    /// The inputs that the output was computed from.
     pub(crate) fn inputs(&self) -> Option<&Inputs> {
         self.entry.as_ref().map(|(inputs, _)| inputs)
     }
 
-    /// The cached output.
     pub(crate) fn output(&self) -> Option<&Output> {
         self.entry.as_ref().map(|(_, output)| output)
     }
 
-    /// Forgets inputs and output.
     pub(crate) fn clear(&mut self) {
         self.entry = None;
     }

@@ -19,10 +19,10 @@ const BATCH: usize = 64;
 /// How many particles one task takes.
 const CHUNK: usize = 64 * Recall::WORD;
 
-/// A region's layer, and the layer of paint: all strokes of one key lie together in the painting order.
+/// The number of a region's layer, and the layer of paint. All strokes of one key lie together in the painting order.
 type LayerKey = (i32, LayerKind);
 
-/// Strokes of consecutive particles.
+/// Strokes of particles that follow each other in the painting order.
 #[derive(Default)]
 struct Found {
     strokes: Vec<Stroke>,
@@ -152,7 +152,6 @@ impl PaintingView<'_> {
         &self.coats[entry.coat as usize].coat.baked.looks
     }
 
-    /// The strokes of these particles.
     fn found(&self, candidates: &[Candidate]) -> Found {
         let mut found = Found::default();
         for candidate in candidates {

@@ -25,7 +25,6 @@ use crate::references::RaisedPlace;
 use crate::surface::{Albedo, SurfaceInputs};
 use crate::traits::Traits;
 
-/// One coat, prepared.
 pub(crate) struct Coat {
     /// Index of the object in the scene.
     pub(crate) object: usize,
@@ -35,12 +34,10 @@ pub(crate) struct Coat {
     /// Indices of the rules that may apply to its particles.
     pub(crate) used: Arc<Vec<u16>>,
     pub(crate) traits: Arc<Traits>,
-    /// The painted amounts at its particles.
     pub(crate) amounts: Arc<CoatAmounts>,
     pub(crate) baked: Arc<BakedBody>,
     /// The particles in the order of their triangles; made when the body first bends.
     pub(crate) sorted: OnceLock<SortedParticles>,
-    /// The surface that the particles lie on.
     pub(crate) surface: Arc<BodySurface>,
     /// For each rule and each of its brushes: the index of the brush's first mark in the list of all brushes' marks.
     pub(crate) first_marks: Vec<Vec<u32>>,
@@ -83,7 +80,7 @@ impl Sampled {
 }
 
 impl Coat {
-    /// A particle carried by a body that is not at rest: its position, normal, and these columns of its lift.
+    /// A particle as a body that is not at rest carries it: its position, its normal, and the two columns of `lift`.
     pub(crate) fn carried(&self, bent: &Bent, index: usize, lift: [Vec3; 2]) -> [Vec3; 4] {
         let place = self.sampled.particles.places()[index];
         let normal = self.baked.placed.normal_of(index).as_vec3();
@@ -137,18 +134,19 @@ pub(crate) struct Sampled {
     pub(crate) polygons: Option<Arc<PolygonCounts>>,
     /// How many particles the coat would have if it had those of its whole surface; at least 1.
     pub(crate) count_on_whole: usize,
-    /// Whether it has those of its whole surface.
+    /// Whether it has those of its whole surface, or only those that views need.
     pub(crate) is_everywhere: bool,
 }
 
-/// The inputs that decide which particles a coat has. How many it has is not one of them, except with the paper's rule.
+/// The inputs that decide which particles a coat has. How many it has is not one of them, except with the source
+/// paper's rule ([`crate::paper`]).
 #[derive(Clone, PartialEq)]
 pub(crate) struct SampleInputs {
     pub(crate) surface: SurfaceInputs,
     pub(crate) name_hash: u32,
     /// With the paper's rule, the number of particles: another number gives other particles, so nothing can be reused.
     pub(crate) per_polygon: Option<usize>,
-    /// Where particles are needed; `None` everywhere.
+    /// Where particles are needed; `None`: everywhere.
     pub(crate) needed: Option<Arc<Needed>>,
 }
 

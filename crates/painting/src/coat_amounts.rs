@@ -21,7 +21,6 @@ pub(crate) struct CoatAmounts {
     most: Vec<(u16, Painted)>,
 }
 
-/// The inputs of a coat's amounts.
 pub(crate) struct AmountInputs {
     pub(crate) kind: LayerKind,
     pub(crate) amounts: Arc<BodyAmounts>,
@@ -86,7 +85,6 @@ impl CoatAmounts {
         ([length, width], density)
     }
 
-    /// The factors on the flatness of all particles; empty where none is painted.
     pub(crate) fn flatness(&self) -> &[f32] {
         &self.flatness
     }

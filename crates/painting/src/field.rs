@@ -44,9 +44,9 @@ pub(crate) struct BodyField {
 /// The samples near a particle.
 #[derive(Clone, Copy)]
 pub(crate) struct Near<'a> {
-    /// The samples near several particles.
+    /// The samples near each of several particles.
     pub(crate) stencils: &'a Stencils,
-    /// Which of them the particle is.
+    /// The place of this particle among them.
     pub(crate) offset: usize,
 }
 

@@ -51,8 +51,8 @@ impl FinishRule {
         Finish { canvas_from_px: canvas_from_px.unwrap_or(Affine2::IDENTITY), ..self.finish }
     }
 
-    /// Moves, turns and scales the canvas with `anchor`, the point that the camera looked at in the reference pose.
-    /// `None` where that point is too near to show, or behind the eye.
+    /// The transform that moves, turns and scales the canvas with `anchor`, the point that the camera looked at in the
+    /// reference pose. `None` where that point is too near to show, or behind the eye.
     fn canvas_from_px(&self, anchor: DVec3, view: &PictureView, shot_height_px: f64) -> Option<Affine2> {
         let (before, now) =
             (self.reference.screen_map(DAffine3::IDENTITY), view.screen_map(DAffine3::IDENTITY));
@@ -75,8 +75,8 @@ impl FinishRule {
     }
 }
 
-/// Direction to the first sun of the reference, in its camera's own axes, with its height held to [`HEIGHTS`].
-/// [`DEFAULT_RELIEF_LIGHT`] if there is no sun, or if it shines straight along the gaze.
+/// Direction to the first sun of the reference, in the axes of the reference's camera. The sun's height over the canvas
+/// is held to [`HEIGHTS`]. [`DEFAULT_RELIEF_LIGHT`] if there is no sun, or if it shines straight along the gaze.
 fn relief_light(scene: &Scene, reference: &PictureView) -> [f32; 3] {
     let (_, frame) = motion::referred_to(scene, &scene.reference);
     let lights = lights::resolve(scene, frame, (glam::Vec3::ZERO, 1.0), DVec3::ZERO);

@@ -42,7 +42,7 @@ pub struct Frame {
     pub sources: Vec<StrokeSource>,
     /// Runs of `strokes` that belong to one layer, in painting order.
     pub layers: Vec<LayerRun>,
-    /// The lines of the layer of touches.
+    /// The lines of touches, which are strokes placed by hand.
     pub lines: Lines,
     /// The marks of all brushes; shared between frames.
     pub brushes: Arc<Brushes>,
@@ -135,7 +135,7 @@ pub struct FrameLights {
     pub suns: Vec<SunLight>,
     /// Point lights, inverse square.
     pub points: Vec<PointLight>,
-    /// Without suns, the point light that casts shadows.
+    /// Index of the point light that casts shadows; `None` where a sun casts them, or where there is no point light.
     pub shadow_lamp: Option<usize>,
     /// Ambient light on a surface that faces up.
     pub ambient_above: Vec3,
@@ -171,9 +171,9 @@ pub struct PointLight {
 pub struct Cone {
     /// The direction in which its middle shines, world space, unit length.
     pub axis: Vec3,
-    /// Cosine of the angle from the axis to where it begins to fade.
+    /// Cosine of the angle from the axis to where the light begins to fade.
     pub inner_cosine: f32,
-    /// Cosine of the angle from the axis to where it ends.
+    /// Cosine of the angle from the axis to where the light ends.
     pub outer_cosine: f32,
 }
 
@@ -191,12 +191,12 @@ pub struct FrameBody {
     pub world_from_model: Mat4,
     /// Where its vertices are; `None` at rest.
     pub bent: Option<Arc<Bent>>,
-    /// Its noise, which may colour it; if it displaces vertices, `bent` has them displaced.
+    /// Its noise, which may colour it. If the noise moves vertices, those in `bent` have been moved.
     pub noise: Option<FrameNoise>,
 }
 
 impl FrameBody {
-    /// Whether it is drawn: not where it is hidden, nor where its noise is wholly transparent.
+    /// Whether it is drawn: neither hidden, nor coloured by noise that is wholly transparent.
     pub fn shows(&self) -> bool {
         let layers = self.noise.as_ref().and_then(|noise| noise.noise.layers.as_ref());
         !self.hidden && layers.is_none_or(|layers| layers.opacity > 0.0)

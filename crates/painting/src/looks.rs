@@ -1,5 +1,5 @@
-//! The looks of a coat's particles: what the strokes of all views have in common. A look is found when a picture first
-//! asks for it, because most particles of a floor are never seen.
+//! The looks of a coat's particles. A look is the part of a particle's stroke that is the same in every view. It is
+//! computed when a picture first asks for it, because most particles of a large floor are never seen.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
@@ -7,48 +7,46 @@ use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 use bytemuck::allocation::zeroed_vec;
 use rayon::prelude::*;
 
-/// How the stroke of a particle looks in every view.
+/// The part of a particle's stroke that is the same in every view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Look {
-    /// The columns of N', in model space.
+    /// The columns of the lift N' (see [`impasto_core::lift`]), model space.
     pub(crate) lift: [[f32; 3]; 2],
     /// Two slow noises: one for hue and value, one for how firm edges are and where scumble and contours lie.
     pub(crate) drift: [f32; 2],
-    /// The base angle with jitter in the reference picture, radians; `horn-exact` adds its turn to it. 0 with the
-    /// solver `Tangent`, where the lift alone gives the angle.
+    /// The base angle with jitter in the reference picture, radians. The solver `HornExact` adds its turn to it. 0 with
+    /// the solver `Tangent`, where the lift alone gives the angle.
     pub(crate) base_angle_rad: f32,
 }
 
-/// Finds the looks of a coat's particles.
 pub(crate) trait FindLooks: Send + Sync {
-    /// Gives each of these particles and its look to `found`.
+    /// Computes the looks of these particles, and calls `found` with each particle and its look.
     fn find_looks(&self, particles: &[u32], found: &mut dyn FnMut(usize, Look));
 
     /// Whether looks have a base angle.
     fn has_angles(&self) -> bool;
 }
 
-/// Words of a look without its base angle, and with it.
+/// How many 32-bit words a look takes, without and with its base angle.
 const WIDTH: usize = 8;
 const WIDTH_WITH_ANGLE: usize = 9;
 
 /// How many looks one task finds.
 const CHUNK: usize = 512;
 
-/// Looks per word of bits.
 const BITS: usize = u64::BITS as usize;
 
-/// The looks of particles in progressive order. Several threads may ask at once: they find the same bits.
+/// The looks of particles in progressive order. Several threads may ask for a look at once: all compute the same bits.
 #[derive(Default)]
 pub(crate) struct Looks {
-    /// A bit for each particle: whether its look is known.
+    /// One bit for each particle: whether its look is known.
     known: Vec<AtomicU64>,
-    /// The bits of each look's numbers, one look after the other. The system gives zeroed pages when they are first
-    /// written to, so ranks that no picture shows take no memory.
+    /// The bits of each look's numbers, one look after the other. The operating system provides a zeroed page only when
+    /// it is first written to, so particles that no picture shows take no memory.
     words: Vec<AtomicU32>,
     count: usize,
     has_angles: bool,
-    /// The inputs that looks are found from; `None` where all are known.
+    /// What looks are computed from; `None` where all are known.
     inputs: Option<Arc<dyn FindLooks>>,
 }
 
@@ -83,7 +81,7 @@ impl Looks {
         let width = width(has_angles);
         let count = words.len() / width;
         let known = (0..count.div_ceil(BITS)).map(|_| AtomicU64::new(u64::MAX)).collect();
-        // The memory of the words is used again.
+        // This collects in place, without new memory for the words.
         let all = words.len() == count * width;
         let words = words.into_iter().map(AtomicU32::new).collect();
         all.then_some(Self { known, words, count, has_angles, inputs: None })
@@ -97,12 +95,10 @@ impl Looks {
         self.words.iter().map(|word| word.load(Ordering::Relaxed)).collect()
     }
 
-    /// How many words `count` looks have.
     pub(crate) fn words_of(count: usize, has_angles: bool) -> usize {
         count * width(has_angles)
     }
 
-    /// Whether looks store base angles.
     pub(crate) fn has_angles(&self) -> bool {
         self.has_angles
     }
@@ -112,25 +108,22 @@ impl Looks {
         size_of_val(&self.known[..]) + size_of_val(&self.words[..])
     }
 
-    /// Whether a look is known.
     #[inline]
     pub(crate) fn knows(&self, particle: usize) -> bool {
         self.known[particle / BITS].load(Ordering::Acquire) >> (particle % BITS) & 1 != 0
     }
 
-    /// Finds the looks of these particles.
     pub(crate) fn find(&self, particles: &[u32]) {
         let Some(inputs) = &self.inputs else { return };
         inputs.find_looks(particles, &mut |particle, look| self.set(particle, look));
     }
 
-    /// The look of a particle, if it is known.
     #[inline]
     pub(crate) fn known(&self, particle: usize) -> Option<Look> {
         self.knows(particle).then(|| self.look(particle))
     }
 
-    /// The look of a particle.
+    /// The look of a particle. It is computed if it is not known yet.
     #[inline]
     pub(crate) fn at(&self, particle: usize) -> Look {
         if !self.knows(particle) {
@@ -139,7 +132,7 @@ impl Looks {
         self.look(particle)
     }
 
-    /// A look that is known.
+    /// The look of a particle whose look is known.
     #[inline]
     fn look(&self, particle: usize) -> Look {
         let width = width(self.has_angles);

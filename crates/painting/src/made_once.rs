@@ -1,4 +1,4 @@
-//! Fills cells that are filled once, by work that runs on many threads.
+//! Fills a `OnceLock` with a value that is made on many threads.
 
 use std::sync::OnceLock;
 

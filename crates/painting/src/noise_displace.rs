@@ -17,7 +17,7 @@ use crate::body_shape::{BodyNoise, FrameNoise, NoiseLayers};
 use crate::lights::linear;
 
 impl BodyNoise {
-    /// The noise at a time, of a body in a pose.
+    /// The noise of a body in this pose at this time.
     pub(crate) fn at(self: &Arc<Self>, seconds: f64, world_from_model: DAffine3) -> FrameNoise {
         let travelled = travelled(seconds, self.stated.period_secs);
         let lookup = match &self.stated.vertex {
@@ -39,7 +39,6 @@ impl BodyNoise {
     }
 }
 
-/// The inputs of a body's noise.
 #[derive(Clone, Default)]
 pub(crate) struct NoiseInputs {
     stated: Option<NoiseDisplace>,
@@ -103,8 +102,8 @@ impl NoiseInputs {
 
 fn layers(surface: &SurfaceNoise, tile: Arc<Tile>) -> NoiseLayers {
     let count = surface.layer_count.max(1);
-    // The product of k layers has 2(k − 1) factors. `Mean` takes the geometric mean of these, `Root` the k-th root of
-    // the product. With one layer there is no factor.
+    // With a `layer_count` of k, the product has 2(k − 1) factors. `Mean` takes the geometric mean of these, `Root` the
+    // k-th root of the product. With k = 1 there is no factor.
     let root_degree = match surface.mix {
         NoiseMix::Root => f64::from(count),
         NoiseMix::Mean => f64::from(2 * (count - 1).max(1)),

@@ -2,15 +2,14 @@
 
 use rayon::prelude::*;
 
-/// A particle of a coat.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct OrderEntry {
     pub(crate) coat: u32,
     pub(crate) particle: u32,
 }
 
-/// All particles in painting order. Each is stored as its number; the numbers run through all coats, one after the
-/// other.
+/// All particles in painting order, each stored as a number. The particles of a coat have consecutive numbers, and the
+/// numbers of the next coat follow.
 #[derive(Debug, Default)]
 pub(crate) struct PaintingOrder {
     numbers: Vec<u32>,
@@ -23,7 +22,8 @@ impl PaintingOrder {
     /// a multiple of it, so that no two coats share a word. So some numbers between coats may be unused.
     pub(crate) const WORD: usize = u64::BITS as usize;
 
-    /// The painting order from kept arrays; `None` if they do not fit coats with `counts` particles.
+    /// The painting order from the arrays that [`PaintingOrder::to_keep`] gave; `None` if they do not fit coats with
+    /// `counts` particles.
     pub(crate) fn of_kept(numbers: Vec<u32>, firsts: Vec<u32>, counts: &[usize]) -> Option<Self> {
         let (begins, end) = begins(counts.iter().copied());
         let mut coat_of_word = Vec::with_capacity(end / Self::WORD);
@@ -45,17 +45,15 @@ impl PaintingOrder {
         Self { numbers, firsts }
     }
 
-    /// The arrays that are kept.
+    /// The arrays to be stored for another process.
     pub(crate) fn to_keep(&self) -> [&[u32]; 2] {
         [&self.numbers, &self.firsts]
     }
 
-    /// The numbers, in painting order.
     pub(crate) fn numbers(&self) -> &[u32] {
         &self.numbers
     }
 
-    /// The particle with a number.
     #[inline]
     pub(crate) fn entry(&self, number: u32) -> OrderEntry {
         let coat = self.firsts.partition_point(|&first| first <= number) - 1;

@@ -1,5 +1,5 @@
-//! Puts particles in the order in which they are painted: by the number `layer` of their regions from low to high, then
-//! by the layers of paint in the scene's order, then by rank from high to low.
+//! Puts particles into painting order. They are sorted by the number `layer` of their region, low first; then by layer
+//! of paint, in the scene's order; then by rank, high first.
 
 use std::cmp::Reverse;
 use std::collections::binary_heap::PeekMut;
@@ -15,7 +15,6 @@ use crate::particles::Particles;
 use crate::regions::RegionRule;
 use crate::traits::Traits;
 
-/// All that the order depends on.
 pub(crate) struct OrderInputs {
     /// The layers of paint, the lowest first.
     kinds: [LayerKind; 7],
@@ -88,7 +87,7 @@ impl OrderInputs {
 }
 
 impl OrderedCoat {
-    /// The particles of each of the regions' layers, in progressive order.
+    /// The coat's particles, grouped by the number `layer` of their regions, each group in progressive order.
     fn by_layer(&self, layers: &[i32]) -> BTreeMap<i32, LayerParticles> {
         let Some(traits) = &self.traits else {
             return BTreeMap::from([(0, LayerParticles::First(self.particles.len() as u32))]);
@@ -102,7 +101,7 @@ impl OrderedCoat {
     }
 }
 
-/// Particles of a coat that are in one of the regions' layers, in progressive order.
+/// The particles of a coat whose regions have the same number `layer`, in progressive order.
 enum LayerParticles {
     /// This many particles, the first ones of the coat.
     First(u32),

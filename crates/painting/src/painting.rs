@@ -47,19 +47,17 @@ pub struct Painting {
     /// The strokes that were placed by hand, in the order of the scene.
     pub(crate) touches: Arc<Vec<LaidTouch>>,
     pub(crate) finish: FinishRule,
-    /// All particles in painting order.
     pub(crate) order: Arc<PaintingOrder>,
     pub(crate) references: Arc<SceneReferences>,
     /// The bodies at the last frames that were asked for.
     pub(crate) bent: Arc<BentMemo>,
-    /// The noise of each object.
     pub(crate) noises: Vec<Option<Arc<BodyNoise>>>,
     pub(crate) solver: Solver,
     pub(crate) style: Style,
     /// The origin of the frames' world space.
     pub(crate) origin_in_world: DVec3,
-    /// The sphere (centre, radius) that the shadow map covers over the whole timeline, in the frames' world space:
-    /// round all bodies, or round what is seen where that is much smaller.
+    /// The sphere (centre, radius) that the shadow map covers, the same in all frames, in the frames' world space. It
+    /// holds all bodies, or only what is seen if that is much smaller.
     pub(crate) shadow_bounds: (Vec3, f32),
     pub(crate) steps: Vec<Step>,
     pub(crate) kept: Kept,
@@ -71,7 +69,7 @@ pub(crate) struct PreparedBody {
     pub(crate) surface: Arc<BodySurface>,
     /// The largest strokes that each part carries.
     pub(crate) caps: Vec<Cap>,
-    /// The least size of its form anywhere, model units.
+    /// The smallest size of its form at any place, model units.
     pub(crate) least_form: f32,
     /// Whether it is left out of the picture.
     pub(crate) hidden: bool,
@@ -79,7 +77,7 @@ pub(crate) struct PreparedBody {
     pub(crate) field: Option<Arc<LateField>>,
     /// How many particles each layer was to have.
     pub(crate) counts: BodyCounts,
-    /// Which region lies where.
+    /// Which region each place of it belongs to.
     pub(crate) regions: Arc<BodyRegions>,
     /// The amounts painted onto it.
     pub(crate) amounts: Arc<BodyAmounts>,
@@ -174,7 +172,6 @@ impl Painting {
         shapes(&self.loaded, &self.noises, frame)
     }
 
-    /// The noise of every object at a frame.
     pub(crate) fn noises_at(&self, frame: f64) -> Vec<Option<FrameNoise>> {
         noises_at(self.scene(), &self.noises, frame)
     }
@@ -185,7 +182,7 @@ impl Painting {
         self.bent.at(frame, self.bodies.iter().map(|body| &body.surface), || self.shapes_at(frame))
     }
 
-    /// Begins to bend bodies for a frame that will be asked for soon, while other work goes on. It changes no picture.
+    /// Begins to bend the bodies for a frame that will be asked for soon, in the background. No picture depends on it.
     pub fn foresee(&self, frame: f64) {
         let moves = |body: &PreparedBody| body.surface.bends();
         if self.bodies.iter().any(moves) {
@@ -199,8 +196,8 @@ impl Painting {
         }
     }
 
-    /// What went wrong since the scene's files were opened: point caches that could not be read any more. Their bodies
-    /// stay at rest. Each message occurs once; they are sorted.
+    /// What went wrong since the scene's files were opened: point caches that could not be read any more, so that their
+    /// bodies stay at rest. The messages are sorted, and each occurs once.
     pub fn faults(&self) -> Vec<String> {
         let mut faults: Vec<String> =
             self.bodies.iter().filter_map(|body| body.surface.fault().cloned()).collect();
@@ -288,8 +285,8 @@ impl Painting {
         field.map_or(&[], |field| field.singularities())
     }
 
-    /// For each particle of an object's body layer, whether its stated direction has a singular point near by: there
-    /// the surface faces along the axis that states the direction.
+    /// For each particle of an object's body layer, whether it lies near a singular point of its stated direction.
+    /// There the surface faces along the axis by which the direction is stated.
     pub fn poles(&self, object: usize) -> Vec<bool> {
         self.coat(object, LayerKind::Body).map_or_else(Vec::new, |coat| coat.lift_sources.poles())
     }

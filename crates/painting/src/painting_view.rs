@@ -72,7 +72,7 @@ pub(crate) struct PlacedParticle {
     pub(crate) position: DVec3,
     /// Unit, model space; zero where its surface has collapsed.
     pub(crate) normal: DVec3,
-    /// N'.
+    /// The lift N', carried to where the surface is now.
     pub(crate) lift: Lift,
     /// Position, normal and the columns of N' in single precision. The length of the normal is the area of its surface
     /// now over that at rest.
@@ -137,7 +137,6 @@ impl Painting {
         painting_view
     }
 
-    /// The factor from pixels at the scene's own size to pixels of a picture.
     pub(crate) fn px_scale(&self, options: &FrameOptions) -> f32 {
         if options.keep_stroke_px { 1.0 } else { options.shot_height_px() / self.scene().size.1 as f32 }
     }
@@ -187,7 +186,6 @@ impl PaintingView<'_> {
         }
     }
 
-    /// The stroke settings of a rule at this frame.
     pub(crate) fn strokes_of(&self, rule: u16) -> &ResolvedStrokes {
         &self.strokes_of_rule[usize::from(rule)]
     }
@@ -204,12 +202,10 @@ impl PaintingView<'_> {
 }
 
 impl CoatView<'_> {
-    /// The particles at rest.
     fn at_rest_all(&self) -> &PlacedParticles {
         &self.coat.baked.placed
     }
 
-    /// How many particles there are.
     pub(crate) fn len(&self) -> usize {
         self.at_rest_all().len()
     }
@@ -251,13 +247,12 @@ impl CoatView<'_> {
         [position, self.unit(normal)]
     }
 
-    /// The length of a carried normal is the area of its surface now over that at rest; a normal at rest is a unit
-    /// vector.
+    /// The unit vector of a normal. The length of a carried normal is the area of its surface now over that at rest. A
+    /// normal at rest is a unit vector already.
     fn unit(&self, normal: DVec3) -> DVec3 {
         if self.bent.is_some() { normal.normalize_or_zero() } else { normal }
     }
 
-    /// A particle where it is now.
     pub(crate) fn placed(&self, index: usize, look: &Look) -> PlacedParticle {
         let vectors = self.vectors(index, look.lift);
         let [position, normal, along, across] =
@@ -265,7 +260,6 @@ impl CoatView<'_> {
         PlacedParticle { position, normal: self.unit(normal), lift: Lift { along, across }, vectors }
     }
 
-    /// The look of a particle.
     pub(crate) fn look(&self, index: usize) -> Look {
         self.coat.baked.looks.at(index)
     }
@@ -317,7 +311,8 @@ impl CoatView<'_> {
         Lift { along: gradient * along, across: gradient * across }
     }
 
-    /// How much longer the surface is at a particle than at rest: the root of how much its area has grown.
+    /// The factor by which lengths on the surface at a particle have grown since rest: the square root of the factor by
+    /// which its area has grown.
     fn stretch(&self, bent: Option<&Arc<Bent>>, index: usize) -> f64 {
         let Some(bent) = bent else { return 1.0 };
         let place = bent.place(self.coat.sampled.particles.places()[index]);

@@ -31,7 +31,7 @@ pub(crate) struct PolygonSide {
     unused: u32,
 }
 
-/// The form in which [`PolygonCounts`] are kept.
+/// [`PolygonCounts`] in the form in which they are stored for another process.
 pub(crate) struct KeptPolygons<'a> {
     pub(crate) of_particle: Vec<[u32; 2]>,
     pub(crate) sides: &'a [PolygonSide],
@@ -39,7 +39,7 @@ pub(crate) struct KeptPolygons<'a> {
 }
 
 impl PolygonCounts {
-    /// Restores the counts from their kept form; `None` if an index is out of range.
+    /// Restores the counts from their stored form; `None` if an index is out of range.
     pub(crate) fn of_kept(
         of_particle: Vec<[u32; 2]>,
         sides: Vec<PolygonSide>,
@@ -61,7 +61,6 @@ impl PolygonCounts {
         })
     }
 
-    /// The counts in their kept form.
     pub(crate) fn to_keep(&self) -> KeptPolygons<'_> {
         let Self { of_particle, sides, faces } = self;
         KeptPolygons {
@@ -127,7 +126,7 @@ impl PolygonCounts {
             .collect()
     }
 
-    /// The sides with the vertices at these positions.
+    /// The sides when the vertices are at these positions.
     fn moved(&self, mesh: &TriangleMesh, positions: &[Vec3]) -> Vec<PolygonSide> {
         let still =
             |side: &PolygonSide| PolygonSide { center: DVec3::ZERO, normal: DVec3::ZERO, area: 0.0, ..*side };

@@ -11,8 +11,8 @@ use rayon::prelude::*;
 
 use crate::body::BodySurface;
 
-/// The first particles of an order, on a surface at rest. Only their places are stored; all else is computed when it is
-/// asked for.
+/// The first particles of a progressive order, on a surface at rest. Only their places are stored; all else is computed
+/// when it is asked for.
 #[derive(Clone)]
 pub struct Particles {
     /// The same `Arc` in all `Particles` of one order, however many of its particles have been sampled; compared by
@@ -34,7 +34,7 @@ pub(crate) struct SampledPlaces {
 }
 
 impl SampledPlaces {
-    /// Those of a progressive order.
+    /// The places of a progressive order.
     pub(crate) fn of(order: &ProgressiveOrder) -> Self {
         Self {
             places: order.particles.iter().map(PackedParticle::of).collect(),
@@ -73,29 +73,27 @@ impl Particles {
         Self { count: count.min(sampled.places.len()), sampled: Arc::new(sampled), ..self.clone() }
     }
 
-    /// Whether both are the first particles of one order, so that the shorter is the beginning of the longer. Orders that
-    /// were made separately never count as one.
+    /// Whether both are the first particles of one order, so that the shorter is the beginning of the longer. Orders
+    /// that were made separately never count as one.
     pub(crate) fn same_order(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.order, &other.order)
     }
 
-    /// The places of all particles of the order that have been sampled.
+    /// The places of all sampled particles of the order, which may be more than [`Particles::len`].
     pub(crate) fn places(&self) -> &[PackedParticle] {
         &self.sampled.places
     }
 
-    /// All that has been sampled of the order.
     pub(crate) fn sampled(&self) -> &SampledPlaces {
         &self.sampled
     }
 
     /// The ordinals of all particles; empty where they are the particles' indices. Later particles may lie on a part of
-    /// the surface only. The ordinal says about how many would come before this particle if they lay on all of it.
+    /// the surface only. An ordinal says about how many would come before the particle if they lay on all of it.
     pub(crate) fn ordinals(&self) -> &[f32] {
         self.sampled.ordinals.get(..self.count).unwrap_or_default()
     }
 
-    /// The ordinal of a particle.
     #[inline]
     pub(crate) fn ordinal(&self, index: usize) -> f32 {
         self.sampled.ordinals.get(index).copied().unwrap_or(index as f32)
@@ -113,7 +111,7 @@ impl Particles {
         }
     }
 
-    /// How many.
+    /// How many particles there are.
     pub fn len(&self) -> usize {
         self.count
     }
@@ -123,35 +121,34 @@ impl Particles {
         self.count == 0
     }
 
-    /// One of them; `index` is less than [`Particles::len`].
+    /// A particle; `index` is less than [`Particles::len`].
     #[inline]
     pub fn at(&self, index: usize) -> Particle {
         self.place_on_surface(self.sampled.places[..self.count][index])
     }
 
-    /// One of them; `None` if `index` is not less than [`Particles::len`].
+    /// A particle; `None` if `index` is not less than [`Particles::len`].
     pub fn get(&self, index: usize) -> Option<Particle> {
         (index < self.count).then(|| self.at(index))
     }
 
-    /// All of them, in progressive order.
+    /// All particles, in progressive order.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = Particle> + '_ {
         self.sampled.places[..self.count].iter().map(|&place| self.place_on_surface(place))
     }
 
-    /// Positions and unit normals of all of them, in model space.
+    /// Positions and unit normals of all particles, in model space.
     pub(crate) fn points(&self) -> (Vec<Vec3>, Vec<Vec3>) {
         let point = |particle: Particle| (particle.position, particle.normal);
         self.par_range(0..self.count).map(point).unzip()
     }
 
-    /// Index of the triangle of one of them.
     #[inline]
     pub(crate) fn triangle(&self, index: usize) -> usize {
         self.sampled.places[index].triangle()
     }
 
-    /// Those of a range, on all threads.
+    /// The particles of a range, on all threads.
     pub(crate) fn par_range(
         &self,
         range: Range<usize>,

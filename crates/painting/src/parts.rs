@@ -41,7 +41,6 @@ const BACKDROP_FACING: f64 = 0.6;
 /// The angle of the strokes on a backdrop, degrees: almost level, so that they do not draw attention.
 const BACKDROP_DEG: f64 = 8.0;
 
-/// The parts of a body.
 #[derive(Debug)]
 pub(crate) struct BodyParts {
     pub(crate) parts: Vec<Part>,
@@ -50,8 +49,8 @@ pub(crate) struct BodyParts {
     pub(crate) form: FormSize,
 }
 
-/// The largest strokes that a part carries, pixels at the scene's size. The reference pose decides: a stroke keeps its
-/// size however far away it is.
+/// The largest strokes that a part carries, pixels at the scene's size. They are found in the reference pose, since a
+/// stroke keeps its size in pixels however far away its part is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Cap {
     length_px: f32,
@@ -99,7 +98,6 @@ impl BodyParts {
         self.parts.iter().zip(&sums).map(moved).collect()
     }
 
-    /// The automatic direction of each part.
     pub(crate) fn directions(&self, reference: &BodyReference) -> Vec<Direction> {
         let of_part = |(index, part)| direction_of(index, part, reference);
         self.parts.iter().enumerate().map(of_part).collect()

@@ -39,7 +39,7 @@ impl Recall {
             LayerKind::Form | LayerKind::Accents | LayerKind::Contour | LayerKind::Lights => {
                 SMALL << (turn % 32)
             }
-            // No coat carries them.
+            // Touches have no coat.
             LayerKind::Touches => 0,
             LayerKind::Underpainting if lacks_underpainting => 0,
             LayerKind::Body | LayerKind::Scumble | LayerKind::Underpainting => LARGE << (turn % 2),

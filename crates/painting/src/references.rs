@@ -28,7 +28,7 @@ const WHOLE: f64 = 0.5;
 pub(crate) struct ReferencePose {
     pub(crate) view: PictureView,
     pub(crate) poses: Vec<DAffine3>,
-    /// The frame of the poses; bodies bend as they do there.
+    /// The frame that gives the poses and the shapes of the bodies.
     pub(crate) frame: f64,
 }
 
@@ -44,7 +44,6 @@ pub(crate) struct SceneReferences {
 }
 
 impl SceneReferences {
-    /// The scene's own reference, the further ones, and those of regions.
     pub(crate) fn of(scene: &Scene) -> Self {
         let pose = |reference: &Reference| {
             let (camera, frame) = motion::referred_to(scene, reference);
@@ -209,8 +208,8 @@ impl PlaceThen {
 
 /// How the references see one point of a surface.
 pub(crate) struct Views {
-    /// First the reference of the point's rule; `None` if it does not face the point. Then, unless the first states the
-    /// direction wholly, the further reference that faces the point best; `None` if no such reference faces it.
+    /// First, the reference of the point's rule; `None` if it does not face the point. Second, the further reference
+    /// that faces the point best; `None` if none does, or if the first states the direction wholly.
     pub(crate) facing: [Option<FacingReference>; 2],
     pub(crate) normal: DVec3,
     /// Axes of the tangent plane, right and up as on a turntable.
@@ -248,7 +247,6 @@ impl BodyReferences {
         &self.all[0]
     }
 
-    /// Hashes all of them.
     pub(crate) fn feed_key(&self, key: &mut KeyHasher) {
         let Self { all, further, of_rule } = self;
         for BodyReference { map, near, roll_sin_cos, up_in_model, size_px, stands } in all {
@@ -266,6 +264,7 @@ impl BodyReferences {
 
     /// How the references see a point. `horn` may replace the lift of the tangent plane in the reference of the point's
     /// rule: by another (`Some(Some(lift))`), or by none (`Some(None)`), as if the reference did not face the point.
+    /// `None` leaves the lift as it is.
     pub(crate) fn views(
         &self,
         point: SurfacePoint,
@@ -305,7 +304,8 @@ impl BodyReferences {
 }
 
 impl BodyReference {
-    /// Where a place of the surface is at the reference's frame, model space, and F there; `None` at rest.
+    /// Where a place of the surface is at the reference's frame, model space, and the deformation gradient there.
+    /// `None` at rest.
     pub(crate) fn carried(&self, place: PackedParticle) -> Option<CarriedPlace> {
         self.stands.bent.as_ref().map(|bent| bent.place(place))
     }
@@ -348,8 +348,8 @@ impl Views {
         1.0 - self.facing.iter().flatten().map(|reference| 1.0 - reference.share).product::<f64>()
     }
 
-    /// The unit tangent along which strokes, carried by the lift of [`Self::flat`], show at this angle in the view with
-    /// this Jacobian.
+    /// A unit tangent. In the view with this Jacobian, strokes along it that the lift of [`Self::flat`] carries show at
+    /// this angle.
     pub(crate) fn tangent_at(&self, angle_rad: f64, jacobian: [DVec3; 2]) -> DVec3 {
         let turned = angle_rad - self.flat(self.axes[0]).map(jacobian).angle_rad();
         let (sin, cos) = turned.sin_cos();

@@ -73,7 +73,6 @@ pub(crate) struct BodyGuideView {
 }
 
 impl BodyGuide {
-    /// Hashes all of it.
     pub(crate) fn feed_key(&self, key: &mut KeyHasher) {
         let Self { rule, mode, guide, view } = self;
         key.value(&(rule, mode, guide));
@@ -183,7 +182,6 @@ struct PlacedDab {
 }
 
 impl BodyRegions {
-    /// The regions of an object with this mesh.
     pub(crate) fn new(scene: &Scene, object: &str, file: &MeshFile, mesh: &TriangleMesh) -> Self {
         let implicit = scene.regions.len() as u16;
         let mut regions =
@@ -221,7 +219,6 @@ impl BodyRegions {
         self.of_triangle[triangle]
     }
 
-    /// Hashes all of them.
     pub(crate) fn feed_key(&self, key: &mut KeyHasher) {
         let Self { of_triangle, dabbed, implicit } = self;
         key.numbers(of_triangle);

@@ -77,7 +77,6 @@ pub(crate) fn shapes(loaded: &LoadedScene, noises: &[Option<Arc<BodyNoise>>], fr
     noises.map(|(object, noise)| BodyShape { noise, ..all.of(loaded, object) }).collect()
 }
 
-/// The noise of every object at a frame.
 pub(crate) fn noises_at(
     scene: &Scene,
     noises: &[Option<Arc<BodyNoise>>],

@@ -21,7 +21,8 @@ pub(crate) struct DirectionRules<'a> {
 pub(crate) struct StatedDirection {
     /// Unit, in the tangent plane.
     pub(crate) tangent: DVec3,
-    /// 1 where the direction is stated outright. Less where it is guessed, because no reference faces the point.
+    /// 1 where the direction is certain. Less for an angle in the picture where no reference faces the point well:
+    /// there the direction is partly guessed.
     pub(crate) exact: f64,
 }
 

@@ -70,7 +70,8 @@ impl PaintingView<'_> {
         self.supplied(candidate, 1.0).is_some()
     }
 
-    /// `None` if the stroke is absent, whichever way its surface faces. `patches` is how much scumble is wanted, 0..=1.
+    /// The size and the supply of a particle's stroke; `None` if the stroke is absent, whichever way its surface faces.
+    /// `patches` is how much scumble is wanted, 0..=1.
     fn supplied(&self, candidate: &Candidate, patches: f32) -> Option<Supplied> {
         let &Candidate { entry, ref seen, region, part, .. } = candidate;
         let (coat_view, index) = (&self.coats[entry.coat as usize], entry.particle as usize);
@@ -238,7 +239,6 @@ impl PaintingView<'_> {
     }
 }
 
-/// A stroke's outline in the picture.
 #[derive(Clone, Copy)]
 struct Outline {
     angle_rad: f32,
@@ -339,7 +339,6 @@ impl Chance {
         ]
     }
 
-    /// The factor on how far the stroke bends.
     fn bend(&self, jitter: f32) -> f32 {
         (BEND_SHARE * jitter * self.normal(BEND)).exp()
     }

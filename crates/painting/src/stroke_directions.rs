@@ -21,7 +21,7 @@ pub struct StrokeDirection {
     pub region: usize,
     /// Index of the particle in its object's body layer. Particles are in the order in which they were sampled.
     pub particle: usize,
-    /// The particle's place in that order as a share of all particles, in (0, 1).
+    /// The particle's place in the order of sampling, as a share of all particles, in (0, 1).
     pub rank: f32,
     /// Pixels, origin at the upper left corner of the picture, Y down.
     pub position_px: [f32; 2],
@@ -86,7 +86,7 @@ impl Painting {
             for index in indices(&coat.within(&bounds)) {
                 let seen = coat.seen(index);
                 let [x, y] = view.position_px(&seen);
-                // The sum of half a side and the float just below it rounds to the whole side.
+                // A position just inside the right or lower border may be rounded to the border, one cell too far.
                 let [column, row] = [(x / cell_px) as usize, (y / cell_px) as usize];
                 let cell = column.min(columns - 1) + row.min(rows - 1) * columns;
                 if cells[cell].is_some_and(|(_, best)| best.rank <= coat.coat.sampled.rank(index)) {

@@ -21,7 +21,6 @@ use crate::body_shape::BodyShape;
 use crate::lights::linear;
 use crate::shapes::BodyShapes;
 
-/// The inputs of a body's surface.
 #[derive(Clone, Debug)]
 pub(crate) struct SurfaceInputs {
     file: Arc<MeshFile>,
@@ -118,7 +117,7 @@ impl SurfaceInputs {
         if surface.bends() && self.rest != BodyShape::default() {
             let Vertices { positions, normals } = surface.vertices_at(&self.rest);
             (surface.mesh.positions, surface.mesh.normals) = (positions, normals);
-            // The gradients found so far were those of the file's mesh.
+            // From here on, deformation gradients are relative to this rest.
             surface.bending = surface.bending.resting(self.rest.clone());
         }
         surface.sides = sides(&surface.mesh);
@@ -223,7 +222,6 @@ impl BodySurface {
         Albedo::OfMaterial(self.materials.iter().map(|material| srgb8(material, material.albedo)).collect())
     }
 
-    /// Index of the material of a triangle.
     pub(crate) fn material_of_triangle(&self, triangle: usize) -> usize {
         self.mesh.material_of_triangle.get(triangle).copied().unwrap_or(0) as usize
     }

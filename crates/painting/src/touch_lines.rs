@@ -300,7 +300,6 @@ fn length_px(line: &[LinePoint]) -> f64 {
     line.windows(2).map(length).filter(|length| length.is_finite()).sum::<f64>().clamp(1e-3, 1e6)
 }
 
-/// How wide a line is.
 struct Width {
     width_px: f64,
     length_px: f64,
@@ -315,7 +314,8 @@ impl Width {
         0.5 * self.width_px * pressed * (1.0 + self.taper * (1.0 - 2.0 * share)) / FILL
     }
 
-    /// How much more paint the mark needs to show towards the end of a line: a long one empties the brush.
+    /// How much more paint a texel of the mark needs in order to show, at a share of the line: a long line empties the
+    /// brush.
     fn run_dry(&self, share: f64) -> f64 {
         let widths = self.length_px / self.width_px;
         RUNS_DRY * (widths / DRY_AFTER).min(1.0) * ((share - 0.35) / 0.65).max(0.0).powi(2)

@@ -31,7 +31,6 @@ const ROUNDINGS: usize = 6;
 /// A touch at a single place lies along the mean of this many strokes round it, since single strokes stray.
 const ROUND: usize = 7;
 
-/// All that is needed to lay touches.
 pub(crate) struct TouchInputs<'a> {
     pub(crate) rules: &'a [RegionRule],
     /// Surface and regions of each object.

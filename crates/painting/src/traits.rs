@@ -1,5 +1,5 @@
-//! Traits: what is fixed for a particle besides its direction (its region, its part and its random numbers). Also slow
-//! noise, for those particles that are asked for.
+//! Traits: what is fixed for a particle besides its direction, namely its region, its part and its random numbers. Also
+//! computes slow noise, for the particles that are asked for.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -122,12 +122,10 @@ pub(crate) struct Noise {
 }
 
 impl Traits {
-    /// The region of each particle where there are dabs; empty where it follows from the triangles.
     pub(crate) fn dabbed(&self) -> &[u16] {
         &self.dabbed
     }
 
-    /// The region of a particle.
     #[inline]
     pub(crate) fn region(&self, particle: usize) -> u16 {
         match self.dabbed.get(particle) {
@@ -136,7 +134,6 @@ impl Traits {
         }
     }
 
-    /// The part of a particle.
     #[inline]
     pub(crate) fn part(&self, particle: usize) -> usize {
         self.parts.of_triangle[self.particles.triangle(particle)] as usize
@@ -175,7 +172,6 @@ impl PartialEq for TraitInputs {
     }
 }
 
-/// What the second of two crossing families adds to the angle, radians; `None` where there is one family.
 fn second_rad(direction: &Direction) -> Option<f64> {
     match *direction {
         Direction::Crossing(first, second) => Some((second - first).to_radians()),
@@ -281,7 +277,6 @@ impl TraitInputs {
         if rule.second_rad.is_some() { CROSSING_SWING_PX } else { SWING_PX }
     }
 
-    /// What chance and slow noise add to a particle's base angle, radians.
     fn stray_rad(&self, traits: &Traits, particle: usize, swing_noise: f32) -> f64 {
         let bits = traits.bits(particle);
         let rule = self.rules[usize::from(traits.region(particle))];

@@ -8,7 +8,7 @@ use impasto_scene::motion::CameraPose;
 
 use crate::frame::FrameView;
 
-/// A camera looking at a picture of a given size.
+/// A camera, and the size of the picture that it takes.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PictureView {
     pub(crate) pose: CameraPose,

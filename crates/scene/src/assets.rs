@@ -15,7 +15,7 @@ pub const MAX_NAME_BYTES: usize = 4096;
 pub struct AssetFolders {
     /// The folders of `--asset-dir`, searched in this order after the folder of the file that names the asset.
     pub extra: Vec<PathBuf>,
-    /// The list to which every file that is found is added.
+    /// The list that every found file is added to.
     found: FoundFiles,
 }
 
@@ -47,7 +47,7 @@ pub enum AssetError {
     /// The name itself is refused: nothing was opened.
     #[error("{name:?} is refused: {why}")]
     Refused {
-        /// The name, shortened for people.
+        /// The name, cut short if it is very long.
         name: String,
         /// Why.
         why: &'static str,
@@ -55,7 +55,7 @@ pub enum AssetError {
     /// None of the folders has the file.
     #[error("{name:?} was not found (tried {})", list(.tried))]
     Missing {
-        /// The name, shortened for people.
+        /// The name, cut short if it is very long.
         name: String,
         /// The full paths that were tried.
         tried: Vec<PathBuf>,
@@ -121,7 +121,6 @@ impl AssetFolders {
         Self { found: found.clone(), ..self.clone() }
     }
 
-    /// What was found through these folders.
     pub(crate) fn found(&self) -> &FoundFiles {
         &self.found
     }
@@ -199,7 +198,7 @@ pub fn read_regular_file(path: &Path, max_bytes: u64) -> Result<Vec<u8>, AssetEr
         return Err(too_large());
     }
     let mut bytes = Vec::with_capacity(metadata.len() as usize);
-    // One byte more than allowed, to notice a file that has grown meanwhile.
+    // One byte more than allowed, to notice a file that has grown since its size was read.
     File::open(path).map_err(unreadable)?.take(max_bytes + 1).read_to_end(&mut bytes).map_err(unreadable)?;
     if bytes.len() as u64 > max_bytes { Err(too_large()) } else { Ok(bytes) }
 }

@@ -54,7 +54,7 @@ pub fn check(scene: &Scene) -> Vec<Finding> {
 
 /// Checks the document against its files: groups and materials exist and have triangles, guides and dabs lie on the
 /// surface, morphs have equal topology, point caches fit. `meshes` and `caches` are keyed by the path written in the
-/// document. A file that is not in them is skipped, since the failure to read it was reported before.
+/// document. Files that are missing there are skipped: they could not be read, which was reported before.
 pub fn check_with_meshes(
     scene: &Scene,
     meshes: &BTreeMap<String, Arc<MeshFile>>,
@@ -155,7 +155,7 @@ impl Findings {
         }
     }
 
-    /// Checks that a point or a vector lies within the space that this build can handle.
+    /// Checks that each number of a point or a vector is at most [`limits::MAX_LENGTH`] from 0.
     fn vector(&mut self, field_path: &str, value: [f64; 3]) {
         if let Some(&bad) = value.iter().find(|component| !within(**component, limits::MAX_LENGTH)) {
             let limit = short(limits::MAX_LENGTH);
@@ -172,7 +172,6 @@ impl Findings {
         }
     }
 
-    /// Checks the frames and the eases of keys.
     fn keys(&mut self, keys_path: &str, keys: &[impl Key]) {
         self.frames(keys_path, keys.iter().map(Key::frame));
         for (index, key) in keys.iter().enumerate() {
@@ -235,7 +234,6 @@ impl Findings {
         }
     }
 
-    /// Checks the number of a frame.
     fn frame(&mut self, field_path: &str, frame: f64) {
         if !within(frame, limits::MAX_FRAME) {
             let limit = short(limits::MAX_FRAME);

@@ -69,7 +69,7 @@ pub struct Scene {
     /// `timeline` states none.
     #[serde(default, skip_serializing_if = "is_default")]
     pub shot: Option<String>,
-    /// What the shot's file holds, once it was read; not part of the file.
+    /// What the shot's file holds, once it has been read. Not part of the scene file.
     #[serde(skip)]
     pub stage: Stage,
     /// Frames and their rate.

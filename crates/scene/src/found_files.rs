@@ -7,9 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// The files that were found while a scene was read. Copies share one list.
 #[derive(Clone, Debug, Default)]
 pub struct FoundFiles {
-    /// For each file, keyed by the path at which it was found: the place in the scene's folder where it would have to
-    /// lie, so that its name in the scene or mesh leads to it without `--asset-dir`. Relative to the scene's folder;
-    /// `None` if there is no such place.
+    /// See [`FoundFiles::places`].
     places: Arc<Mutex<BTreeMap<PathBuf, Option<PathBuf>>>>,
 }
 
@@ -28,7 +26,7 @@ impl FoundFiles {
     pub(crate) fn note(&self, [beside, root]: [&Path; 2], path: &Path, name: &str) {
         let mut places = self.places.lock().unwrap_or_else(PoisonError::into_inner);
         // If the naming file is itself in the list, `name` is relative to the place that the list has for it. Only the
-        // folder of that place matters, so any file name will do below.
+        // folder of that place matters, so the file name `file` is a stand-in.
         let naming = places.get(&without_dots(beside)).cloned().unwrap_or_else(|| {
             let root = std::fs::canonicalize(root).ok()?;
             let folder = beside.parent().filter(|folder| !folder.as_os_str().is_empty());
@@ -39,9 +37,9 @@ impl FoundFiles {
         places.insert(path.to_owned(), place);
     }
 
-    /// A copy of the list. For each file, keyed by the path at which it was found: the place in the scene's folder
-    /// where it would have to lie, so that its name in the scene or mesh leads to it without `--asset-dir`. Relative to
-    /// the scene's folder; `None` if there is no such place.
+    /// A copy of the list. The keys are the paths at which files were found. Each value is a path relative to the
+    /// scene's folder: if the file lay there, its name in the scene or mesh would lead to it without `--asset-dir`.
+    /// `None` if there is no such place in the folder.
     pub fn places(&self) -> BTreeMap<PathBuf, Option<PathBuf>> {
         self.places.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }

@@ -67,12 +67,12 @@ pub struct ToWrite<'a> {
     pub bytes: u64,
     /// Writes these bytes.
     pub write: &'a dyn Fn(&mut dyn Write) -> io::Result<()>,
-    /// Whether an existing file of the same size is replaced. A file of another size always is.
+    /// Whether to replace an existing file of the same size. One of another size is always replaced.
     pub replace: bool,
 }
 
 impl KeptFolder {
-    /// The file of a key.
+    /// The path of the file that is kept under a key.
     pub fn file(&self, key: &str) -> PathBuf {
         self.path.join(format!("{key}{ENDING}"))
     }

@@ -178,7 +178,6 @@ struct Made {
     warnings: Vec<Problem>,
 }
 
-/// A warning that says which axis was taken to be up, for a mesh whose up axis is not certain.
 fn unsure_of_up(path: &Path, scene: &Scene) -> Problem {
     let up = scene.objects.first().map_or(Up::Y, |object| object.up);
     let name = Up::ALL.iter().find(|(_, known)| *known == up).map_or("y", |(name, _)| name);
@@ -375,7 +374,6 @@ fn sort_and_cap(path: &Path, problems: &mut Vec<Problem>, mut of_files: Vec<Prob
     }
 }
 
-/// Reads a mesh that the scene names.
 fn read_mesh(
     reader: &MeshReader,
     scene: &Path,
@@ -405,7 +403,6 @@ fn read_mesh(
     reader.read(&path, node, (root, folders), with_points)
 }
 
-/// Opens a point cache that the scene names.
 fn read_cache(scene: &Path, name: &str, folders: &AssetFolders) -> Result<Arc<PointCache>, Problem> {
     let request = AssetRequest { name, beside: scene, root: folder_of(scene), max_bytes: u64::MAX };
     let refused = |error: assets::AssetError| error.to_problem(Severity::Error, scene, None);
@@ -446,7 +443,7 @@ fn read_brush(scene: &Path, name: &str, folders: &AssetFolders) -> PictureRead {
     })
 }
 
-/// Names the files of problems as `path` was named: those beside a relative path by relative paths.
+/// If `path` is relative, makes the paths of problems in its folder or below relative in the same way.
 fn beside(path: &Path, mut problems: Vec<Problem>) -> Vec<Problem> {
     let given = path.parent().unwrap_or(Path::new(""));
     if let Some(real) = folder_of(path).canonicalize().ok().filter(|_| path.is_relative()) {
@@ -459,7 +456,6 @@ fn beside(path: &Path, mut problems: Vec<Problem>) -> Vec<Problem> {
     problems
 }
 
-/// The folder that a file is in.
 fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }

@@ -33,7 +33,7 @@ pub struct LoadedScene {
 }
 
 impl LoadedScene {
-    /// The scene file and all files that were read with it, which output must not overwrite; the scene file first.
+    /// The scene file, then all files that were read with it. Output must not overwrite any of them.
     pub fn inputs(&self) -> Vec<PathBuf> {
         let found = self.files.places().into_keys().filter(|path| *path != self.path);
         std::iter::once(self.path.clone()).chain(found).collect()

@@ -29,7 +29,6 @@ pub(crate) struct Node {
     pub(crate) inside: Inside,
 }
 
-/// What a value holds.
 #[derive(Clone, Debug)]
 pub(crate) enum Inside {
     /// A number, a text, a name.
@@ -47,7 +46,7 @@ pub(crate) struct Field {
     pub(crate) value: Node,
 }
 
-/// Why the scan refuses a text: the place, what is wrong, how to mend it, and whether a limit was exceeded.
+/// Why the scan refuses a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Refused {
     pub(crate) offset: usize,
@@ -68,17 +67,14 @@ impl Located {
         Ok(Self { text: text.to_owned(), line_starts: line_starts(text), root })
     }
 
-    /// The text that was scanned.
     pub(crate) fn text(&self) -> &str {
         &self.text
     }
 
-    /// The outermost value.
     pub(crate) fn root(&self) -> &Node {
         &self.root
     }
 
-    /// The text of a value.
     pub(crate) fn text_of(&self, node: &Node) -> &str {
         &self.text[node.start as usize..node.end as usize]
     }
@@ -94,8 +90,8 @@ impl Located {
         place_in(&self.text, &self.line_starts, offset)
     }
 
-    /// The byte offset of a line and a column, both counted from 1, in `text`, whose line ends must be at the same
-    /// bytes as in the scanned text. A place beyond the end of `text` gives its end.
+    /// The byte offset in `text` of a line and a column, both counted from 1. The lines of `text` must begin at the
+    /// same bytes as those of the scanned text. A place beyond the end of `text` gives its end.
     pub(crate) fn offset_in(&self, text: &str, line: usize, column: usize) -> usize {
         let Some(&start) = self.line_starts.get(line.saturating_sub(1)) else { return text.len() };
         let rest = &text[start..];

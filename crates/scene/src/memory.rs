@@ -24,7 +24,7 @@ pub fn left_of_process_bytes() -> Option<u64> {
     [("Max address space", "VmSize:"), ("Max data size", "VmData:")].into_iter().filter_map(left).min()
 }
 
-/// The bytes that may be allocated: `wanted`, or all available memory if `wanted` is `None`. It is never more than the
+/// The bytes that may be allocated: `wanted`, or all available memory if `wanted` is `None`. Never more than the
 /// process's own limits leave.
 pub fn granted_bytes(wanted: Option<u64>) -> Option<u64> {
     match wanted {

@@ -50,8 +50,8 @@ pub struct Material {
     pub texture: Option<Arc<Texture>>,
     /// How the texture is read.
     pub sampler: Sampler,
-    /// Where the texture's alpha, 0..=1, is less than this, there is no surface; without a texture, alpha is 1. `None`:
-    /// alpha is ignored.
+    /// There is no surface where the texture's alpha (0..=1) is less than this. Without a texture, alpha is 1. `None`
+    /// ignores alpha.
     pub cutoff: Option<f32>,
     /// Strength of highlights, 0 matt .. 1 glazed.
     pub gloss: f32,
@@ -81,7 +81,7 @@ impl Texture {
     /// The longest side that is kept; larger pictures are scaled down on reading, so that every GL driver takes them.
     pub const MAX_SIDE_PX: u32 = 4096;
 
-    /// The pixel at texture coordinates whose V points up, (0, 0) the lower left corner.
+    /// The pixel at these texture coordinates: V points up, and (0, 0) is the lower left corner.
     pub fn pixel(&self, sampler: Sampler, [u, v]: [f32; 2]) -> [u8; 4] {
         let at = |wrap: Wrap, along: f32, size: u32| {
             let unit = match wrap {

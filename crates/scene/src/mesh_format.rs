@@ -56,7 +56,8 @@ pub fn sidecar_of(path: &Path) -> Option<PathBuf> {
     gltf::is_gltf(path).then(|| gltf::sidecar_beside(path))
 }
 
-/// The file and the node of a mesh's name in a scene. The node is `None` for a whole file; only glTF files have nodes.
+/// Splits the name that a scene gives a mesh into a file and a node. The node is `None` for a whole file; only glTF
+/// files have nodes.
 pub fn file_and_node(name: &str) -> (&str, Option<&str>) {
     match name.split_once(NODE) {
         Some((file, node)) if gltf::is_gltf(Path::new(file)) => (file, Some(node)),
@@ -64,7 +65,7 @@ pub fn file_and_node(name: &str) -> (&str, Option<&str>) {
     }
 }
 
-/// The name of a node's mesh in a scene.
+/// The name that a scene gives the mesh of a node.
 pub fn name_of_node(file: &str, node: &str) -> String {
     format!("{file}{NODE}{node}")
 }

@@ -23,7 +23,7 @@ pub struct CameraPose {
     pub eye: DVec3,
     /// What it looks at, world space.
     pub target: DVec3,
-    /// Turn of the camera about its gaze, radians in (−π, π], counter-clockwise as seen from behind it.
+    /// Turn of the camera about its gaze, radians in (−π, π], counter-clockwise as seen from behind the camera.
     pub roll_rad: f64,
     /// Shift of the lens, which moves everything in the picture; in half heights of the picture, Y up.
     pub shift: DVec2,
@@ -181,7 +181,6 @@ impl ShotPoses {
         shot.pose_of(self.at(scene, &**shot, frame), &object.name)
     }
 
-    /// The pose of the shot at a frame.
     fn at(&mut self, scene: &Scene, shot: &dyn Brought, frame: f64) -> &Posed {
         let known = self.at_frames.iter().position(|(other, _)| *other == frame);
         let index = known.unwrap_or_else(|| {

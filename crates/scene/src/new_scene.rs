@@ -1,5 +1,5 @@
-//! Makes new scenes: one for a mesh, upright, lit from one side and framed with the beginning of its shadow; one for a
-//! shot; and an empty one.
+//! Makes new scenes: for a mesh, for a shot, or empty. A mesh is set upright, lit from one side, and framed with the
+//! beginning of its shadow.
 
 mod add;
 mod axes;
@@ -29,7 +29,7 @@ pub use ground::{Ground, NoGround};
 pub use of_shot::for_shot;
 pub use stance::ViewFrom;
 
-/// Width and height in pixels.
+/// Width and height of a new picture.
 const SIZE_PX: (u32, u32) = (1280, 720);
 
 /// A model without colours shines a little, as glazed clay does.

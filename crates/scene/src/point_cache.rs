@@ -55,7 +55,7 @@ impl fmt::Debug for PointCache {
     }
 }
 
-/// What is wrong with a cache, and the mend.
+/// What is wrong with a cache, and what to do about it.
 pub(crate) type Fault = [String; 2];
 
 impl PointCache {
@@ -63,7 +63,7 @@ impl PointCache {
     /// than any mesh.
     ///
     /// # Errors
-    /// What is wrong, and the mend.
+    /// What is wrong, and what to do about it.
     pub(crate) fn open(path: &Path) -> Result<Self, Fault> {
         let unread =
             |error: io::Error| [format!("it could not be read: {error}"), "check the file".to_owned()];

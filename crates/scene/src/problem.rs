@@ -63,7 +63,7 @@ impl Problem {
 }
 
 impl fmt::Display for Problem {
-    /// `file:line:column: error: what is wrong; the mend`.
+    /// `file:line:column: error: what is wrong; what to do about it`.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(formatter, "{}", harmless(&self.path.to_string_lossy()))?;
         if let Some(place) = self.place {

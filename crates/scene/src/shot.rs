@@ -23,7 +23,7 @@ use crate::gltf::GltfFile;
 use crate::mesh_format;
 use crate::nearest::nearest;
 
-/// A glTF file on a scene's stage.
+/// What a glTF file brings into a scene.
 pub struct Shot {
     file: Arc<GltfFile>,
     /// Where everything stands at any time.
@@ -33,7 +33,8 @@ pub struct Shot {
     object_of_name: HashMap<String, usize>,
     /// The node of the camera that is looked through.
     camera: Option<usize>,
-    /// Whether the scene names a camera, even one that the file lacks. If so, the sidecar's cuts are ignored.
+    /// Whether the scene names a camera, even one that the file lacks. If so, the camera cuts of the sidecar are
+    /// ignored.
     is_chosen: bool,
     /// The lights as they are at rest, each with its node; the ambient light has none.
     lights: Vec<(Light, Option<usize>)>,
@@ -50,7 +51,7 @@ pub struct Shot {
 struct ShotObject {
     object: Object,
     node: usize,
-    /// The inverse of the stretch that its mesh already has.
+    /// The inverse of the stretch (uneven scale and shear) that is applied to its mesh already.
     unstretched: DMat3,
 }
 
@@ -65,7 +66,6 @@ pub(crate) struct Choice {
 }
 
 impl Choice {
-    /// The choices that a scene states.
     pub fn of(scene: &Scene) -> Self {
         Self { camera: scene.camera.of_shot.clone(), animation: scene.timeline.animation.clone() }
     }
@@ -89,7 +89,7 @@ fn playing(file: &GltfFile, name: Option<&str>, odd: &mut Vec<[String; 2]>) -> A
 
 impl Shot {
     /// The shot in a file that a scene calls `name`. Also returns what a user should know about the file, each as a
-    /// message and its mend.
+    /// message and what to do about it.
     pub(crate) fn new(file: Arc<GltfFile>, name: &str, choice: &Choice) -> (Self, Vec<[String; 2]>) {
         let mut odd = Vec::new();
         let animator = playing(&file, choice.animation.as_deref(), &mut odd);
@@ -170,13 +170,13 @@ impl Shot {
         self.file.sidecar.size
     }
 
-    /// Frames per second: those stated, or those of its keys, or else 24.
+    /// Frames per second: the rate that the sidecar states, or the rate of the keys, or else 24.
     pub fn rate(&self) -> f64 {
         self.stated_rate().or_else(|| self.rate_of_keys()).unwrap_or(24.0)
     }
 
-    /// The first and the last frame at `fps` frames per second: those that the sidecar states, unless it states another
-    /// rate; else those between which the shot moves (frame = time · fps).
+    /// The first and the last frame, at `fps` frames per second. They are those that the sidecar states, if it states
+    /// no other rate. Otherwise they are those between which the shot moves (frame = time · fps).
     pub fn frames(&self, fps: f64) -> (i64, i64) {
         if let Some([first, last]) =
             self.file.sidecar.frames.filter(|_| self.stated_rate().is_none_or(|rate| rate == fps))
@@ -190,7 +190,7 @@ impl Shot {
     }
 }
 
-/// Prints the path alone: with a scene, the numbers of a whole file would be too much.
+/// Prints the path alone. Otherwise a printed scene would contain all the numbers of the file.
 impl fmt::Debug for Shot {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.debug_tuple("Shot").field(&self.file.path).finish()

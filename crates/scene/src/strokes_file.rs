@@ -12,7 +12,7 @@ use crate::presets::{self, GROUND, LayerKind};
 pub struct StrokesFile {
     /// Version of the format: 1.
     pub version: u32,
-    /// The height of the picture that its pixels are meant for. In a scene of another height, they are scaled.
+    /// The height of the picture that sizes in pixels are meant for. In a scene of another height, they are scaled.
     pub height_px: u32,
     /// The settings. Brushes that are pictures lie in the folder of the file.
     #[serde(default)]
@@ -37,8 +37,8 @@ impl StrokesFile {
     }
 
     /// The settings for a scene of this height, in place of `own`. What belongs to that scene stays: its changes over
-    /// time, which region lies over which and, where the preset states none, its ground and its order of layers. A
-    /// region has neither of the last two.
+    /// time, and which region lies over which. So do its ground and its order of layers where the preset states none. A
+    /// region has no ground and no order of layers.
     pub fn applied_to(&self, own: &StrokeSettings, height_px: u32, is_region: bool) -> StrokeSettings {
         let mut strokes = self.strokes.clone();
         scale(&mut strokes, f64::from(height_px) / f64::from(self.height_px.max(1)));
@@ -144,8 +144,8 @@ fn with_what_it_takes(scene: &Scene, own: &StrokeSettings) -> StrokeSettings {
     let is_sized_body = |layer: &LayerSettings| {
         layer.name == LayerKind::Body.name() && layer.length_px.or(layer.width_px).is_some()
     };
-    // The sizes of the other layers follow from the body's, unless the list of layers states a size for `body`: then
-    // the size of each layer is stated.
+    // The sizes of the other layers usually follow from the body's. If the list of layers states a size for `body`,
+    // they do not, so the size of each layer is stated.
     let states_each = states_sizes && all.layers.iter().chain(&own.layers).any(is_sized_body);
     let of_region: Vec<String> = own.layers.iter().map(|layer| layer.name.clone()).collect();
     let each = LayerKind::ALL.map(LayerKind::name).into_iter().filter(|_| states_each);

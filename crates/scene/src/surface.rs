@@ -48,7 +48,6 @@ pub(crate) struct Geometry {
     pub keeps_vertices: bool,
 }
 
-/// A mesh that was built.
 pub(crate) struct Built {
     pub mesh: TriangleMesh,
     /// For each triangle, the number of the face that it was cut from.
@@ -97,7 +96,6 @@ struct Triangle {
     face: u32,
 }
 
-/// Makes a mesh of faces.
 pub(crate) struct Builder<'a> {
     geometry: &'a Geometry,
     triangles: Vec<Triangle>,
@@ -115,7 +113,6 @@ fn count(tally: &mut (usize, u32), face: u32) {
     tally.0 += 1;
 }
 
-/// The values' bits: equal only for values that are the same to the bit.
 fn bits<const N: usize>(values: [f32; N]) -> [u32; N] {
     values.map(f32::to_bits)
 }

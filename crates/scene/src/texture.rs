@@ -31,13 +31,13 @@ pub struct Decoded {
     pub warnings: Vec<Problem>,
 }
 
-/// Decodes a PNG, JPEG, BMP, TGA or WebP picture; the content decides which it is (only for TGA, the file's name).
+/// Decodes a PNG, JPEG, BMP, TGA or WebP picture. The content tells the format; only TGA is known by the file's name.
 ///
 /// A picture with a side over [`Texture::MAX_SIDE_PX`] is scaled down, with a warning.
 ///
 /// # Errors
 /// A [`Severity::Limit`] problem when the header claims more than [`MAX_PIXELS`], or when decoding would take too much
-/// memory: none was allocated beyond the limit. A [`Severity::Warning`] when the picture cannot be decoded: go on
+/// memory. No memory is allocated beyond the limit. A [`Severity::Warning`] when the picture cannot be decoded: go on
 /// without it.
 pub fn decode(path: &Path, bytes: &[u8]) -> Result<Decoded, Problem> {
     let problem = |severity, message: String, mend: &str| Problem {

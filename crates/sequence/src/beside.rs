@@ -1,5 +1,5 @@
-//! Works on jobs on this thread alone, while other threads finish what came of earlier ones. Results are taken in one by
-//! one, in the order of the jobs.
+//! Works on jobs on the calling thread, one after the other, while other threads finish the results of earlier jobs.
+//! The finished results are taken in one by one, in the order of the jobs.
 
 use std::collections::VecDeque;
 use std::panic::resume_unwind;
@@ -10,9 +10,9 @@ use std::thread::{Builder, Scope, ScopedJoinHandle, scope};
 pub(crate) struct Steps<W, F> {
     /// Done on the calling thread.
     pub(crate) work: W,
-    /// Done beside, on what `work` gave.
+    /// Done on other threads, with what `work` returned.
     pub(crate) finish: F,
-    /// How many results of `work` may be finished beside at a time; with 0, they are finished on the calling thread.
+    /// How many results other threads may finish at a time. With 0, the calling thread finishes them.
     pub(crate) most_beside: usize,
 }
 
@@ -43,7 +43,6 @@ pub(crate) fn finished_beside<J: Copy, U: Send, T: Send, E>(
     })
 }
 
-/// A result that is being finished.
 enum Finishing<'scope, T> {
     On(ScopedJoinHandle<'scope, Option<T>>),
     Done(T),
@@ -56,7 +55,7 @@ impl<'scope, T: Send + 'scope> Finishing<'scope, T> {
         result: U,
         finish: &'scope (impl Fn(U) -> T + Sync),
     ) -> Self {
-        // A thread that cannot be spawned would drop what it was given.
+        // If no thread can be spawned, the closure is dropped. The result is shared, so that it is not lost then.
         let result = Arc::new(Mutex::new(Some(result)));
         let taken = Arc::clone(&result);
         let take = move |from: &Mutex<Option<U>>| from.lock().unwrap_or_else(PoisonError::into_inner).take();

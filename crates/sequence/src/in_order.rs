@@ -9,7 +9,6 @@ const AHEAD: u64 = 2;
 /// Does one job after the other on its thread.
 pub(crate) type Worker<'a, J, T> = Box<dyn FnMut(J) -> T + 'a>;
 
-/// Who does the work.
 pub(crate) struct Workers<'a, J, T> {
     /// The worker of the calling thread.
     pub(crate) own: Worker<'a, J, T>,
@@ -101,8 +100,8 @@ impl<I: Iterator<Item = J>, J: Copy, T> Shared<I, J, T> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// What the calling thread does next. It takes results in before it works, so that few results wait. It waits only
-    /// while other threads have all the jobs that may be begun.
+    /// Prefers taking in a result to beginning a job, so that few results wait. Blocks only while other threads have
+    /// all the jobs that may be begun.
     fn next(&self) -> Next<J, T> {
         let mut state = self.state();
         loop {

@@ -38,11 +38,11 @@ pub use state::state;
 /// More painters than this would only wait for each other in the driver.
 const MAX_PAINTERS: u64 = 4;
 
-/// With one painter, at most this many frames are encoded beside the one that is drawn.
+/// With one painter, other threads encode at most this many frames while it draws another.
 const MAX_BESIDE: u64 = 7;
 
-/// The most memory that pictures which are encoded beside may take with a software driver, in bytes: it draws in the same
-/// memory, and [`fits_in_memory`] counts one picture.
+/// With a software driver, the most bytes that the pictures being encoded on other threads may take together. The
+/// driver draws in the same memory, and [`fits_in_memory`] counts only one picture.
 const MAX_BESIDE_BYTES: u64 = 64 << 20;
 
 /// Opening a driver and compiling the shaders once more takes about as long as this many frames.
@@ -198,7 +198,7 @@ impl Sequence {
         }
     }
 
-    /// How many frames may be encoded beside the one that is drawn.
+    /// How many frames other threads may encode while this one draws.
     fn most_beside(&self, renderer: &Renderer) -> usize {
         if self.timed {
             return 0;

@@ -106,7 +106,6 @@ pub struct Kind {
     transparent: Option<Encoding>,
 }
 
-/// Every kind of movie file.
 static KINDS: [Kind; 4] = [
     Kind {
         ending: "mp4",

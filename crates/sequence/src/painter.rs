@@ -31,7 +31,7 @@ pub(crate) struct Unencoded {
     is_picture_wanted: bool,
 }
 
-/// Makes what is left to make of a frame.
+/// Encodes the PNG file of 8 bits if there is to be one, and drops the picture unless it is wanted itself.
 pub(crate) fn encoded(unencoded: Option<Unencoded>) -> Painted {
     let Some(Unencoded { mut drawn, png, is_picture_wanted }) = unencoded else { return Ok(None) };
     let begun = Instant::now();
@@ -65,7 +65,6 @@ pub(crate) fn further<'a>(
 }
 
 impl<'a> Painter<'a> {
-    /// A painter of a sequence; `is_alone` says whether it draws all the frames.
     pub(crate) fn new(sequence: &'a Sequence, renderer: &'a mut Renderer, is_alone: bool) -> Self {
         Self { sequence, is_alone, renderer }
     }
@@ -76,7 +75,7 @@ impl<'a> Painter<'a> {
         self.draw(job, stop).and_then(encoded)
     }
 
-    /// As [`Painter::paint`], but leaves what needs no renderer any more to [`encoded`].
+    /// As [`Painter::paint`], but leaves to [`encoded`] what needs no renderer.
     pub(crate) fn draw(
         &mut self,
         job: Job,
@@ -93,8 +92,8 @@ impl<'a> Painter<'a> {
         let surfaces = wanted.has_any(impasto_aovs::OF_SURFACES);
         self.renderer.keep(Keeps::of_size(sequence.options.size_px, surfaces));
         let frame = sequence.painting.at(job.frame_number as f64, &sequence.options);
-        // While this frame is drawn, the bodies are bent for the next one. With several painters, another one does that
-        // anyway.
+        // While this frame is drawn, the bodies are bent for the next one. With several painters, another painter bends
+        // them anyway.
         if let Some(next) = job.next.filter(|_| self.is_alone) {
             sequence.painting.foresee(next as f64);
         }
@@ -121,7 +120,8 @@ impl<'a> Painter<'a> {
         }))
     }
 
-    /// Those files of the frame that was drawn last which hold more than its picture, and so need the renderer.
+    /// The PNG file of 16 bits and the EXR file of the frame that was drawn last, where they are wanted. They hold more
+    /// than its picture, so they need the renderer.
     fn read_files(
         &mut self,
         job: Job,
@@ -150,7 +150,6 @@ impl<'a> Painter<'a> {
         Ok(files)
     }
 
-    /// How many strokes of the last frame were painted.
     fn painted_strokes(&self) -> usize {
         self.renderer.resolved_strokes().iter().filter(|stroke| stroke.alpha > MIN_PAINTED_ALPHA).count()
     }

@@ -95,7 +95,6 @@ struct Ramp {
 }
 
 impl Ramp {
-    /// The ramp of this test, in the space of the model.
     fn of_test() -> Self {
         let model_from_world = impasto_scene::motion::poses_at(&scene(), 0.0)[0].matrix3.transpose();
         let along = RISE.map(|rise| DVec3::from(rise) * (f64::from(TEXELS) / 255.0 * SCALE));

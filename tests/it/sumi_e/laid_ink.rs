@@ -40,7 +40,6 @@ fn ink_strokes(strokes: Vec<Stroke>) -> Frame {
     frame
 }
 
-/// A stroke in the middle of the picture.
 fn stroke(angle_deg: f32) -> Stroke {
     Stroke {
         center_px: SIZE_PX.map(|side| side as f32 * 0.5),

@@ -5,7 +5,6 @@ use super::Fault;
 /// The tests that compare seven scenes, drawn by both drivers, with pictures that a person found good.
 const GOLDENS: &str = "goldens::shipped";
 
-/// Every fault, file by file.
 pub(super) const FAULTS: &[Fault] = &[
     Fault {
         name: "ambient light upside down",

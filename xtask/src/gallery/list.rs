@@ -6,18 +6,19 @@ pub(super) struct Picture {
     pub(super) view: View,
     /// Whether it is rendered at the scene's own size instead of the gallery's.
     pub(super) own_size: bool,
-    /// How many panels a row has.
     pub(super) columns: usize,
-    /// One entry per panel: the values that are set in the scene; `--frames`, `--rotation` and `--colors` go to the
-    /// command line.
+    /// One entry per panel. Names that begin with `--` are flags of the command line. The others are values that are
+    /// set in the scene.
     pub(super) panels: &'static [&'static [(&'static str, &'static str)]],
 }
 
-/// What a picture shows.
 pub(super) enum View {
     /// A frame of a scene, whole or a part of it: left, top, width, height.
-    Scene { scene: &'static str, frame: i64, crop: Option<[usize; 4]> },
-    /// The sheet of brushes.
+    Scene {
+        scene: &'static str,
+        frame: i64,
+        crop: Option<[usize; 4]>,
+    },
     Brushes,
 }
 
@@ -69,7 +70,7 @@ const PAPER: &[(&str, &str)] = &[("strokes.preset", "paper")];
 
 const NO_GUIDES: (&str, &str) = ("regions.deer.guides", "[]");
 
-/// Amounts on the apple: on its left, and on its right.
+/// Painted amounts on the apple: the first on its left, the second on its right.
 const WIDE_AND_NARROW: &str = "[(of: Width, dabs: [
     (at: (-0.135, 0.45, 0.48), normal: (-0.27, 0, 0.96), radius: 0.6, by: 2.6),
     (at: (0.455, 0.45, 0.207), normal: (0.91, 0, 0.41), radius: 0.5, by: 0.4),
@@ -93,7 +94,7 @@ pub(super) const PICTURES: &[Picture] = &[
     whole("still_life", "still_life", 0),
     whole("still_life_rolled", "still_life", 90),
     sweep("still_life_crop", [560, 250, 420, 290], 1, &[&[]]),
-    // An apple as it is stated, then with width, length and density painted onto it.
+    // An apple as the scene states it, then with width, length and density painted onto it.
     Picture {
         name: "amounts",
         view: View::Scene { scene: "apple", frame: 0, crop: Some([440, 140, 410, 420]) },

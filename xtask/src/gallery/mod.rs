@@ -36,7 +36,6 @@ pub fn run(root: &Path, only: &[String]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// All pictures.
 fn pictures() -> impl Iterator<Item = &'static Picture> {
     list::PICTURES.iter().chain(noise::PICTURES).chain(sumi_e::PICTURES)
 }

@@ -99,7 +99,7 @@ fn parent(of: &Names) -> Option<Names> {
     of.split_last().map(|(_, before)| before.to_vec())
 }
 
-/// The file itself and all files that, directly or through others, it uses and that use it.
+/// The file itself, and all files that both use it and are used by it, directly or through others.
 fn group(uses: &Uses, file: &PathBuf) -> BTreeSet<PathBuf> {
     let mut group: BTreeSet<PathBuf> =
         reached(uses, file).into_iter().filter(|other| reached(uses, other).contains(file)).collect();

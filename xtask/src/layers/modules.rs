@@ -15,7 +15,7 @@ pub type Names = Vec<String>;
 pub struct Module {
     /// Its source file.
     pub file: PathBuf,
-    /// What `use` brings in, by its name here.
+    /// The paths that `use` imports, by the names that they have here.
     pub imports: BTreeMap<String, Names>,
     /// The paths of everything that the module uses, in imports and in its code, as they are written. A path that is
     /// only re-exported does not count.
@@ -35,7 +35,6 @@ struct Reader {
     modules: BTreeMap<Names, Module>,
 }
 
-/// What was found in one module.
 #[derive(Default)]
 struct Contents {
     imports: Vec<Import>,

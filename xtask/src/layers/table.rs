@@ -44,7 +44,6 @@ impl Rules {
     }
 }
 
-/// The package name of a crate of ours from its folder name.
 fn package(folder: &str) -> String {
     if folder == "xtask" { folder.to_owned() } else { format!("impasto-{folder}") }
 }

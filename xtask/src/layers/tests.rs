@@ -97,7 +97,7 @@ fn every_crate_has_a_row_and_every_row_a_crate() {
     assert!(error.contains("row for impasto-tests"), "{error}");
 }
 
-/// The findings about a crate with these files under `src`.
+/// The findings about a crate with these source files. Its root is `lib.rs`.
 fn circles_in(files: &[(&str, &str)]) -> Vec<String> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     for (name, text) in files {

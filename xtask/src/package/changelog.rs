@@ -9,7 +9,6 @@ use super::{Moment, version};
 /// How long a line may be.
 const COLUMNS: usize = 78;
 
-/// The maintainer, named below an entry.
 const MAINTAINER: &str = "The Impasto authors <impasto@localhost>";
 
 /// Writes the changelog.

@@ -19,8 +19,8 @@ const COPIED: &[(&str, &str)] = &[
     ("blender", "share/impasto/blender"),
 ];
 
-/// Whether a file of the repository's folder `below` is left out of all packages: hidden files, what Python leaves
-/// behind, and the pictures of the docs, which are larger than all the rest.
+/// Whether a file is left out of all packages. `below` is the folder of the repository that it is copied from. Left out
+/// are hidden files, what Python leaves behind, and the pictures of the docs, which are larger than all the rest.
 fn is_left_out(name: &str, below: &str) -> bool {
     name == "__pycache__" || name.starts_with('.') || (below == "docs" && name == "pictures")
 }
@@ -79,7 +79,7 @@ fn place(tree: &Path, file: &str) -> anyhow::Result<PathBuf> {
     Ok(path)
 }
 
-/// Copies a file, or a folder with what is in it; `below` is passed to [`is_left_out`], which says what is not copied.
+/// Copies a file, or a folder with what is in it, except what is left out. `below` is passed to [`is_left_out`].
 fn copy(from: &Path, to: &Path, below: &str) -> anyhow::Result<()> {
     if !from.is_dir() {
         std::fs::create_dir_all(to.parent().context("a file lies in a folder")?)?;

@@ -2,7 +2,8 @@
 
 use super::chance::Chance;
 
-/// A picture of this kind, `png`, `bmp` or `tga`: sound, or with a header that lies, or of another kind.
+/// A picture of this kind: `png`, `bmp` or `tga`. By chance it is of another kind, has a header that lies, or is cut
+/// short.
 pub fn picture(chance: &mut Chance, kind: &str) -> Vec<u8> {
     let [width, height] = [(); 2].map(|()| chance.count(64) as u32);
     let mut bytes = match if chance.is_odd() { chance.of(&["png", "bmp", "tga"]) } else { kind } {
@@ -16,7 +17,7 @@ pub fn picture(chance: &mut Chance, kind: &str) -> Vec<u8> {
     bytes
 }
 
-/// The length of a side that a header claims: the true one, or an odd one.
+/// A number that a header claims, such as the length of a side: the true one, or an odd one.
 fn side(chance: &mut Chance, true_px: u32) -> u32 {
     if !chance.is_odd() {
         return true_px;
@@ -45,7 +46,8 @@ fn png(chance: &mut Chance, width: u32, height: u32) -> Vec<u8> {
     if let Ok(mut writer) = encoder.write_header() {
         let _ = writer.write_image_data(&pixels);
     }
-    // The header's chunk begins at byte 12 with its name; sides, depth and kind follow, then its checksum.
+    // The name of the header's chunk is at byte 12. The sides, the depth and the kind follow, then the checksum of all
+    // these.
     let claims = [side(chance, width), side(chance, height)];
     if bytes.len() > 33 && claims != [width, height] {
         bytes[16..20].copy_from_slice(&claims[0].to_be_bytes());
@@ -90,7 +92,7 @@ fn tga(chance: &mut Chance, width: u32, height: u32) -> Vec<u8> {
     bytes
 }
 
-/// A PC2 file of points that move a little, or one whose header lies.
+/// A PC2 file of points at random places. By chance its header lies, its numbers are odd, or it is cut short.
 pub fn cache(chance: &mut Chance, points: u32) -> Vec<u8> {
     let samples = chance.count(12) as u32;
     let mut bytes = b"POINTCACHE2\0".to_vec();

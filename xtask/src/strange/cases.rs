@@ -12,7 +12,7 @@ use super::{binaries, damage, models, scenes, shots};
 /// Larger files are not damaged: they are slow to paint, and find nothing more.
 const MOST_BYTES: u64 = 256 << 10;
 
-/// The files that are damaged, and the grammar of scene files.
+/// What cases are made from: files to damage, and the grammar of scene files.
 pub struct Source {
     page: Page,
     files: Vec<PathBuf>,
@@ -32,7 +32,7 @@ pub struct Case {
 /// Files with their names: the one that is opened comes first.
 type Files = Vec<(String, Vec<u8>)>;
 
-/// Draws the files of a case, and names their kind.
+/// Makes up the files of a case at random. Also returns the name of their kind.
 type Draw = fn(&Source, &mut Chance) -> (&'static str, Files);
 
 const KINDS: [Draw; 7] = [model, shot, scene, picture, moved, damaged, damaged];
@@ -110,7 +110,6 @@ fn named(name: &str, bytes: Vec<u8>) -> (String, Vec<u8>) {
     (name.to_owned(), bytes)
 }
 
-/// A model drawn from nothing.
 fn model(_: &Source, chance: &mut Chance) -> (&'static str, Files) {
     let mut files = vec![named("m.obj", models::obj(chance)), named("m.mtl", models::mtl(chance))];
     files.push(named("t.png", binaries::picture(chance, "png")));
@@ -121,7 +120,6 @@ fn model(_: &Source, chance: &mut Chance) -> (&'static str, Files) {
     ("model", files)
 }
 
-/// A shot drawn from nothing.
 fn shot(_: &Source, chance: &mut Chance) -> (&'static str, Files) {
     let mut files = vec![named("s.glb", shots::glb(chance))];
     if chance.happens(0.3) {
@@ -131,7 +129,6 @@ fn shot(_: &Source, chance: &mut Chance) -> (&'static str, Files) {
     ("shot", files)
 }
 
-/// A scene drawn from nothing.
 fn scene(source: &Source, chance: &mut Chance) -> (&'static str, Files) {
     let mut files = vec![named("a.ron", scenes::scene(chance, &source.page))];
     files.push(named("m.obj", small(chance)));
@@ -161,7 +158,7 @@ fn cube() -> Vec<u8> {
     text.into_bytes()
 }
 
-/// A picture as a texture and as a brush.
+/// A box with a strange picture as its texture, its brush or the texture of its noise.
 fn picture(source: &Source, chance: &mut Chance) -> (&'static str, Files) {
     let kind = chance.of(&["png", "bmp", "tga", "jpg", "webp"]);
     let bytes = match source.any(chance, &[kind]).1 {

@@ -1,4 +1,4 @@
-//! The source of strange files: odd numbers, odd names, and random choices that a seed repeats.
+//! Random choices for strange files, with odd numbers and odd names among them. The same seed gives the same choices.
 
 /// Random choices of one case; the same seed and number always give the same file.
 pub struct Chance {
@@ -7,7 +7,7 @@ pub struct Chance {
     oddness: f64,
 }
 
-/// Numbers that readers trip over: none at all, too large, too small, cut short, not quite numbers.
+/// Numbers that readers trip over: too large, too small, not finite, cut short, or not quite numbers.
 const ODD_NUMBERS: [&str; 40] = [
     "0",
     "-0",
@@ -51,7 +51,7 @@ const ODD_NUMBERS: [&str; 40] = [
     "00000000000000000000000000000000000000000000000000000000000000000000000001",
 ];
 
-/// Names that readers trip over: empty, escaped, of another folder, of a device, or as long as no name should be.
+/// Names that readers trip over: empty, escaped, in many scripts, of another folder, or of a device.
 const ODD_NAMES: [&str; 28] = [
     "",
     " ",
@@ -102,7 +102,7 @@ impl Chance {
         self.happens(self.oddness)
     }
 
-    /// Whether this case holds anything odd at all.
+    /// Whether this case may hold anything odd at all.
     pub fn may_be_odd(&self) -> bool {
         self.oddness > 0.0
     }
@@ -143,12 +143,12 @@ impl Chance {
         self.of(&ODD_NAMES).to_owned()
     }
 
-    /// A number of a file: as a rule the one given, now and then an odd one.
+    /// A number to write into a file: as a rule the one given, now and then an odd one.
     pub fn number(&mut self, usual: f64) -> String {
         if self.is_odd() { self.odd_number().to_owned() } else { format!("{usual}") }
     }
 
-    /// A name of a file: as a rule one of those given, now and then an odd one.
+    /// A name to write into a file: as a rule one of those given, now and then an odd one.
     pub fn name(&mut self, usual: &[&str]) -> String {
         if self.is_odd() { self.odd_name() } else { self.of(usual).to_owned() }
     }

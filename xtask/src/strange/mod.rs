@@ -1,5 +1,5 @@
 //! `cargo xtask strange`: makes files that nobody has seen before, throws them at the program, and judges how each
-//! command ends. Some are drawn from nothing, others are damaged copies of `scenes/` and of the corpus.
+//! command ends. Some files are made up at random, others are damaged copies of `scenes/` and of the corpus.
 //!
 //! A seed and a number always give the same case; `--seed SEED --only NUMBER` runs one case again. Cases that fell over
 //! stay in `target/strange/`.
@@ -36,7 +36,6 @@ const KEPT_OF_A_KIND: usize = 5;
 /// The folder of a case's files.
 const FILES: &str = "files";
 
-/// What the command line asks for.
 struct Asked {
     minutes: u64,
     seed: u64,
@@ -117,12 +116,11 @@ fn asked(own: &[String]) -> anyhow::Result<Asked> {
     Ok(asked)
 }
 
-/// What all trials share.
 struct Trials {
     program: PathBuf,
     /// The folder for the files of cases that fell over.
     kept: PathBuf,
-    /// Whether the files of each case are kept.
+    /// Whether the files of a case are kept even if nothing fell over.
     keeps_all: bool,
     sums: Mutex<Sums>,
 }

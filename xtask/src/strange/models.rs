@@ -192,8 +192,8 @@ fn ball(chance: &mut Chance) -> Body {
     Body { points, faces: quads(rings, rings, rings) }
 }
 
-/// Quads between `rows + 1` rows of `across` points, `joined` quads a row. With `across` quads, the last one closes the
-/// row.
+/// Quads between `rows + 1` rows of `across` points, `joined` quads a row. If `joined` equals `across`, the last quad
+/// closes the row.
 fn quads(rows: usize, across: usize, joined: usize) -> Vec<Vec<usize>> {
     (0..rows)
         .flat_map(|row| (0..joined).map(move |column| (row * across, column, (column + 1) % across)))
@@ -201,7 +201,7 @@ fn quads(rows: usize, across: usize, joined: usize) -> Vec<Vec<usize>> {
         .collect()
 }
 
-/// A field of quads, level, rolling or torn.
+/// A field of quads with holes: level, rough or full of spikes.
 fn grid(chance: &mut Chance) -> Body {
     let side = chance.count(120).max(2);
     let height = chance.of(&[0.0, 0.02, 0.3, 20.0]);
@@ -258,7 +258,7 @@ fn shells(chance: &mut Chance) -> Body {
     body
 }
 
-/// A tube along a knot, thick or as thin as a hair, closed with half a twist now and then.
+/// A tube along a knot, thick or as thin as a hair, with up to one and a half twists.
 fn tube(chance: &mut Chance) -> Body {
     let (steps, sides) = (chance.count(600).max(3), chance.count(24).max(2));
     let thickness = chance.of(&[0.3, 0.02, 1e-4]);
@@ -280,7 +280,7 @@ fn tube(chance: &mut Chance) -> Body {
     Body { points, faces: quads(steps, sides, sides) }
 }
 
-/// A cloud of triangles, of which a part stays behind when the rest moves far away.
+/// A cloud of triangles. A part of their corners lies far away from the rest.
 fn clusters(chance: &mut Chance) -> Body {
     let mut body = soup(chance);
     let gap = chance.of(&[10.0, 1e4, 1e8]);

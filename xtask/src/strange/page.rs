@@ -1,5 +1,5 @@
-//! The grammar of scene files, read from `docs/scene_file.md`. That page is made from the program, so a field that is
-//! added there is drawn here as well.
+//! The grammar of scene files, read from `docs/scene_file.md`. The tables of that page are made from the program, so a
+//! field that is added to the program also occurs in strange scenes.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -23,7 +23,7 @@ pub struct Row {
     pub range: Option<[f64; 2]>,
 }
 
-/// Tables of fields that belong to the fields of another table.
+/// Tables whose rows belong to another table, each with the name of that table.
 const JOINED: [(&str, &str); 2] = [("stroke numbers", "StrokeSettings"), ("layer numbers", "LayerSettings")];
 
 impl Page {

@@ -1,4 +1,4 @@
-//! Strange scenes, drawn field by field from the page of the file format.
+//! Strange scenes, made up field by field from the tables in `docs/scene_file.md`.
 
 use super::chance::Chance;
 use super::page::{Page, Row};

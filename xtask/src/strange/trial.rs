@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::Context as _;
 
-/// The most seconds of processor time that a command may take, and the most seconds until it is ended.
+/// The most seconds of processor time that a command may take, and the seconds after which it is killed.
 const MOST_CPU_S: f64 = 10.0;
 const MOST_WALL_S: f64 = 120.0;
 

@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 
 use super::finding::Finding;
 
-/// The crates of `lock`, a lock file of this name, that lack one of their dependencies. `manifest` gives the text of the
-/// `Cargo.toml` of one of our crates by its name; `None` for others.
+/// A finding for each dependency of one of our crates that the lock file does not list. `file` is its path, and `lock`
+/// its text. `manifest` gives the text of the `Cargo.toml` of one of our crates by its name; `None` for others.
 pub fn check(file: &str, lock: &str, manifest: impl Fn(&str) -> Option<String>) -> Vec<Finding> {
     let mut findings = Vec::new();
     for package in lock.split("[[package]]").skip(1) {

@@ -2,7 +2,6 @@
 
 use super::run;
 
-/// The verdict on a tree with these files.
 fn verdict(files: &[(&str, &str)]) -> Result<(), String> {
     let root = tempfile::tempdir().expect("a temporary folder");
     for (path, text) in files {

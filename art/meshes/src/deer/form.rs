@@ -1,5 +1,5 @@
-//! The shape of the deer's body as a distance field, round which its mesh is made. A unit is its height at the withers;
-//! x is forwards, z to its right.
+//! The shape of the deer's body as a distance field, from which its mesh is made. The unit of length is its height at
+//! the withers. X points forwards, Z to its right.
 
 use glam::DVec3;
 

@@ -21,7 +21,7 @@ pub struct Target<'a> {
 
 /// What changes the shape of a mesh.
 pub enum Bend<'a> {
-    /// Nothing does.
+    /// Nothing: it keeps its shape.
     Never,
     /// The joints of a skin: for each point, those that it follows.
     Joints(&'a [Influence]),
@@ -79,7 +79,7 @@ impl Glb {
     }
 
     /// Adds a node with a mesh that bends with a skeleton: `joints` gives the node of each joint, and where it rests.
-    /// The new node stands at the root, without a place of its own.
+    /// The new node is a root of the scene and has no transform of its own.
     pub fn skinned(&mut self, name: &str, mesh: usize, joints: &[(usize, DVec3)]) {
         let bind = |at: &DVec3| {
             let [x, y, z] = (-*at).to_array();

@@ -86,7 +86,7 @@ fn jacket(mesh: &mut PolyMesh) {
             let point = ring(down, angle);
             let out = DVec3::new(point.x, 0.25, point.z + 0.15).normalize_or(DVec3::Y);
             let lies = smoothstep(4.2, 6.2, down) * (1.0 - smoothstep(10.0, 11.0, down));
-            // The seam where the sleeve is set in, in front.
+            // The seam in front, where the sleeve is set in.
             let seam = bump(0.0, 0.14, angle.sin().abs() - 0.86 + 0.02 * (down - 7.0))
                 * smoothstep(0.0, 0.3, angle.cos());
             let seam = 0.030 * seam * smoothstep(5.0, 8.0, down);

@@ -84,7 +84,7 @@ pub fn head() -> PolyMesh {
 fn skin(mesh: &mut PolyMesh, form: &Skin) {
     /// Faces of a ring on each side of the head.
     const HALF: usize = 34;
-    /// How many of them lie between the front and the angle `TURN`.
+    /// How many of these faces lie between the front and the angle `TURN`.
     const FORWARDS: usize = 29;
     const TURN: f64 = 1.65;
     let rings = rings();

@@ -17,8 +17,8 @@ pub enum Part {
     Shoe,
 }
 
-/// Sections of the tunic from below its hem, where it is cut off, up to the collar: x, y, z, half the width, half the
-/// depth. The tables below have the same columns; they are of the left side, which is +X.
+/// Sections of the tunic, from the lowest up to the collar: x, y, z, half the width, half the depth. What lies below
+/// [`HEM`] is cut off. The tables below have the same columns; they are of the left side, which is +X.
 const TRUNK: [[f64; 5]; 9] = [
     [0.0, 0.54, 0.010, 0.272, 0.228],
     [0.0, 0.68, 0.010, 0.250, 0.207],
@@ -131,7 +131,7 @@ impl Form {
         self.parts(point).into_iter().reduce(nearest).map_or(Part::Trunk, |(part, _)| part)
     }
 
-    /// The distance to `part` less the distance to the nearest other part: negative where the skin belongs to `part`.
+    /// The distance to `part` minus the distance to the nearest other part: negative where the skin belongs to `part`.
     fn ahead(&self, point: DVec3, part: Part) -> f64 {
         let (mut own, mut others) = (f64::INFINITY, f64::INFINITY);
         for (other, distance) in self.parts(point) {

@@ -19,7 +19,8 @@ struct Mouth {
 }
 
 impl Mouth {
-    /// The place on the line where the lips part, on the upper lip's side or the lower one's; `u` is −1..=1.
+    /// A point of the line where the lips part, at the edge of the upper lip or of the lower one. `u` runs from corner
+    /// to corner of the mouth, −1..=1.
     fn parting(&self, u: f64, upper: bool) -> DVec2 {
         let smile = self.mood.smile;
         let wide = 0.35 + 0.15 * smile;
@@ -133,7 +134,7 @@ pub fn eye_frame(side: f64) -> (DVec3, [DVec3; 3]) {
 /// Half the size of an eye along its axes.
 const BALL: DVec3 = DVec3::new(0.069, 0.075, 0.044);
 
-/// A place round an eye, by angles to its left and up: on a shell `out` outside the ball.
+/// A point of a shell that lies `out` outside the eyeball, by its angles to the left and up.
 fn round_eye(side: f64, at: DVec2, out: f64) -> DVec3 {
     let (middle, axes) = eye_frame(side);
     let way = DVec3::new(at.x.sin() * at.y.cos(), at.y.sin(), at.x.cos() * at.y.cos());

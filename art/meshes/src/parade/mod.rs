@@ -60,7 +60,6 @@ pub fn parade() -> anyhow::Result<Vec<u8>> {
     Ok(shot.finish(32f64.to_radians()))
 }
 
-/// Seconds from the beginning of the shot.
 fn time_s(frame: usize) -> f64 {
     frame as f64 / FPS
 }
@@ -109,7 +108,7 @@ fn giant(shot: &mut Glb) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The face's mesh with its targets.
+/// Adds the face's mesh with its targets. Returns the mesh's index.
 fn face(shot: &mut Glb) -> anyhow::Result<usize> {
     let rest = face::face(Mood::default());
     let targets: Vec<Target<'_>> = skin::MOODS

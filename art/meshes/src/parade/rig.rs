@@ -23,7 +23,7 @@ pub const SPINE: usize = 1;
 pub const CHEST: usize = 2;
 pub const NECK: usize = 3;
 pub const HEAD: usize = 4;
-/// The joints of the left arm and leg; those of the right one lie `SIDE` further.
+/// The joints of the left arm and leg. Add `SIDE` to get those on the right.
 pub const SHOULDER: usize = 5;
 pub const UPPER_ARM: usize = 6;
 pub const FOREARM: usize = 7;
@@ -71,7 +71,7 @@ pub fn offset(joint: usize) -> DVec3 {
     at - parent.map_or(DVec3::ZERO, |parent| JOINTS[parent].at)
 }
 
-/// Shares of all joints.
+/// How much one point follows each joint.
 type Shares = [f64; COUNT];
 
 /// The joints that each point of the skin follows. First a point follows the joint of the part that it lies on. Then

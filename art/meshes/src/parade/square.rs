@@ -82,7 +82,6 @@ fn front(mesh: &mut PolyMesh, front: &Front) {
     }
 }
 
-/// Adds a block between two corners.
 fn block(mesh: &mut PolyMesh, [low, high]: [DVec3; 2], material: &'static str) {
     let first = mesh.positions.len();
     let corner = |bits: usize| {

@@ -1,5 +1,5 @@
-//! The giant's walk: for each frame, how each joint is turned. The left leg's stride begins with the left heel on the
-//! ground; the right leg is half a stride later.
+//! The giant's walk: for each frame, how each joint is turned. The left leg's stride begins when its heel meets the
+//! ground. The right leg is half a stride later.
 
 use std::f64::consts::TAU;
 
@@ -18,7 +18,7 @@ pub const STRIDE: f64 = 1.06;
 
 /// How long a foot stays on the ground, as a share of the stride.
 const STANCE: f64 = 0.62;
-/// How far the ankle is in front of the hips when the heel meets the ground, if the foot were flat then.
+/// How far in front of the hips the ankle would be when the heel meets the ground, if the foot were flat.
 const REACH: f64 = 0.285;
 /// When the whole sole is on the ground, and when the heel leaves it, as shares of the stride.
 const SOLE: [f64; 2] = [0.11, 0.36];
@@ -72,7 +72,7 @@ fn turn(down: f64, left: f64, tilt: f64) -> DQuat {
         * DQuat::from_rotation_z(tilt.to_radians())
 }
 
-/// Swings an arm against the leg of its side; `first` is 0 for the left one.
+/// Swings an arm against the leg of its side. `first` is 0 for the left arm, [`SIDE`] for the right one.
 fn arm(turns: &mut [DQuat; COUNT], first: usize, phase: f64) {
     let side = if first == 0 { 1.0 } else { -1.0 };
     let swing = |lag: f64| -(TAU * (phase - 0.02 - lag)).cos();
@@ -105,8 +105,8 @@ fn leg(turns: &mut [DQuat; COUNT], first: usize, phase: f64, hips: DVec3) {
     turns[TOES + first] = foot.toes;
 }
 
-/// Where the knee is, towards `ahead`, of a leg that reaches from `hip` to `ankle`. Its bones have the lengths `upper`
-/// and `lower`.
+/// Where the knee of a leg from `hip` to `ankle` is. It bends towards `ahead`. The bones have the lengths `upper` and
+/// `lower`.
 fn bent(hip: DVec3, ankle: DVec3, [upper, lower]: [f64; 2], ahead: DVec3) -> DVec3 {
     let reach = (ankle - hip).length().min(0.9995 * (upper + lower));
     let along = (ankle - hip).normalize();
@@ -134,7 +134,6 @@ struct Foot {
     toes: DQuat,
 }
 
-/// The foot of a leg at a phase of its stride.
 fn step(phase: f64, first: usize) -> Foot {
     let phase = phase.rem_euclid(1.0);
     let side = if first == 0 { 1.0 } else { -1.0 };
@@ -168,7 +167,8 @@ fn stance(phase: f64, level: DQuat) -> (DVec3, f64) {
     (flat + level * pivot - level * (pitched(pitch) * pivot), pitch)
 }
 
-/// The same in the air: from where the foot left the ground to where it meets it again.
+/// The ankle, and how far the toes point up in degrees, while the foot is in the air, from where it left the ground to
+/// where it meets it again.
 fn swing(phase: f64, level: DQuat) -> (DVec3, f64) {
     const STEP: f64 = 1e-3;
     let share = (phase - STANCE) / (1.0 - STANCE);

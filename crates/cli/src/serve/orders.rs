@@ -11,29 +11,24 @@ use serde::Deserialize;
 /// The longest line that is read, in bytes.
 const LONGEST_LINE: u64 = 1 << 20;
 
-/// A line of the input.
 #[derive(Debug, Deserialize)]
 #[serde(tag = "command", rename_all = "snake_case")]
 enum Line {
-    /// Prepare the scene.
     Prepare {
         #[serde(default)]
         id: u64,
     },
-    /// Render frames.
     Render(RenderOrder),
     /// A frame's file was read: another may be made.
     Taken,
     /// Give up what is being rendered.
     Stop,
-    /// End.
     Quit,
     /// Stands for a line that is too long to be read.
     #[serde(skip)]
     TooLong,
 }
 
-/// Frames to be rendered.
 #[derive(Clone, Debug, Deserialize)]
 pub(super) struct RenderOrder {
     /// Repeated in every answer.
@@ -79,7 +74,6 @@ pub(super) struct Current {
 }
 
 impl Current {
-    /// Whether the order is to be given up.
     pub fn is_stopped(&self) -> bool {
         self.is_stopped.load(Ordering::SeqCst)
     }
@@ -102,7 +96,6 @@ impl Current {
     }
 }
 
-/// The orders from standard input.
 pub(super) struct Orders {
     coming: Receiver<(Order, Arc<Current>)>,
 }

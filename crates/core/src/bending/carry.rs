@@ -110,7 +110,6 @@ impl Carrier {
         Self { vertices: positions.par_iter().zip(gradients).with_min_len(CHUNK).map(record).collect() }
     }
 
-    /// Position and F of a vertex.
     #[inline(always)]
     fn record(&self, vertex: u32) -> Record {
         let Vertex([record @ .., _, _, _, _]) = self.vertices[vertex as usize];
@@ -155,9 +154,10 @@ impl Carrier {
     }
 
     /// Carries particles that were baked at rest to where they are now. Their lift matrices N' (see [`crate::lift`])
-    /// become F N'. **The length of a carried normal is the area of the surface now over its area at rest**: so it
-    /// projects to the pixels that a unit of surface at rest fills, however much the surface is stretched. `height` is
-    /// how far a particle stands off the surface.
+    /// become F N'. `height` is how far a particle stands off the surface.
+    ///
+    /// **The length of a carried normal is the area of the surface now over its area at rest.** So the projected area
+    /// that a view finds from it is that of a unit of surface at rest, however much the surface is stretched.
     pub fn carry(
         &self,
         mesh: &TriangleMesh,
@@ -204,7 +204,6 @@ pub fn normals_around(gradients: [Mat3; 3], normals: [Vec3; 4]) -> impl Iterator
     corners.into_iter().chain(between).flat_map(move |cofactors| normals.map(|normal| cofactors * normal))
 }
 
-/// The weighted mean of three vertices.
 #[inline(always)]
 fn blended([a, b, c]: &[Record; 3], [u, v, w]: [f32; 3]) -> Record {
     std::array::from_fn(|index| a[index] * u + b[index] * v + c[index] * w)
@@ -215,7 +214,8 @@ fn of(arrays: &[Vec<f32>; 3], index: usize) -> Vec3 {
     Vec3::new(arrays[0][index], arrays[1][index], arrays[2][index])
 }
 
-/// Position, normal and the columns of the lift of a particle; `record` is the surface's position and F there.
+/// Moves a particle. Takes its normal and the two columns of its lift at rest; returns its position, its normal and
+/// these columns now. `record` is the surface's position and F at the particle.
 #[inline(always)]
 fn moved([normal, along, across]: [Vec3; 3], record: &Record, height: f32) -> [Vec3; 4] {
     let [x, y, z, columns @ ..] = *record;

@@ -14,13 +14,15 @@ const CHUNK: usize = 1024;
 
 /// Weights that give the deformation gradient F at each vertex from where the vertices are.
 ///
-/// At a vertex, the two tangential columns of F are fitted to the edges round it (least squares, edges of any length
-/// counting alike); the third takes the normal of the fitted plane at rest to its unit normal now. So F is exact for
-/// any rigid motion and, on the surface, for any affine one, and it does not step at edges, except at creases. Vertices
-/// with equal positions and normals that stay together, as along a seam of texture coordinates, are one place.
+/// Along the surface, F is a least-squares fit to the edges round the vertex. Each edge counts alike, whatever its
+/// length. Across the surface, F takes the normal of the plane fitted at rest to the unit normal of the plane fitted
+/// now. So F is exact for any rigid motion and, along the surface, for any affine map. It is continuous across the
+/// edges of the mesh, except at creases.
+///
+/// A *place* is one vertex, or several with equal positions and normals that stay together, as along a seam of
+/// texture coordinates.
 #[derive(Debug)]
 pub struct Gradients {
-    /// The place of each vertex.
     place_of_vertex: Vec<u32>,
     places: Vec<Place>,
     /// The neighbours of all places, place by place.
@@ -31,9 +33,9 @@ pub struct Gradients {
 struct Place {
     /// One of its vertices.
     vertex: u32,
-    /// Where its edges end in the list; they begin where those of the place before end.
+    /// Where its edges end in the list. They begin where the edges of the previous place end.
     end: u32,
-    /// Rows of M⁻¹, M being the fitted tangents and their normal at rest.
+    /// Rows of M⁻¹. The columns of M are the two fitted tangents and their unit normal, at rest.
     from_rest: [Vec3; 3],
 }
 

@@ -64,8 +64,6 @@ fn the_gradient_of_an_affine_map_is_exact_on_a_flat_surface() {
     }
 }
 
-/// Edges count alike, however long they are, even if the surface is stretched more on one side of a vertex than on the
-/// other.
 #[test]
 fn the_gradient_is_the_mean_of_what_edges_say_whatever_their_length() {
     let [right, up, left, down] = [Vec3::X, Vec3::Y, Vec3::X * -3.0, Vec3::Y * -0.5];

@@ -25,8 +25,8 @@ impl Between {
     }
 }
 
-/// How far outside 0..1 the noise goes on, since marks are evaluated a little beyond their edges. From there on,
-/// or a little farther out, it is constant.
+/// Marks are evaluated a little beyond their edges, so the noise goes on at least this far outside 0..1. Farther out
+/// it is constant.
 const MARGIN: f32 = 0.25;
 
 impl Lattice {
@@ -51,7 +51,6 @@ impl Lattice {
         Between::of((u + MARGIN).max(0.0) * self.cycles[0], self.columns)
     }
 
-    /// The two lattice rows on either side of `across`.
     pub(super) fn row(&self, across: f32) -> Between {
         Between::of((across + MARGIN).max(0.0) * self.cycles[1], self.values.len() / self.columns)
     }
@@ -66,7 +65,6 @@ impl Lattice {
         mix(low, high, row.share)
     }
 
-    /// Noise of one dimension at t.
     pub(super) fn along(&self, t: f32) -> f32 {
         self.at(t, 0.0)
     }

@@ -8,12 +8,10 @@ use crate::presence::smoothstep;
 /// Length of a mark in half widths: strokes are about three times as long as wide.
 const ASPECT: f32 = 6.2;
 
-/// What sets one brush apart from another.
 #[derive(Clone, Copy)]
 struct Brush {
-    /// How many hairs across.
     hairs: f32,
-    /// How far both ends of the mark are rounded, in half widths: the start, where the brush is full, then the end.
+    /// How far the start of the mark, where the brush is full, and its end are rounded, in half widths.
     caps: [f32; 2],
     /// How ragged the end is, as a share of the length.
     ragged: f32,
@@ -26,7 +24,6 @@ struct Brush {
     shape: Shape,
 }
 
-/// Outline of a brush's marks.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Shape {
     /// As wide at its ends as in the middle.
@@ -35,7 +32,6 @@ enum Shape {
     Belly,
     /// Hairs that spread.
     Fan,
-    /// Pointed.
     Taper,
 }
 
@@ -84,7 +80,6 @@ const BRUSHES: [Brush; NAMES.len()] = [
     },
 ];
 
-/// Mark number `variant` of brush number `index`.
 pub(super) fn of_brush(index: usize, variant: u32) -> Mark {
     let brush = BRUSHES[index];
     let hairs = Hairs::new(brush, hash::combine(hash::of_name(NAMES[index]), variant));
@@ -193,7 +188,6 @@ impl Hairs {
     }
 }
 
-/// What all texels at one u share.
 struct AlongHere {
     u: f32,
     along: f32,
@@ -204,7 +198,6 @@ struct AlongHere {
     columns: [Between; STREAKS],
 }
 
-/// What all texels at one v share.
 struct AcrossHere {
     v: f32,
     cap: f32,
@@ -217,9 +210,8 @@ struct AcrossHere {
 /// How many lattices make the streaks: three for the paint, one for how far another colour is mixed in.
 const STREAKS: usize = 4;
 
-/// Streaks that the hairs draw.
 pub(super) struct Streaks {
-    /// The last one is for the mixed-in colour.
+    /// The last one says how far another colour is mixed in.
     along: [Lattice; STREAKS],
     hairs: [Lattice; 3],
 }

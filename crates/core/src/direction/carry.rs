@@ -58,10 +58,10 @@ impl Stencils {
 
     /// The direction and the anchor of one of the particles, from those samples near it that `sample` does not skip.
     ///
-    /// The solve has turned each sample away from its stated direction; the particle's own `stated` direction is turned
-    /// by the mean of these turns. Where the turns agree less than the samples' solved directions do, as around a
-    /// singular point of the stated directions, the mean of the solved directions is used instead, transported to the
-    /// particle. `None` where no sample counts, or where the directions cancel.
+    /// The solve has turned each sample away from its stated direction. The particle's own `stated` direction is
+    /// turned by the mean of these turns. Around a singular point of the stated directions, though, the turns agree
+    /// less than the solved directions do. There the solved directions are transported to the particle, and their
+    /// mean is used. `None` where no sample counts, or where the directions cancel.
     pub fn carry(
         &self,
         particle: usize,

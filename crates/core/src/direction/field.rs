@@ -102,7 +102,6 @@ impl FieldGraph {
         Self { starts, edges, weights, turns: Default::default() }
     }
 
-    /// ρ of every edge.
     fn turns(&self, symmetry: Symmetry) -> &[DVec2] {
         let turn = |edge: &Edge| symmetry.turn(edge.transport_rad);
         self.turns[symmetry as usize].get_or_init(|| self.edges.par_iter().map(turn).collect())

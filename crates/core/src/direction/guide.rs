@@ -16,7 +16,7 @@ pub struct Guide {
     ball: (DVec3, f64),
 }
 
-/// How the strength of a guide falls off with the distance r, R its radius.
+/// How the strength of a guide falls off with the distance r. R is the guide's radius.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Falloff {
     /// (1 − (r/R)²)².
@@ -98,8 +98,8 @@ impl Guide {
         Some(Self { points: kept, radius, strength, falloff, ball })
     }
 
-    /// The influence on a point with this unit normal, if any. A guide whose radius is smaller than `least_reach`
-    /// reaches that far instead.
+    /// The influence on a point with this unit normal, if any. The guide reaches as far as its radius, and at least
+    /// as far as `least_reach`.
     pub fn influence(&self, position: DVec3, normal: DVec3, least_reach: f64) -> Option<Influence> {
         let reach = self.radius.max(least_reach);
         if position.distance(self.ball.0) > self.ball.1 + reach {

@@ -22,10 +22,11 @@ const RESIDUAL: f64 = 1e-6;
 const ROUNDS: usize = 3;
 
 impl FieldGraph {
-    /// The field `solved` with some samples freed: those that have an entry in `holds`. Each is pulled by the
-    /// constraint in its entry and by its neighbours. All others stay as they are. The turn from one fixed side to the
-    /// other is spread evenly over the free samples; where the two sides are opposite, all free samples turn the same
-    /// way round. The same inputs give the same bits.
+    /// Solves some samples of the field `solved` again: the free ones, which have an entry in `holds`. Each is pulled
+    /// by the constraint in its entry and by its neighbours. All other samples stay as they are.
+    ///
+    /// The turn from one fixed side to the other is spread evenly over the free samples. Where the two sides are
+    /// opposite, all free samples turn the same way round. The same inputs give the same bits.
     pub fn relaxed(&self, symmetry: Symmetry, solved: &[DVec2], holds: &[Option<Constraint>]) -> Vec<DVec2> {
         let free = FreeSamples::new(self, symmetry, holds);
         let mut field = solved.to_vec();
@@ -97,9 +98,9 @@ impl FreeSamples {
         self.solve(start, &firm, &pull, |tie, there| tie.turn.rotate(there))
     }
 
-    /// For each sample of a tear, a constraint that decides which way the field turns there: perpendicular to the line
-    /// along which the blend changes, on the same side over the whole tear, and on the side to which the turn is
-    /// shorter.
+    /// For each sample of a tear, a constraint that decides which way the field turns there. Its target is
+    /// perpendicular to the line along which the blend changes. Over the whole tear it lies on one side of this line:
+    /// the side to which the turn is shorter.
     fn leads(&self, field: &[DVec2], blend: &[DVec2]) -> Vec<Option<Constraint>> {
         let torn = |index: usize| blend[index].length() < TORN;
         let at = |tie: &Tie| tie.inner.map_or(field[tie.to], |inner| blend[inner]);

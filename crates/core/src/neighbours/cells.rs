@@ -18,8 +18,8 @@ pub(super) struct CellSpace {
 }
 
 impl CellSpace {
-    /// A grid round all finite positions. A position outside of it counts as in the nearest cell of its border, so a
-    /// search from there finds the same points.
+    /// A grid round all finite positions. A position outside the grid is put into the nearest cell of the border. A
+    /// search from there still finds every point within the radius.
     pub(super) fn new(positions: &[Vec3], radius: f32) -> Self {
         let none = (Vec3::splat(f32::MAX), Vec3::splat(f32::MIN));
         let joined = |a: (Vec3, Vec3), b: (Vec3, Vec3)| (a.0.min(b.0), a.1.max(b.1));
@@ -38,7 +38,6 @@ impl CellSpace {
         Self { low: low.as_dvec3().to_array(), cells_per_unit: 1.0 / width, cells }
     }
 
-    /// The number of a position's cell.
     #[inline]
     fn number(&self, position: Vec3) -> u64 {
         let position = position.as_dvec3().to_array();

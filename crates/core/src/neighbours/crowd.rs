@@ -68,7 +68,6 @@ impl PackNear for OneByOne {
     }
 }
 
-/// One search for neighbours.
 #[derive(Clone, Copy)]
 pub(super) struct Query {
     pub(super) position: Vec3,
@@ -76,7 +75,6 @@ pub(super) struct Query {
     /// The number of the query point, which does not count; `u32::MAX` if it is not among the points searched.
     pub(super) own: u32,
     pub(super) radius: f32,
-    /// How many neighbours are wanted at most.
     pub(super) most: usize,
 }
 

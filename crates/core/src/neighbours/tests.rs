@@ -133,7 +133,6 @@ fn threads_do_not_change_the_lists() {
     assert_eq!(on_threads(1), on_threads(3));
 }
 
-/// About as many points of a grid lie within the radius as a list holds.
 #[test]
 fn a_list_is_full_at_its_radius() {
     let (side, spacing) = (100, 0.3);

@@ -8,7 +8,6 @@ use super::crowd::OneByOne;
 use super::crowd::{LANES, PackNear};
 use super::{Part, Search};
 
-/// Finds the neighbours of a part of the queries.
 pub(super) fn run(search: &Search<'_>, part: Part<'_>) {
     #[cfg(target_arch = "x86_64")]
     if std::arch::is_x86_feature_detected!("avx512f") && std::arch::is_x86_feature_detected!("popcnt") {

@@ -102,8 +102,8 @@ impl ParticleView {
     }
 
     /// One bit per particle, set where it faces the eye and is within the bounds; 64 particles per word, the first in
-    /// the lowest bit. `ordinals` has the particles' ordinals in their progressive order; where it is empty, they are
-    /// the particles' indices.
+    /// the lowest bit. `ordinals` holds each particle's place in the progressive order. If it is empty, a particle's
+    /// index is its place.
     pub fn within(&self, particles: &PlacedParticles, ordinals: &[f32], bounds: &Bounds) -> Vec<u64> {
         let mut words = vec![0; particles.len().div_ceil(WORD)];
         words.par_chunks_mut(CHUNK / WORD).enumerate().for_each(|(chunk, words)| {

@@ -69,7 +69,7 @@ pub enum Arrange {
         /// What was done, in words: *Move*.
         verb: &'static str,
     },
-    /// Stretches an object along its own axes, and its guides and touches with it.
+    /// Stretches an object along its own axes, with what is painted on it.
     Stretch {
         /// The object.
         object: String,
@@ -113,8 +113,8 @@ pub enum Arrange {
         /// What changed, in words: *brighter*.
         what: String,
     },
-    /// Sets the lens of the shot. Unless only its near and far depths change, removes the fields of view from the
-    /// camera's keys.
+    /// Sets the lens of the shot. Also removes the fields of view from the camera's keys, unless only the near and
+    /// far depths change.
     SetLens(Lens),
     /// Gives the shot's camera this pose at a frame, by shifting all its keys.
     SetCamera {

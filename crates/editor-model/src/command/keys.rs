@@ -163,9 +163,7 @@ fn put<K: Key>(keys: &mut Vec<K>, mut key: K) {
 pub(super) trait KeyList {
     /// Moves the keys at these frames, or copies of them. A key that lands on another key replaces it.
     fn shift(&mut self, frames: &[f64], by: f64, copies: bool);
-    /// Removes the keys at these frames.
     fn delete(&mut self, frames: &[f64]);
-    /// Sets the ease of the keys at these frames.
     fn set_ease(&mut self, frames: &[f64], ease: Ease);
     /// Whether the list has no keys.
     fn is_bare(&self) -> bool;
@@ -197,7 +195,6 @@ impl<K: Key> KeyList for Vec<K> {
     }
 }
 
-/// The keys of one owner, to be edited.
 pub(super) fn list<'a>(scene: &'a mut Scene, of: &KeyOf) -> Result<&'a mut dyn KeyList, Refusal> {
     Ok(match of {
         KeyOf::Camera => &mut scene.camera.keys,

@@ -6,7 +6,6 @@ use super::region::in_file;
 use super::{Done, unlocked_object};
 use crate::refusal::Refusal;
 
-/// Gives an object this override of its material, or none.
 pub(super) fn set_material(
     scene: &mut Scene,
     name: &str,

@@ -143,7 +143,6 @@ pub(crate) fn in_file(color: Color) -> Color {
     Color::from_hex(&color.to_hex()).unwrap_or(color)
 }
 
-/// Appends dabs to what a region covers.
 fn paint(on: &mut Selector, dabs: &[Dab]) -> Result<(), Refusal> {
     if let Selector::Dabs(_, list) = on {
         list.extend(dabs.iter().cloned());

@@ -196,7 +196,6 @@ fn shift(scene: &mut Scene, keys: &[(KeyOf, f64)], by: f64, copies: bool) -> Res
     Ok(())
 }
 
-/// The pose of the camera or an object at a frame.
 fn pose_at(scene: &Scene, of: &KeyOf, frame: f64) -> Result<Pose, Refusal> {
     let KeyOf::Object(name) = of else { return Ok(Pose::Camera(motion::camera_at(scene, frame))) };
     let object = scene.objects.iter().find(|object| object.name == *name);

@@ -20,7 +20,7 @@ use crate::stamp::{self, Stamp};
 /// Why a document was not saved.
 #[derive(Debug, thiserror::Error)]
 pub enum SaveError {
-    /// It has no file yet.
+    /// The document has no file yet.
     #[error("this scene has no file yet: choose a name")]
     Unnamed,
     /// The scene would not find the files that it names if it were saved in the chosen folder.
@@ -91,8 +91,8 @@ impl Document {
         self.file.as_ref().is_some_and(is_other)
     }
 
-    /// Writes the scene to a file, which is the document's own from then on. The history stays. Returns as
-    /// [`Document::save_copy`] does.
+    /// Writes the scene to a file, which is the document's own from then on. The history stays. Returns what
+    /// [`Document::save_copy`] returns.
     ///
     /// # Errors
     /// As [`Document::save_copy`], and if `target` is the document's own file, parts of which could not be read.
@@ -112,8 +112,8 @@ impl Document {
 
     fn may_save_over(&self, target: &Path) -> Result<(), SaveError> {
         let real = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
-        // Compares with `loaded.path`, not with `file`. If it is not known what a recovered copy lost, the copy has no
-        // `file`, but must not overwrite the file that it came from.
+        // If it is not known what a recovered copy lost, the copy has no `file`. Its `loaded.path` still names the file
+        // that it came from, which must not be overwritten either.
         let is_own = real(target) == real(&self.loaded.path);
         match self.unread_parts().next().filter(|_| is_own) {
             Some(first) => Err(SaveError::Problems {
@@ -128,8 +128,8 @@ impl Document {
     /// files that the scene names but that are in neither folder.
     ///
     /// # Errors
-    /// If a file that the scene names is in the scene's folder but not in that of `target`, or if writing fails; then
-    /// `target` is untouched.
+    /// If a file that the scene names is in the scene's folder but not in that of `target`, or if writing fails.
+    /// `target` is then untouched.
     pub fn save_copy(&self, target: &Path) -> Result<Vec<String>, SaveError> {
         let folder_of = |path: &Path| {
             let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());

@@ -30,7 +30,7 @@ pub struct ProblemRow {
 /// A repair of a problem.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Repair {
-    /// Lets the user choose a file, and copies it to the path of a missing one, such as a texture. Not for meshes.
+    /// Lets the user choose a file in place of a missing one, such as a texture, and copies it there. Not for meshes.
     Bring {
         /// Where the missing file is looked for.
         to: PathBuf,
@@ -157,7 +157,8 @@ impl Document {
     /// Reads another text in place of the one that the scene was read from. The file on disk stays as it is.
     ///
     /// # Errors
-    /// If nothing of it can be read, or if what it changes was edited since. The document is then unchanged.
+    /// If nothing of the text can be read, or if it changes something that was edited since. The document is then
+    /// unchanged.
     pub fn read_text(&mut self, text: &str) -> Result<Step, Refusal> {
         self.read_instead(text, "Read the source again".to_owned())
     }
@@ -258,7 +259,6 @@ fn guide_in(field_path: &str) -> Option<(usize, usize)> {
 
 /// Three-way merge of two versions, `left` and `right`, of the scene `from`. Refused where both changed the same thing.
 fn merged_scene(from: &Scene, left: &Scene, right: &Scene) -> Result<Scene, Refusal> {
-    /// The merged value of one field.
     macro_rules! merged {
         ($field:ident, $words:literal) => {
             merged_value(&from.$field, &left.$field, &right.$field, $words)?
@@ -324,8 +324,8 @@ fn merged_list<T: Clone + PartialEq>(
     }
     for (index, item) in left.iter().enumerate() {
         if find(from, item).is_none() && find(right, item).is_none() {
-            // `left` added this item. It goes behind the nearest item before it in `left` that `merged` has, or first
-            // if there is none.
+            // `left` added this item. Of the items before it in `left`, it goes behind the nearest one that is in
+            // `merged`, or first if there is none.
             let before = left[..index].iter().rev().find_map(|before| find(&merged, before));
             merged.insert(before.map_or(0, |at| at + 1), item.clone());
         }

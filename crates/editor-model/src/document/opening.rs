@@ -43,8 +43,8 @@ impl Document {
         let read_from = copy.source.as_ref().and_then(|text| {
             Some(Source::with_any_losses(&salvage::salvage_text(&copy.path, text, options).ok()?))
         });
-        // If files came or went since the copy was made, it is not known what was lost: what the copy lacks would look
-        // as if the user had deleted it.
+        // If files came or went since the copy was made, other parts may be unreadable now than then. It is then not
+        // known what was lost, and what the copy lacks would look as if the user had deleted it.
         let is_known = read_from.as_ref().is_some_and(|source| {
             let has_box = |mesh: &String| source.has_stand_in(mesh);
             copy.losses == Some(source.losses_hash())

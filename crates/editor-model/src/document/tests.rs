@@ -70,7 +70,7 @@ fn a_scene_with_losses_cannot_take_the_place_of_its_file_until_they_are_settled(
     assert_eq!(document.loss_count(), 1);
     assert!(document.is_edited() && document.save().is_err());
     assert_eq!(folder.text(), broken());
-    // Undo brings the problems back; redo removes them again.
+    // Undo brings the problems back.
     document.undo().expect("undone");
     assert_eq!((document.loss_count(), document.scene().strokes.width_px), (3, None));
     assert!(document.apply(&seed(3)).is_ok(), "a box stands in for the mesh again, so edits are allowed");

@@ -15,7 +15,7 @@ use crate::transform::{Operation, TransformDelta};
 /// How far from the middle of the scene a sun's icon is, world units.
 const AWAY: f64 = 2.0;
 
-/// The pointer is on an icon up to this distance from its middle, pixels.
+/// The pointer is on an icon up to this distance from the icon's middle, pixels.
 const REACH_PX: f64 = 14.0;
 
 /// Where a light has its icon.
@@ -41,7 +41,6 @@ impl Editor {
         lights.filter_map(place).collect()
     }
 
-    /// The middle of all objects.
     fn middle(&self) -> DVec3 {
         let objects = 0..self.document.shown().scene.objects.len();
         let bounds = self.picker.bounds_in_world(objects, &self.poses());
@@ -61,7 +60,6 @@ impl Editor {
         Some(Item::Light(nearest.light.name))
     }
 
-    /// The selected light as it is shown, with its place.
     pub(super) fn active_light(&self) -> Option<LightPlace> {
         let Some(Item::Light(name)) = self.document.selection().active() else { return None };
         self.light_places().into_iter().find(|place| place.light.name == *name)

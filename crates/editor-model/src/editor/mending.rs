@@ -91,8 +91,8 @@ impl Editor {
         }
     }
 
-    /// A function for any thread that reads what changed on disk, for [`Editor::take`]; view, selection and mode stay.
-    /// `None` if that would lose edits, so that the user has to be asked first.
+    /// A function for any thread that reads what changed on disk. [`Editor::take`] puts the result in place; view,
+    /// selection and mode stay. `None` if that would lose edits, so that the user has to be asked first.
     pub fn taking_in(&self, news: News) -> Option<impl FnOnce() -> Mended + Send + use<>> {
         if news == News::Scene && self.document.is_edited() {
             return None;

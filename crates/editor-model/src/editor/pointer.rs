@@ -224,7 +224,6 @@ impl Editor {
         self.light_at(at_px, view).or_else(object)
     }
 
-    /// The region under the pointer.
     fn region_at(&self, at_px: DVec2, view: &View) -> Option<Item> {
         let hit = self.hit(at_px, view)?;
         let painted =
@@ -233,8 +232,8 @@ impl Editor {
         Some(Item::Region(self.document.shown().scene.regions.get(region)?.name.clone()))
     }
 
-    /// Selects the thing under the pointer, and asks for its menu. In Paint the thing is the region, else it is the
-    /// light or object.
+    /// Selects the thing under the pointer, and asks for its menu. In Paint this is the region, if there is one. In all
+    /// other cases it is the light or object.
     fn ask_for_menu(&mut self, at_px: DVec2, view: &View) {
         let region = || self.region_at(at_px, view).filter(|_| self.session.mode == Mode::Paint);
         let item = region().or_else(|| self.item_at(at_px, view));
@@ -394,7 +393,6 @@ impl Editor {
         has_command
     }
 
-    /// Cancels the interaction under way.
     pub(super) fn cancel(&mut self, view: &View) {
         match std::mem::take(&mut self.busy) {
             Busy::Transforming(_) => self.end_preview(),

@@ -56,7 +56,7 @@ pub enum Request {
 pub struct Said {
     /// The words.
     pub words: String,
-    /// The action that a click on it triggers.
+    /// The action that a click on the message triggers.
     pub offers: Option<Offer>,
     /// Whether it reports something that was refused.
     pub is_refusal: bool,

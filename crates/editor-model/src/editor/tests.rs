@@ -291,7 +291,7 @@ fn a_shot_that_begins_late_opens_at_its_first_frame() {
     assert_eq!(editor.session.frame, 20.0, "a scene that replaces another does not open at its first frame");
 }
 
-/// The apple before a built-in backdrop in place of its wall.
+/// The scene of the apple, with a built-in backdrop in place of the wall.
 fn with_backdrop() -> Editor {
     let mut editor = with_apple();
     let (object, mesh) = ("wall".to_owned(), "impasto:backdrop".to_owned());

@@ -1,5 +1,5 @@
-//! Keys that the user chose: only what differs from the preset. A key that the user chose wins over a key of the
-//! preset. So the choice applies with either preset, and undoing it returns the key to the command that had it.
+//! Keys that the user chose. Only these are stored, and they win over the keys of the preset. So a choice applies with
+//! either preset, and undoing it returns the key to the command that had it.
 
 use std::collections::BTreeMap;
 
@@ -106,7 +106,7 @@ impl CommandId {
 }
 
 impl OwnKeys {
-    /// Whether nothing differs from the preset.
+    /// Whether the user chose no keys.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }

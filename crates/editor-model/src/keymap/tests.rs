@@ -20,7 +20,6 @@ fn keymaps() -> impl Iterator<Item = Keymap> {
     })
 }
 
-/// A chord from its text.
 fn chord(text: &str) -> Chord {
     text.parse().unwrap()
 }

@@ -22,7 +22,6 @@ impl Key {
         }
     }
 
-    /// The key of this text; `None` if there is none.
     fn of_text(text: &str) -> Option<Self> {
         let named = [
             Self::Space,

@@ -30,7 +30,7 @@ impl PointerCurve {
         Self { points: vec![step], walked_px: 0.0 }
     }
 
-    /// Takes a point; returns the steps on the piece of the curve that is final from now on.
+    /// Takes the next point. Returns the steps on the piece of the curve that this point makes final.
     pub(super) fn move_to(&mut self, step: Step) -> Vec<Step> {
         if let Some(last) = self.points.last_mut()
             && last.at_px.distance(step.at_px) < SAME_PX

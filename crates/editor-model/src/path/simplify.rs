@@ -6,8 +6,8 @@ use impasto_scene::document::GuidePoint;
 
 use super::PathPoint;
 
-/// A path that is not very short keeps the point this many steps from each end, so that it begins and ends in the same
-/// direction as before.
+/// A path of more than four times this many steps keeps the point this many steps from each end, so that it begins and
+/// ends in the same direction as before.
 const END_STEPS: usize = 3;
 
 /// The points that keep a path within `tolerance` (model units) of what it was; both ends stay.

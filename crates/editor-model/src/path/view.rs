@@ -27,8 +27,8 @@ pub enum Rays {
     Parallel,
 }
 
-/// Two views count as equal if the sine of the angle between their gazes is at most this, and (with central rays) their
-/// eyes differ by at most this share of the distance to the target.
+/// Two views count as equal if their gazes (unit vectors) differ by at most this, and (with central rays) their eyes
+/// differ by at most this share of the distance to the target.
 const SAME: f64 = 1e-7;
 /// From an eye that is this many times as far from its target, rays are practically parallel.
 const FAR: f64 = 1e5;

@@ -36,7 +36,6 @@ pub struct SurfacePoint {
     pub flipped: bool,
 }
 
-/// A surface with its tree.
 pub(super) struct SurfaceTree {
     surface: Arc<BodySurface>,
     /// What bends it, and its noise.
@@ -91,7 +90,6 @@ impl Placed {
         Self { positions, tree, bounds }
     }
 
-    /// Corners of a triangle of the mesh.
     fn corners(&self, mesh: &TriangleMesh, triangle: u32) -> [DVec3; 3] {
         mesh.triangles[triangle as usize].map(|vertex| self.positions[vertex as usize].as_dvec3())
     }
@@ -103,7 +101,6 @@ impl SurfaceTree {
         Self { surface, shape, now, rest: OnceLock::new() }
     }
 
-    /// The surface at rest.
     fn rest(&self) -> &Placed {
         if self.surface.is_at_rest(&self.shape) {
             return &self.now;
@@ -111,8 +108,8 @@ impl SurfaceTree {
         self.rest.get_or_init(|| Placed::new(self.mesh(), self.mesh().positions.clone()))
     }
 
-    /// The map that carries the surroundings of a point near the surface at rest to where they are now. It is the
-    /// map of the nearest triangle.
+    /// A map from the object at rest to the object as it is now: that of the triangle nearest to `at_rest`. It holds
+    /// near that point.
     pub(super) fn now_from_rest(&self, at_rest: DVec3) -> DAffine3 {
         if self.surface.is_at_rest(&self.shape) {
             return DAffine3::IDENTITY;
@@ -141,7 +138,6 @@ impl SurfaceTree {
         self.now.bounds
     }
 
-    /// Whether joints, shape keys or a point cache may bend the surface.
     pub(super) fn bends(&self) -> bool {
         self.surface.bends()
     }

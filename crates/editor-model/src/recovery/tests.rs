@@ -37,7 +37,7 @@ fn files(folder: &Path) -> Vec<String> {
     names
 }
 
-/// Leaves the files of a crashed session: its lock is free, its files stay.
+/// Leaves the files of a crashed session behind, with its lock free.
 fn crashed(folder: &Path, name: &str, at: u64) {
     let document = edited(at as u32);
     let recovery = Recovery::open(folder, name).expect("opens");

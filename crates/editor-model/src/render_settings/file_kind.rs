@@ -1,4 +1,4 @@
-//! Which files a frame becomes, and what EXR files hold beside the colour.
+//! Which files are written for a frame, and what EXR files hold beside the colour.
 
 use std::path::{Path, PathBuf};
 

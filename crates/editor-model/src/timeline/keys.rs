@@ -35,7 +35,8 @@ pub enum KeysEvent {
         at: LanePosition,
         /// The key there.
         key: Option<KeyAt>,
-        /// Whether Shift or Ctrl is held: a key is added to the selection, or taken out of it; a box adds its keys.
+        /// Whether Shift or Ctrl is held. A key is then added to the selection, or taken out of it, and a box adds its
+        /// keys.
         adds: bool,
     },
     /// The pointer moved.

@@ -12,8 +12,8 @@ pub(super) const DAB_SHARE: f64 = 0.5;
 /// A dab multiplies by 1 + (factor − 1) · falloff, about factor^falloff, so a drag multiplies by about factor^`OVERLAP`.
 const OVERLAP: f64 = 2.125;
 
-/// The factor of one dab. The dabs of a drag together give 1 + strength if it raises. If it lowers, they give the
-/// reciprocal, or 1 − strength for amounts that may be 0.
+/// The factor of one dab. Together, the dabs of a drag that raises give 1 + strength. Those of a drag that lowers give
+/// the reciprocal, or 1 − strength for amounts that may be 0.
 pub(super) fn factor(of: Amount, raises: bool, strength: f64) -> f64 {
     let strength = strength.clamp(0.0, 1.0);
     let drag = match (raises, *of.range().start() > 0.0) {
@@ -74,7 +74,6 @@ pub(super) fn erased(
     region.amounts.iter().map(left).filter(|amount| !amount.dabs.is_empty()).collect()
 }
 
-/// The words of the status line while no drag is under way.
 pub(super) fn waiting_words(options: &ToolOptions) -> String {
     let verbs = if options.lowers { ["lower", "raise"] } else { ["raise", "lower"] };
     let [drag, ctrl] = verbs;

@@ -19,7 +19,6 @@ use crate::refusal::Refusal;
 use crate::selection::Item;
 use crate::session::{RegionDoes, Tool};
 
-/// The state of the brush tools.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Brush {
     heading: Heading,
@@ -86,7 +85,8 @@ impl Brush {
             ToolEvent::Release { pressure } => {
                 let stroke = self.stroke.take().map(|on| Stroke { path: on.path.lifted(pressure), ..on });
                 let commit = stroke.as_ref().and_then(|on| on.command(around));
-                // A command selects its region when it is applied. A drag without one selects the region it was in.
+                // A command selects its region when it is applied. A drag without a command selects the region where
+                // it began.
                 let on = stroke.filter(|on| on.on.region.is_some() && commit.is_none());
                 let select = on.map(|on| Item::Region(on.on.name));
                 ToolOutput { commit, select, ..ToolOutput::saying(words(tool, around)) }

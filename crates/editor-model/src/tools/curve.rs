@@ -34,7 +34,6 @@ const CLICK_PX: f64 = 3.0;
 /// of the radius.
 const TOLERANCE: f64 = 0.05;
 
-/// The state of the curve tool.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Curve {
     state: State,
@@ -218,7 +217,6 @@ impl Curve {
         ToolOutput { commit: drawing.command(&drawing.points, around), ..self.shown(around) }
     }
 
-    /// What is shown between events.
     fn shown(&self, around: &Surroundings) -> ToolOutput {
         let words = waiting_words(Tool::GuideCurve, around.options, "");
         match &self.state {
@@ -396,7 +394,7 @@ fn line_px(guide: &Guide, object: usize, around: &Surroundings) -> Vec<DVec2> {
 fn facing(point: &GuidePoint, object: usize, around: &Surroundings) -> bool {
     let now_from_rest = around.now_from_rest(object, DVec3::from(point.at));
     let at = now_from_rest.transform_point3(DVec3::from(point.at));
-    // By cofactors, which a matrix that flattens the body has too.
+    // The normal is transformed by the cofactor matrix. A matrix that flattens the body has one, but no inverse.
     let DMat3 { x_axis, y_axis, z_axis } = now_from_rest.matrix3;
     let cofactors = DMat3::from_cols(y_axis.cross(z_axis), z_axis.cross(x_axis), x_axis.cross(y_axis));
     let normal = cofactors * DVec3::from(point.normal);

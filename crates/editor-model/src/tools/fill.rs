@@ -1,4 +1,4 @@
-//! The fill tool: states one direction for a whole region by a click, or a constant angle by dragging a needle.
+//! The fill tool: a click sets one direction for a whole region, and dragging a needle sets a constant angle.
 
 use glam::{DMat2, DVec2, DVec3};
 use impasto_scene::document::{Bend, Direction};
@@ -13,7 +13,6 @@ use crate::session::{FillKind, Tool, ToolOptions};
 /// A needle shorter than this is a click.
 const LEAST_NEEDLE_PX: f64 = 6.0;
 
-/// The state of the fill tool.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Fill {
     filling: Option<Filling>,
@@ -135,9 +134,10 @@ impl Filling {
     }
 }
 
-/// The angle from how a direction shows in this view to how it shows in the reference of a region, radians. It is the
-/// rotation in the polar decomposition of A = (J_ref B)(J B)⁻¹, where B spans the tangent plane and the J are the
-/// views' Jacobians. `None` if either view sees the surface edge-on, or if they see opposite sides of it.
+/// The angle, radians, that turns a direction as this view shows it into the same direction as the reference view of
+/// the region shows it. It is the rotation in the polar decomposition of A = (J_ref B)(J B)⁻¹, where B spans the
+/// tangent plane and the J are the views' Jacobians. `None` if either view sees the surface edge-on, or if they see
+/// opposite sides of it.
 pub(super) fn to_reference_rad(hit: &Hit, region: Option<usize>, around: &Surroundings) -> Option<f64> {
     let (camera, pose) = around.reference(hit.object, region);
     let reference = crate::picking::View { camera, size_px: around.view.size_px };

@@ -27,7 +27,6 @@ pub struct Hand {
     at_px: Option<DVec2>,
 }
 
-/// The state of the tool that is held.
 #[derive(Clone, Debug, Default)]
 enum ToolState {
     #[default]
@@ -53,7 +52,7 @@ impl Hand {
         held || self.sizing.is_some()
     }
 
-    /// Handles an event for a tool of Paint; a change of the tool cancels what the last one had begun.
+    /// Handles an event for a tool of Paint. If the tool has changed, the gesture of the previous tool is cancelled.
     pub fn take(&mut self, tool: Tool, event: &ToolEvent, around: &Surroundings) -> ToolOutput {
         if tool != Tool::Touch {
             return self.take_as(tool, event, around);

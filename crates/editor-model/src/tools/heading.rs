@@ -11,7 +11,6 @@ const RECENT_SECS: f64 = 0.15;
 /// A pointer that has been still for this long rests.
 pub(crate) const REST_SECS: f64 = 0.4;
 
-/// The last movement of a pointer.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Heading {
     /// Positions and times, the newest first.
@@ -37,7 +36,7 @@ impl Heading {
         self.trail.truncate(keep);
     }
 
-    /// The direction over the last 12 px, unit, Y down. `None` before the pointer has moved so far.
+    /// The direction over the last 12 px, unit, Y down. `None` before the pointer has moved that far.
     pub(super) fn along(&self) -> Option<DVec2> {
         let &(last, _) = self.trail.front()?;
         let mut length = 0.0;
@@ -50,7 +49,7 @@ impl Heading {
         None
     }
 
-    /// Whether it moved at least 12 px in the last 150 ms.
+    /// Whether the pointer moved at least 12 px in the last 150 ms.
     pub(super) fn is_moving(&self, at_secs: f64) -> bool {
         let recent: Vec<DVec2> = self
             .trail
@@ -61,7 +60,7 @@ impl Heading {
         recent.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>() >= BACK_PX
     }
 
-    /// Whether it has not moved for 400 ms.
+    /// Whether the pointer has not moved for 400 ms.
     pub(super) fn rests(&self, at_secs: f64) -> bool {
         self.trail.front().is_none_or(|&(_, then)| at_secs - then >= REST_SECS)
     }

@@ -11,14 +11,11 @@ const LEAST: f64 = 0.05;
 /// The factors by which pressure scales a brush.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Felt {
-    /// For the radius.
     pub(super) radius: f64,
-    /// For the strength.
     pub(super) strength: f64,
 }
 
 impl Felt {
-    /// The factors of a pressure.
     pub(super) fn of(pressure: f64, options: &ToolOptions) -> Self {
         let share = pressure.clamp(LEAST, 1.0);
         match options.pressure {
@@ -33,12 +30,11 @@ impl Felt {
         Self::of((path.mean_pressure() * 100.0).round() / 100.0, options)
     }
 
-    /// The factors at a point of a gesture.
     pub(super) fn at(point: &PathPoint, options: &ToolOptions) -> Self {
         Self::of(point.pressure, options)
     }
 
-    /// The strength that a gesture leaves in the scene.
+    /// `strength` scaled, and rounded for the scene unless the factor is 1.
     pub(super) fn strength(self, strength: f64) -> f64 {
         if self.strength == 1.0 { strength } else { amounts::short(strength * self.strength, 1.0) }
     }

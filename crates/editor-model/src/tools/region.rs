@@ -87,7 +87,7 @@ fn covered(hit: &Hit, around: &Surroundings) -> Result<Vec<usize>, Refusal> {
     })
 }
 
-/// The middle of a triangle of the object that was hit.
+/// A hit at the middle of a triangle of the same object.
 fn on_face(hit: &Hit, triangle: usize, around: &Surroundings) -> Hit {
     let Some(surface) = around.picker.surface(hit.object) else { return *hit };
     let [a, b, c] = surface.mesh.corners(triangle).map(|corner| corner.as_dvec3());

@@ -62,7 +62,6 @@ impl Ring {
         }
     }
 
-    /// The ring of the brush at a hit, with its mirror images.
     pub(super) fn all_on(hit: &Hit, around: &Surroundings) -> Vec<Self> {
         let mut rings = Self::mirrored(hit, around.options.radius_px, around);
         rings.push(Self::on(hit, around.options.radius_px, around));
@@ -119,7 +118,6 @@ fn angle(piece: usize) -> DVec2 {
     DVec2::from_angle(std::f64::consts::TAU * piece as f64 / PIECES as f64)
 }
 
-/// A radius of `radius_px` at a hit, converted to the object's own units.
 pub(super) fn radius_in_model(hit: &Hit, radius_px: f64, around: &Surroundings) -> f64 {
     let scale = world_units_per_model_unit(around.pose(hit.object));
     radius_px / (around.view.px_per_unit(hit.position_in_world) * scale)

@@ -14,7 +14,6 @@ const RADIUS_STEP: f64 = 1.1;
 /// How far the pointer moves for the full range of the strength, pixels.
 const STRENGTH_PX: f64 = 200.0;
 
-/// A resizing under way.
 #[derive(Clone, Debug)]
 pub(super) struct Sizing {
     what: What,
@@ -40,7 +39,7 @@ impl Sizing {
         Some(Self { what, from: options.clone(), value: options.clone(), from_px: at_px })
     }
 
-    /// Takes an event. Also returns whether the resizing goes on.
+    /// Also returns whether the resizing goes on.
     pub(super) fn take(&mut self, event: &ToolEvent, around: &Surroundings) -> (ToolOutput, bool) {
         let goes_on = match *event {
             ToolEvent::Hover { at_px, .. } | ToolEvent::Move { at_px, .. } => {

@@ -78,7 +78,6 @@ struct World {
     options: ToolOptions,
     hand: Hand,
     secs: f64,
-    /// How hard the pen presses.
     pressure: f64,
     painted: Stub,
     _folder: tempfile::TempDir,
@@ -114,7 +113,6 @@ impl World {
             std::fs::write(folder.path().join(name), text).unwrap();
         }
         let document = Document::open(&folder.path().join("s.ron"), &Default::default()).unwrap();
-        // Made once for all tests.
         static SURFACES: OnceLock<[Arc<BodySurface>; 2]> = OnceLock::new();
         let surfaces = SURFACES.get_or_init(|| {
             let painting = prepare(Arc::clone(document.loaded())).unwrap();
@@ -194,13 +192,12 @@ impl World {
         self.take(tool, ToolEvent::Release { pressure: self.pressure })
     }
 
-    /// A press and its release, well after the last one.
+    /// A press and its release, late enough not to count as a double press.
     fn click(&mut self, tool: Tool, at: [f64; 2], held: Modifiers) -> [ToolOutput; 2] {
         self.secs += 1.0;
         [self.press(tool, at, held), self.release(tool)]
     }
 
-    /// A press, a drag through places, and the release.
     fn drag(&mut self, tool: Tool, through: &[[f64; 2]], held: Modifiers) -> ToolOutput {
         self.press(tool, through[0], held);
         for &at in &through[1..] {

@@ -26,7 +26,6 @@ const LEAST_TOLERANCE_PX: f64 = 0.75;
 /// The name of a new touch, before it is made unique.
 const NAME: &str = "touch";
 
-/// The state of the tool.
 #[derive(Clone, Debug, Default)]
 pub(super) struct TouchTool {
     drag: Option<Drag>,
@@ -158,8 +157,8 @@ fn radius_of(hit: &Hit, around: &Surroundings) -> f64 {
     around.options.radius_px / hit.px_per_model_unit(around.view, around.poses)
 }
 
-/// Names of the touches on a hit's object that come within 1.5 times this radius of any of these points, in the order
-/// of the list. Hidden touches are left out.
+/// Names of the touches that come within 1.5 times this radius of any of these points, in the order of the scene. Only
+/// visible touches of the hit's object count.
 fn touches_near(around: &Surroundings, hit: &Hit, touched: &[PathPoint], radius: f64) -> Vec<String> {
     let Some(object) = around.object(hit.object) else { return Vec::new() };
     near(around, &object.name, touched, radius)
@@ -197,7 +196,6 @@ impl Drag {
         (!touches.is_empty()).then_some(Command::Touches(Touches::Lay(touches)))
     }
 
-    /// The touch along a piece of a path.
     fn touch(&self, piece: &[PathPoint], path: &SurfacePath, around: &Surroundings) -> Touch {
         let options = around.options;
         let px_per_unit = options.radius_px / path.radius();

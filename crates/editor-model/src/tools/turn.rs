@@ -15,7 +15,6 @@ const DEG_PER_PX: f64 = 0.5;
 /// The step of turns with Ctrl, degrees.
 const STEP_DEG: f64 = 5.0;
 
-/// The state of the turn tool.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Turn {
     turning: Option<Turning>,
@@ -121,7 +120,7 @@ pub(super) fn pick(event: &ToolEvent, around: &Surroundings) -> ToolOutput {
     let Some(shown) = around.painted.shown_at(&hit) else {
         return ToolOutput { select, ..ToolOutput::saying("No stroke shows here") };
     };
-    // A fill states its angle in the reference, not in this view.
+    // A fill states its angle in the region's reference view.
     let region = around.painted.region_at(&hit);
     let turned = super::fill::to_reference_rad(&hit, region, around).unwrap_or(0.0);
     let angle_deg = (shown.angle_rad + turned).to_degrees();

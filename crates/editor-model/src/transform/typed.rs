@@ -1,6 +1,5 @@
 //! A number while it is being typed.
 
-/// The characters so far.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Typed {
     digits: String,

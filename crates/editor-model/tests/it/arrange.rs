@@ -1,4 +1,5 @@
-//! Tests of edits that move what lies on an object: touches when its own space changes, and the ground.
+//! Tests of edits of objects: touches and directions go with their object, the ground is replaced, and copies and new
+//! parents keep the pose.
 
 use std::path::Path;
 
@@ -53,7 +54,7 @@ fn touches_go_with_an_object_that_is_stretched_scaled_or_turned_upright() {
     }
 }
 
-/// Whichever axis of its file was up: an uneven scale stays on the file's axes.
+/// An uneven scale stays on the axes of the mesh file, whichever of them was up.
 #[test]
 fn a_body_that_is_turned_upright_keeps_its_shape() {
     for (_, up) in Up::ALL {
@@ -130,7 +131,7 @@ fn a_copy_of_what_a_shot_brings_stands_and_moves_as_it_does() {
     }
 }
 
-/// Where an object stands in the world, in the pose of the reference.
+/// The pose of an object in the world at frame 0.
 fn pose(scene: &Scene, name: &str) -> glam::DAffine3 {
     let index = scene.objects.iter().position(|object| object.name == name).expect("it is there");
     poses_at(scene, 0.0)[index]

@@ -1,7 +1,6 @@
-//! Tests that the editor survives hostile files. Those of the folder `IMPASTO_CORPUS` are opened one after the other,
-//! in a process with little memory and time: each must give a document or an error message, and the file must stay as
-//! it was. Another test, which needs no corpus, opens a shipped scene with changed bytes. `tests/it/hostile_scenes.rs`
-//! opens a small corpus.
+//! Tests that the editor survives hostile files. Those in the folder `IMPASTO_CORPUS` are opened by a process with
+//! little memory and time. Each must give a document or an error message, and stay unchanged. Another test opens a
+//! shipped scene with changed bytes. The workspace's own `tests/it/hostile_scenes.rs` opens a small corpus.
 
 #![cfg(unix)]
 
@@ -17,7 +16,7 @@ use impasto_scene::load::salvage;
 const MEMORY_KIB: u32 = 1 << 20;
 const SECONDS: u32 = 240;
 
-/// The environment variable that names a file with the list of files to open.
+/// The environment variable with the path of the list of files to open.
 const LIST: &str = "IMPASTO_TEST_OPENS";
 
 fn tell(words: &str) {
@@ -60,7 +59,7 @@ fn open(file: &Path) {
 
 fn hostile_files() -> Option<Vec<PathBuf>> {
     let Some(corpus) = std::env::var_os("IMPASTO_CORPUS").map(PathBuf::from) else {
-        // Not `eprintln!`: the test runner shows its output only for failing tests.
+        // The test runner would show the output of `eprintln!` only if the test fails.
         let test = "hostile_files_open_or_are_refused_and_stay_what_they_are";
         let _ = writeln!(std::io::stderr(), "skipped: {test}: IMPASTO_CORPUS names no folder");
         return None;

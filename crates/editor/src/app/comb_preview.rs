@@ -31,7 +31,6 @@ pub(super) struct CombPreviewStrokes {
 }
 
 impl CombPreviewStrokes {
-    /// Updates the preview for where the pointer is now.
     pub(super) fn follow(&mut self, ctx: &Context, editor: &Editor, picture_flow: &PictureFlow) {
         let held = editor.held();
         let wanted = editor.tool_output().comb_preview.filter(|_| !held.shift && !held.alt);

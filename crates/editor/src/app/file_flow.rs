@@ -33,7 +33,6 @@ enum Next {
     Save(FileAsk),
 }
 
-/// The state of file dialogs and of questions about files.
 pub(super) struct FileFlow {
     pub(super) dialogs: FileDialogs,
     /// What happens once the question about unsaved work is answered.
@@ -50,7 +49,6 @@ pub(super) struct FileFlow {
     edited_since: Option<Instant>,
     /// A save into another folder, while the user is asked whether to copy the scene's files there.
     save_elsewhere: Option<SaveElsewhere>,
-    /// Whether the window is to close.
     closes: bool,
 }
 
@@ -69,7 +67,6 @@ enum Unsaved {
     Edits,
 }
 
-/// Which kind of save it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum SaveTo {
     /// The file becomes the document's own.
@@ -132,7 +129,6 @@ impl EditorApp {
         }
     }
 
-    /// Goes on at once, or after a question about unsaved work.
     fn go_on_or_ask(&mut self, next: Next) {
         match self.unsaved() {
             Some(unsaved) => self.wait_for(next, unsaved),

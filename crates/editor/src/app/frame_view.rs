@@ -54,9 +54,9 @@ impl FrameView {
         }
     }
 
-    /// Shows the frame that is due, or why it cannot be read. If its file is not read yet: while frames play, shows the
-    /// nearest frame before it that is read or is shown already (before the first comes the last); else leaves what is
-    /// shown.
+    /// Shows the frame that is due, or why it cannot be read. While that frame is not read yet, a viewer at rest keeps
+    /// what it shows. A playing viewer shows the nearest earlier frame that is read or already shown; the last frame
+    /// counts as earlier than the first.
     fn follow(&mut self, ui: &Ui, now_secs: f64) {
         let (at, count) = (self.frames.at(), self.frames.count());
         let most = if self.frames.is_playing() { count } else { 1 };

@@ -8,7 +8,6 @@ use impasto_editor_model::timeline::TimelineEvent;
 
 use crate::widgets::{key_of, leaves_space};
 
-/// Converts the modifiers that are held from egui to the keymap's type.
 pub(super) fn held(held: egui::Modifiers) -> Modifiers {
     Modifiers { ctrl: held.command, shift: held.shift, alt: held.alt }
 }

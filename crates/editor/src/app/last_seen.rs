@@ -19,7 +19,6 @@ impl EditorApp {
         self.note_last_seen();
     }
 
-    /// Remembers mode and view of the open scene.
     pub(super) fn note_last_seen(&mut self) {
         let Some(file) = self.editor.document().file().map(Path::to_owned) else { return };
         let view = match &self.editor.looking {

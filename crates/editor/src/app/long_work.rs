@@ -24,7 +24,6 @@ use crate::window::Waker;
 /// Work that takes longer than this is shown in the status line.
 const SHOWN_AFTER: Duration = Duration::from_millis(200);
 
-/// What a mesh is read for.
 #[derive(Clone, Debug)]
 pub(super) enum MeshFor {
     /// To add a new object.
@@ -33,7 +32,6 @@ pub(super) enum MeshFor {
     Replace(String),
 }
 
-/// The outcome of reading.
 enum Outcome {
     Opened(PathBuf, Result<Box<Document>, Report>),
     /// A mesh that was read from this path.
@@ -118,7 +116,6 @@ impl EditorApp {
         });
     }
 
-    /// Reads a mesh for the document.
     pub(super) fn read_mesh(&mut self, path: &Path, what_for: MeshFor) {
         let (path, folder) = (path.to_owned(), self.editor.document().folder().to_owned());
         let words = format!("Importing {}\u{2026}", name_of(&path));
@@ -157,7 +154,6 @@ impl EditorApp {
         true
     }
 
-    /// Whether files are being read.
     pub(super) fn is_reading(&self) -> bool {
         self.long.reading.is_some()
     }

@@ -92,7 +92,7 @@ impl MarkCache {
     /// Updates the marks whose inputs have changed.
     pub(super) fn refresh(&mut self, editor: &Editor, picture_flow: &PictureFlow, picture: &PictureView<'_>) {
         let Some(painting) = editor.painting() else {
-            // The marks of the scene before would lie over a scene that was opened just now.
+            // The marks of the previous scene must not lie over a scene that was just opened.
             self.halves = Default::default();
             return;
         };

@@ -67,7 +67,6 @@ const TOAST: Duration = Duration::from_secs(4);
 /// How long a message that reports an error stays.
 const ERROR_TOAST: Duration = Duration::from_secs(10);
 
-/// The application in its window.
 pub(crate) struct EditorApp {
     ctx: Context,
     editor: Editor,
@@ -115,7 +114,6 @@ struct Sheets {
     problems: bool,
 }
 
-/// Which panels are folded away, and whether the window had the focus.
 #[derive(Default)]
 struct Folds {
     column: bool,

@@ -108,7 +108,6 @@ impl PictureFlow {
         &self.strokes_of
     }
 
-    /// The version of the scene that was prepared last.
     pub(super) fn prepared(&self) -> u64 {
         self.prepared
     }
@@ -132,7 +131,6 @@ impl PictureFlow {
         self.preparing.map(|(_, since)| since.elapsed())
     }
 
-    /// Draws with these shaders from now on.
     pub(super) fn replace_shaders(&mut self, texts: ShaderTexts) {
         if let Some(worker) = &self.worker {
             worker.replace_shaders(texts);
@@ -154,7 +152,6 @@ impl PictureFlow {
         self.layout.framings()[0].view(&self.camera(editor))
     }
 
-    /// The camera that the viewport looks through.
     pub(super) fn camera(&self, editor: &Editor) -> CameraPose {
         editor.camera()
     }
@@ -268,7 +265,6 @@ impl PictureFlow {
         views.map(|view| ViewJob { lights: Vec::new(), ..view }).collect()
     }
 
-    /// The views to show at a frame.
     fn views(&self, editor: &Editor, frame: f64) -> Vec<ViewJob> {
         let scene = &editor.shown().0.scene;
         let shading = editor.session.shading;

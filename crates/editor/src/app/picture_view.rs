@@ -1,4 +1,4 @@
-//! Names the picture of the viewport that the overlay makes its marks for, with the picture's camera and frame.
+//! The picture of the viewport that marks are made for, with its camera and frame.
 
 use impasto_scene::motion::CameraPose;
 

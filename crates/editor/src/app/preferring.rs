@@ -9,7 +9,7 @@ use crate::panels::Preference;
 use crate::theme;
 
 impl EditorApp {
-    /// Saves what the pressure of a pen changes, if the options bar has set it to something else.
+    /// Saves the setting of pen pressure if the options bar has changed it.
     pub(super) fn keep_pressure(&mut self) {
         let pressure = self.editor.session.options.pressure;
         if pressure != self.preferences.pressure {

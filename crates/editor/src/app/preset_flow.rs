@@ -88,7 +88,6 @@ impl PresetFlow {
 }
 
 impl EditorApp {
-    /// Lists the presets in the user's folder.
     pub(super) fn list_presets(&mut self) {
         self.presets.own = presets_folder().map_or_else(Vec::new, |folder| presets_in(&folder));
     }
@@ -153,7 +152,6 @@ impl EditorApp {
         self.files.dialogs.open(ctx, ask, &start);
     }
 
-    /// Saves the settings that were asked for.
     pub(super) fn save_preset(&mut self, path: &Path) {
         let Some(of) = self.presets.of.take() else { return };
         let document = self.editor.document();

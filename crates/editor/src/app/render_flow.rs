@@ -23,7 +23,6 @@ use crate::window::Waker;
 /// How often the progress is updated while frames are rendered.
 const TICK: Duration = Duration::from_millis(500);
 
-/// The state of the render sheet, and the rendering under way.
 pub(super) struct RenderFlow {
     waker: Waker,
     settings: Option<RenderSettings>,
@@ -135,7 +134,6 @@ impl EditorApp {
         }
     }
 
-    /// Opens the sheet for a movie.
     pub(super) fn open_movie_sheet(&mut self) {
         self.open_render_sheet();
         if let Some(settings) = self.render.settings.as_mut().filter(|_| self.render.is_open) {
@@ -143,7 +141,6 @@ impl EditorApp {
         }
     }
 
-    /// Shows the sheet and the questions of rendering.
     pub(super) fn render_sheets(&mut self, ctx: &Context) {
         self.follow_rendering(ctx);
         if self.render.asks.is_some() {

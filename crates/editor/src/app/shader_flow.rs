@@ -11,7 +11,6 @@ use impasto_gl_render::shader_folder::ShaderFolder;
 /// How often the folder is checked.
 const LOOK: Duration = Duration::from_millis(500);
 
-/// The shader folder, if one was given.
 #[derive(Default)]
 pub(super) struct ShaderFlow {
     folder: Option<ShaderFolder>,

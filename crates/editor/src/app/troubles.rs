@@ -61,7 +61,6 @@ impl EditorApp {
         objects.find(|object| lacks(&object.mesh)).map(|object| object.name.clone())
     }
 
-    /// Lets the user choose another mesh for an object.
     pub(super) fn choose_mesh(&mut self, object: String) {
         self.files.mesh_of = Some(object);
         let start = self.editor.document().folder().to_owned();

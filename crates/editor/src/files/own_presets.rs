@@ -76,7 +76,7 @@ pub fn save_preset(
 /// pictures are copied beside the scene.
 ///
 /// # Errors
-/// Why it cannot be applied, in words to show. Pictures may have been copied only if one of them is the reason.
+/// Why it cannot be applied, in words to show. If the reason is a picture, other pictures may have been copied before.
 pub fn preset_command(document: &Document, of: &StrokesOf, path: &Path) -> Result<Command, String> {
     let mut preset = strokes_file::load(path).map_err(|report| in_words(&report))?;
     let command = |preset: &StrokesFile| {
@@ -121,7 +121,7 @@ fn take_brushes_along(
         let file = file_of(name).ok_or_else(|| format!("the file of the brush {name} is not there"))?;
         Ok((name.to_owned(), file))
     });
-    // Finds all files before it copies any.
+    // All files must be found before any is copied.
     let found: Vec<(String, PathBuf)> = found.collect::<Result<_, String>>()?;
     let mut renamed: Vec<(String, String)> = Vec::new();
     for (name, file) in found {

@@ -7,7 +7,6 @@ use egui::{Context, Id};
 use impasto_editor_model::{Document, Item};
 use impasto_scene::document::StrokeSettings;
 
-/// What the right column remembers between passes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ColumnState {
     /// Sections that were opened or folded by hand.
@@ -23,7 +22,6 @@ pub(super) struct ColumnState {
     pub(super) renaming: Option<(Item, String)>,
     /// Whether the menu of what can be added opens in the next pass.
     pub(super) opens_add_menu: bool,
-    /// Stroke settings that were copied.
     pub(super) copied_strokes: Option<StrokeSettings>,
     /// The layer of paint whose numbers are shown, by its name; none means the body.
     pub(super) paint_layer: Option<&'static str>,
@@ -32,7 +30,6 @@ pub(super) struct ColumnState {
 }
 
 impl ColumnState {
-    /// Lets `act` read or change the state.
     pub(super) fn with<R>(ctx: &Context, act: impl FnOnce(&mut Self) -> R) -> R {
         ctx.data_mut(|data| act(data.get_temp_mut_or_default(Id::unique("right column"))))
     }

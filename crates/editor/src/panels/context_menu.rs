@@ -142,7 +142,6 @@ pub fn context_menu(ui: &Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     });
 }
 
-/// What the menu is about, in words.
 fn words_of(about: &Item, selected: usize) -> String {
     match about {
         _ if selected > 1 => format!("{selected} things"),

@@ -12,7 +12,7 @@ use crate::window::tab_pressed;
 
 const WIDTH: f32 = 560.0;
 const ROWS: f32 = 14.0;
-/// Height of the sheet without its list, with some space around the sheet.
+/// Height of everything but the list, points: the rest of the sheet, and some space around it.
 const AROUND_LIST: f32 = 210.0;
 /// Width of the place for the reset icon at a row's end.
 const END: f32 = 32.0;
@@ -206,7 +206,7 @@ fn line(
     whole
 }
 
-/// Gives a command its keys, or asks first if other commands would lose them, even if only while a key on a lane is
+/// Gives a command its keys. Asks first if other commands would lose them, always or while a key on a lane is
 /// selected.
 fn choose(keymap: &Keymap, id: CommandId, chords: Vec<Chord>, doing: &mut Doing, asks: &mut Vec<Ask>) {
     let losers = keymap.losers(id, &chords);

@@ -16,19 +16,14 @@ use crate::widgets::MenuRow;
 pub(super) enum Line {
     /// A command that may have a key.
     Do(Action),
-    /// A line between groups.
     Separator,
-    /// The recent files.
     Recent,
     /// What can be added to the scene.
     Add,
     /// Puts the command that renders the scene on the clipboard.
     CopyRenderCommand,
-    /// Shows the list of what is wrong.
     Problems,
-    /// Shows the first-run sheet.
     FirstRun,
-    /// Shows the sheet that changes keys.
     KeySheet,
     /// A submenu, with its name and its lines.
     Sub(&'static str, &'static [Line]),
@@ -167,7 +162,6 @@ pub(super) fn actions() -> Vec<Action> {
     found
 }
 
-/// File, Edit, View and Help.
 pub(super) fn menus(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     const PADDING: f32 = 10.0;
     let wide = MENUS.iter().map(|(name, _)| text_width(ui, name, type_face::body()) + 2.0 * PADDING).sum();

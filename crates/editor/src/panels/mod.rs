@@ -107,7 +107,8 @@ impl<'a> PanelInput<'a> {
         }
     }
 
-    /// The first shortcut of an action that means no other action in this mode, as text; empty if there is none.
+    /// The first shortcut of an action, as text; empty if there is none. Shortcuts that do another action in this
+    /// mode are left out.
     pub fn keys_of(&self, action: Action) -> String {
         let scope = match self.session.mode {
             Mode::Arrange => Scope::Arrange,
@@ -161,7 +162,7 @@ pub struct Numbers<'a> {
     pub strokes_of: &'a [(String, usize)],
     /// Pictures per second, while something moves.
     pub pictures_per_second: Option<f64>,
-    /// The graphics driver: *llvmpipe*.
+    /// The graphics driver, such as *llvmpipe*.
     pub driver: &'a str,
     /// The frames whose exact pictures are cached, in order: they play exactly.
     pub finished: &'a [i64],

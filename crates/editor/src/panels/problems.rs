@@ -26,7 +26,6 @@ const FOOT: f32 = 44.0;
 /// The list's share of the width, if the text is beside it.
 const LIST: f32 = 0.6;
 
-/// How many problems there are: those of the document and those of the window.
 pub(super) fn count(shown: &PanelInput<'_>) -> usize {
     shown.document.problem_count() + shown.troubles.len()
 }

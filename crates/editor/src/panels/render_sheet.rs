@@ -23,7 +23,7 @@ pub struct RenderShown<'a> {
     pub document: &'a Document,
     /// The frame that is shown.
     pub frame: f64,
-    /// The driver that *Automatic* chose in this window: *llvmpipe*. Empty if it is not known.
+    /// The driver that *Automatic* chose in this window, such as *llvmpipe*. Empty if it is not known.
     pub driver: &'a str,
     /// The progress of the current or last rendering; none before the first.
     pub progress: Option<&'a RenderProgress>,

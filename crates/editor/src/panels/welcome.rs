@@ -30,7 +30,7 @@ pub enum Left {
     StillLife,
     /// To open a scene.
     OpenScene,
-    /// To work on the empty scene behind it.
+    /// To work on the scene behind the sheet.
     Closed,
 }
 

@@ -28,7 +28,7 @@ impl Layout {
         Self { area, framings: vec![Framing::new(area, scene_size, pixels_per_point)], stacked: false }
     }
 
-    /// The layout of a comparison: a picture of the reference, and one of now.
+    /// The layout of a comparison: the reference, and the frame that is shown.
     pub fn compare(area: Rect, scene_size: (u32, u32), pixels_per_point: f32) -> Self {
         let aspect = scene_size.0.max(1) as f32 / scene_size.1.max(1) as f32;
         let half = |at: Rect, above: f32, below: f32| {
@@ -60,7 +60,7 @@ impl Layout {
         self.area
     }
 
-    /// The framings of the pictures. A comparison has two: first the reference's, then now's.
+    /// The framings of the pictures. A comparison has two: first the reference, then the frame that is shown.
     pub fn framings(&self) -> &[Framing] {
         &self.framings
     }

@@ -43,7 +43,7 @@ impl Pictures {
         Some((shown.texture.id(), &shown.view, shown.exact))
     }
 
-    /// Whether the exact picture of this view has come, for the scene with this serial.
+    /// Whether the latest picture is exact, and shows this view of the scene with this serial.
     pub fn is_exact(&self, index: usize, view: &ViewJob, serial: u64) -> bool {
         let shown = self.shown.get(index).and_then(Option::as_ref);
         shown.is_some_and(|shown| shown.exact && shown.serial == serial && shown.view.looks_like(view))

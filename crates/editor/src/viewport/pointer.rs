@@ -20,8 +20,8 @@ pub(super) struct Pointer {
 }
 
 impl Pointer {
-    /// The events of this pass. `over` says whether a place in the window is on the picture and not on a chip or sheet
-    /// over it.
+    /// The events of this pass. `over` says whether a place in the window is on the picture itself. A chip or a sheet
+    /// that covers the picture does not count.
     pub(super) fn events(
         &mut self,
         ui: &Ui,
@@ -55,7 +55,8 @@ impl Pointer {
                     held = plain(modifiers);
                     self.last_px = framing.from_window(pos);
                     let Some(button) = plain_button(button) else { continue };
-                    // A press that closes a menu begins nothing; with the right button it opens another one.
+                    // A press that closes a menu does nothing else. Only a press of the right button goes on: it opens
+                    // another menu.
                     if pressed && closes_menu && button != Button::Right {
                         continue;
                     }
@@ -81,7 +82,8 @@ impl Pointer {
                     }
                     self.inside = false;
                 }
-                // With Alt the wheel steps through frames. On some systems, wheel events do not say that Alt is held.
+                // With Alt the wheel steps through frames, which is done elsewhere. `held` is asked because on some
+                // systems the modifiers of wheel events lack Alt.
                 Event::MouseWheel { unit, delta, modifiers, .. } if self.inside && !held.alt => {
                     // Some systems turn the wheel sideways while Shift is held.
                     let turned = if delta.y == 0.0 { delta.x } else { delta.y };
@@ -94,7 +96,7 @@ impl Pointer {
                     push(PointerKind::Wheel(steps), self.last_px, plain(modifiers));
                 }
                 Event::Zoom(factor) if self.inside => {
-                    // The view zooms by the factor by which the two fingers spread, so what lies between them stays
+                    // The view zooms by the factor by which two fingers spread. So what lies between the fingers stays
                     // between them.
                     let steps = -f64::from(factor).ln() / ZOOM_PER_STEP.ln();
                     push(PointerKind::Wheel(steps), self.last_px, held);

@@ -9,12 +9,10 @@ use crate::theme::{Tokens, measure, type_face};
 /// How much a button stands out.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Weight {
-    /// Only its words, until the pointer is over it.
     Plain,
     Usual,
     /// What most users want; only one button of a group.
     Primary,
-    /// For an action that removes something.
     Danger,
 }
 

@@ -38,7 +38,7 @@ pub fn drop_down(ui: &mut Ui, name: &str, shown: &str, contents: impl FnOnce(&mu
     response
 }
 
-/// As [`drop_down`], but without the menu: the caller opens one on it.
+/// As [`drop_down`], but without the menu. The caller opens a menu on the response.
 pub fn drop_down_face(ui: &mut Ui, name: &str, shown: &str) -> Response {
     face(ui, name, None, shown)
 }

@@ -20,7 +20,6 @@ pub(super) fn fill(tokens: &Tokens, response: &Response, rest: Color32) -> Color
     }
 }
 
-/// The ring around a control that has the keyboard's focus.
 pub(super) fn focus_ring(ui: &Ui, response: &Response, rect: Rect, corner: f32) {
     if response.has_focus() {
         let ring = Stroke::new(2.0, Tokens::of(ui).accent_text);
@@ -57,7 +56,7 @@ pub(super) fn words_within(ui: &Ui, at: Pos2, text: &str, font: FontId, colour: 
     rect
 }
 
-/// The text, shortened to fit into `room` points: an ellipsis replaces its middle, since names that begin alike often
+/// The text, shortened to fit into `room` points. An ellipsis replaces its middle, because names that begin alike often
 /// differ at their ends.
 pub(super) fn without_middle(ui: &Ui, text: &str, font: FontId, room: f32) -> String {
     let characters: Vec<char> = text.chars().collect();

@@ -14,7 +14,8 @@ const PICTURE: egui::Vec2 = vec2(17.0, 12.0);
 const HEIGHT: f32 = 26.0;
 const COLUMNS: usize = 3;
 
-/// The curve of an ease between two keys: time goes from x `from` to x `to`, shares 0 and 1 are at y `low` and `high`.
+/// The curve of an ease between two keys. Time runs from x `from` to x `to`. The value of the first key is at y `low`,
+/// that of the second at y `high`.
 pub fn ease_line([from, to]: [f32; 2], [low, high]: [f32; 2], ease: Ease) -> Vec<Pos2> {
     let steps = match ease {
         Ease::Step => return vec![pos2(from, low), pos2(to, low), pos2(to, high)],

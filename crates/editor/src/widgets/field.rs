@@ -19,10 +19,12 @@ use crate::theme::{Tokens, measure, type_face};
 /// The width of the letter before a number, points.
 const LETTER: f32 = 11.0;
 
-/// A number in a box whose filled part shows where it lies in its range. It is dragged, typed after a click or `Enter`,
-/// or stepped: by the arrow keys while it has the focus, by the wheel over it while it has the focus or `Ctrl` is held.
-/// Otherwise the wheel scrolls the panel that holds the field. A double click brings the default back. Typed text that
-/// is no number, or beyond the limits, is marked and rejected.
+/// A number in a box whose filled part shows where the number lies in its range.
+///
+/// It can be dragged, or typed after a click or `Enter`. While the field has the focus, the left and right arrow keys
+/// step it, and so does the wheel over it. Without the focus, the wheel steps it only with `Ctrl`, and else scrolls the
+/// panel that holds the field. A double click brings the default back. Typed text that is no number, or beyond the
+/// limits, is marked and rejected.
 pub struct NumberField<'a> {
     name: &'a str,
     value: &'a mut f64,
@@ -129,12 +131,13 @@ impl<'a> NumberField<'a> {
         Self { step, decimals, ..self }
     }
 
-    /// The value that the reset icon at the row's end brings back.
+    /// The value that a double click brings back. In a field with a label, so does the reset icon at the row's end.
     pub fn default_value(self, default: f64) -> Self {
         Self { default: Some(default), ..self }
     }
 
-    /// What is wrong with the value: the box gets a vermilion outline, and if it has a label, the words stand under it.
+    /// What is wrong with the value. The box gets a vermilion outline. If the field has a label, the words stand under
+    /// the box.
     pub fn error(self, error: Option<&'a str>) -> Self {
         Self { error, ..self }
     }
@@ -154,7 +157,7 @@ impl<'a> NumberField<'a> {
         Self { centred: true, ..self }
     }
 
-    /// If `warns`, shows the number in ochre, because it will be lost: it belongs to a pose that is not keyed.
+    /// If `warns`, shows the number in ochre: it belongs to a pose that is not keyed, and will be lost.
     pub fn warn(self, warns: bool) -> Self {
         Self { warns, ..self }
     }

@@ -13,7 +13,7 @@ pub(crate) fn note_open_menu(ctx: &Context) {
 }
 
 /// Whether a press in this pass only closes a menu that was open. Such a press must begin no drag and no stroke. A menu
-/// that was open before the pass counts too: if press and release came in one pass, it is closed already.
+/// that was open before the pass counts too: if press and release came in one pass, the menu is closed by now.
 pub(crate) fn press_closes_menu(ctx: &Context) -> bool {
     ctx.data(|data| data.get_temp::<bool>(id())).unwrap_or_default() || Popup::is_any_open(ctx)
 }

@@ -7,7 +7,6 @@ use egui::{Align, Context, Id, Response, Ui};
 /// If the wanted control is not drawn within this many passes, the search for it ends.
 const PATIENCE: u8 = 4;
 
-/// The control that is to have the focus.
 #[derive(Clone)]
 struct Wanted {
     name: Arc<str>,

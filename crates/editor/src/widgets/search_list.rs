@@ -7,11 +7,8 @@ use super::dialog::sheet;
 /// Which of the keys that move the mark or take its row were pressed in this pass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct MarkKeys {
-    /// To the row above.
     pub(crate) up: bool,
-    /// To the row below.
     pub(crate) down: bool,
-    /// Takes the marked row.
     pub(crate) enter: bool,
 }
 

@@ -27,8 +27,8 @@ const LEAST_FRAME: Duration = Duration::from_millis(8);
 /// An app can hold back new frames ([`Frame::hold`]) for at most this long.
 const MOST_HELD: Duration = Duration::from_millis(100);
 
-/// While an app holds back frames, passes for pointer moves, and for the repaints that egui asks for after them, are at
-/// least this far apart.
+/// While an app holds back frames, passes for pointer moves are at least this far apart, and so are the passes that
+/// egui itself asks for.
 const HELD_PASS: Duration = Duration::from_millis(30);
 
 /// Why a frame is due.
@@ -111,7 +111,7 @@ struct Shell<A, M> {
     failed: Option<WindowError>,
 }
 
-/// Fields drop in this order: the painter's context before the window.
+/// Fields drop from top to bottom. So the OpenGL context goes before its window.
 struct OpenWindow<A> {
     app: A,
     painter: egui_glow::Painter,

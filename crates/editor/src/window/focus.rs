@@ -7,7 +7,8 @@ use crate::widgets::{note_open_menu, take_kept};
 /// Keeps egui's keyboard focus from taking the editor's keys: add it to the context as a plugin.
 ///
 /// While nothing has the focus, `Tab` goes to the app ([`tab_pressed`]). While a control has the focus, `Tab` moves it
-/// to the next control. A click outside a text field gives up the focus, so that `Space` presses no button.
+/// to the next control. A click gives up the focus, so that `Space` presses no button afterwards. Text fields keep it,
+/// and so do controls that ask for it ([`crate::widgets::keep_focus`]).
 #[derive(Debug, Default)]
 pub struct FocusRules;
 

@@ -2,12 +2,12 @@
 
 use egui::{Event, RawInput};
 
-/// Splits the input since the last frame, so that no pass has more than one press or release of a button, nor a key
-/// press (repeats aside) after a move or click of the pointer.
+/// Splits the input since the last frame into passes. A pass has at most one press or release of a button. A key press
+/// that follows a move or click of the pointer begins a new pass; a repeat does not.
 ///
-/// A slow frame may gather a whole drag. egui looks at the pointer once per pass, and would miss it. The editor handles
-/// the keys of a pass before the pointer: if `Ctrl Z` came in the same pass as the end of a drag, the editor would
-/// handle the keys while the drag is still under way.
+/// A slow frame may gather a whole drag. egui looks at the pointer once per pass, and would miss the drag. The editor
+/// handles the keys of a pass before the pointer: if `Ctrl Z` came in the same pass as the end of a drag, the editor
+/// would handle the keys while the drag is still under way.
 pub(super) fn one_thing_each(mut input: RawInput) -> Vec<RawInput> {
     let events = std::mem::take(&mut input.events);
     let mut parts = vec![Vec::new()];

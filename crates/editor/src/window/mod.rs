@@ -34,8 +34,8 @@ pub trait App {
     /// The words in the window's title bar.
     fn title(&self) -> String;
 
-    /// The user asked the window system to close the window. True closes it; an app with unsaved work answers false,
-    /// asks in its page, and calls [`Frame::close`] later.
+    /// The user asked the window system to close the window. Returning true closes it. An app with unsaved work returns
+    /// false, asks in its page, and calls [`Frame::close`] later.
     fn on_close_request(&mut self) -> bool {
         true
     }
@@ -84,7 +84,6 @@ pub struct Frame<'a> {
     asks: &'a mut Asks,
 }
 
-/// What an app asked for in a pass.
 #[derive(Clone, Copy, Debug, Default)]
 struct Asks {
     close: bool,
@@ -107,8 +106,8 @@ impl Frame<'_> {
         self.asks.close = true;
     }
 
-    /// Does not show this pass, because a better one will follow soon (while the view moves, a pass with the view's
-    /// next picture). The window keeps its last contents for at most a tenth of a second after it showed them.
+    /// Does not show this pass, because a better one will follow soon. While the view moves, that is the pass with the
+    /// view's next picture. The window keeps its last contents for at most a tenth of a second after it showed them.
     pub fn hold(&mut self) {
         self.asks.hold = true;
     }

@@ -32,7 +32,7 @@ pub struct Pens {
     find: Box<dyn FnMut() -> Option<PressureAxis>>,
     /// Whether any device has reported an axis other than X and Y. Until then `find` is not called.
     has_axes: bool,
-    /// Whether a device has reported such an axis since the last press.
+    /// Whether a device has reported an axis other than X and Y since the last press.
     has_told: bool,
     axis: Option<PressureAxis>,
     pressure: f64,
@@ -314,7 +314,8 @@ mod tests {
         // The pen is set down, pressed and lifted in one place.
         let events = [moved(), axis(2, 0.0), pressed(), axis(2, 1200.0), axis(2, 40.0), released()];
         assert_eq!(told(&mut pens, &events), [0.0, 0.01, 0.6]);
-        // While the pointer stays within the length of the steadying string, the path takes the greatest pressure.
+        // To steady the path, the pointer pulls its tip by a string. While the pointer stays within the length of the
+        // string, the path takes the greatest pressure.
         assert!((felt(0.2, &[0.01, 0.6]) - 0.6).abs() < 1e-9);
         let events = [axis(2, 30.0), pressed(), moved(), axis(2, 1600.0), axis(2, 10.0), released()];
         let told = told(&mut pens, &events);

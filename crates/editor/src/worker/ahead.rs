@@ -41,9 +41,9 @@ impl Ahead {
         self.0 = thread.ok().map(|frame| Computing { view: view.clone(), size_px, is_exact, serial, frame });
     }
 
-    /// Takes the frame computed ahead, with its view; `None` if the frame cannot be shown for `view`. It can be shown
-    /// if scene, sizes and shading are the same, and its view looks the same, or is one frame earlier while playback
-    /// goes on to `next`.
+    /// Takes the frame computed ahead, with its view; `None` if the frame cannot be shown for `view`. Scene, sizes,
+    /// quality and shading must be the same. The view that was computed must look the same, or be one frame earlier
+    /// while playback goes on to `next`.
     pub(super) fn take(
         &mut self,
         serial: u64,

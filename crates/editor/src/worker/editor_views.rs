@@ -7,7 +7,7 @@ use impasto_scene::motion::{self, CameraPose};
 use super::ViewJob;
 use super::mailbox::Order;
 
-/// The cameras and the margin for which the views of a job need particles.
+/// Where the views of a job look from, and how far they reach. Large surfaces get most of their particles there.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct EditorViews {
     /// Cameras besides the shot's, each with a frame.
@@ -29,7 +29,6 @@ pub(super) fn is_moving(order: &Order) -> bool {
 }
 
 impl EditorViews {
-    /// The views of a job.
     pub(super) fn of(order: &Order) -> Self {
         let (scene, views) = (&order.job.loaded.scene, &order.job.views);
         let free = views.iter().filter(|view| is_free(view, scene));
@@ -46,7 +45,6 @@ impl EditorViews {
         }
     }
 
-    /// What a painting is prepared for.
     pub(super) fn seen_from(&self) -> SeenFrom<'_> {
         SeenFrom::Shot { also: &self.free, margin: self.margin }
     }

@@ -48,12 +48,10 @@ pub(super) struct Finished {
     pub(super) strokes: (usize, Vec<usize>),
 }
 
-/// The size of a view's picture, in bytes.
 fn bytes_of(view: &ViewJob) -> usize {
     view.size_px.iter().map(|&side| side as usize).product::<usize>() * 4
 }
 
-/// A kept picture, in memory or in the file.
 struct Kept {
     view: ViewJob,
     serial: u64,
@@ -105,7 +103,6 @@ impl Film {
         }
     }
 
-    /// Whether the picture of a view is kept.
     pub(super) fn has(&self, view: &ViewJob, serial: u64) -> bool {
         self.find(view, serial).is_some()
     }
@@ -122,8 +119,9 @@ impl Film {
         frames
     }
 
-    /// Keeps a picture: in memory up to `Room::easy_bytes`, dropping pictures that are not `wanted`; else in the file;
-    /// else in memory up to `Room::most_bytes`. Returns false if there is no room for it at all.
+    /// Keeps a picture. It goes into memory up to `Room::easy_bytes`, where pictures that are not `wanted` make way. If
+    /// there is no room, it goes into the file, else into memory up to `Room::most_bytes`. Returns false if there is no
+    /// room at all.
     pub(super) fn keep(&mut self, finished: Finished, wanted: &[ViewJob]) -> bool {
         self.keep_within(finished, wanted, Room::now(), film_folder().as_deref())
     }

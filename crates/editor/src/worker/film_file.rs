@@ -18,7 +18,6 @@ pub(super) struct FilmFile {
     file: File,
     used: u64,
     most_bytes: u64,
-    /// At least this many bytes stay free on the file's disk.
     left_free: u64,
 }
 
@@ -58,7 +57,6 @@ impl FilmFile {
         Some(ColorImage::from_rgba_premultiplied(size_px, &bytes))
     }
 
-    /// How many bytes of pictures it holds.
     #[cfg(test)]
     pub(super) fn used_bytes(&self) -> u64 {
         self.used
@@ -70,7 +68,6 @@ impl FilmFile {
         Self { most_bytes, left_free, ..Self::new(folder).unwrap() }
     }
 
-    /// Drops all pictures.
     pub(super) fn clear(&mut self) {
         self.used = 0;
         // If the file cannot be shortened, it is overwritten from its beginning.

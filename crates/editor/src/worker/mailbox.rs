@@ -16,7 +16,6 @@ use super::{Job, Later, Picture, Report};
 /// At most this many failures wait to be polled; further ones are dropped.
 const MOST_FAILURES: usize = 8;
 
-/// Shared by the window and the painting thread.
 #[derive(Default)]
 pub(super) struct Mailbox {
     orders: Mutex<Orders>,

@@ -72,7 +72,6 @@ mod preparing;
 #[cfg(test)]
 mod tests;
 
-/// A scene that was prepared.
 struct Prepared {
     painting: Painting,
     serial: u64,
@@ -109,8 +108,9 @@ struct Drawn {
     strokes: (usize, Vec<usize>),
     /// What the next draft may recall of this picture; `None` if it has no strokes.
     recall: Option<Arc<Recall>>,
-    /// Counts the pictures drawn of the view. [`Recall::of`] uses the count to pick the absent strokes that the next
-    /// draft computes. Each view has its own count: if two views shared one, each would only get every other number.
+    /// Counts the pictures drawn of the view. The next draft tries some of the strokes that are absent from this one;
+    /// [`Recall::of`] picks them by the count. Each view has its own count: if two views shared one, each would only
+    /// get every other number.
     turn: u32,
 }
 
@@ -206,8 +206,8 @@ impl PaintWorker {
         self.finish_film(&painting, order, mailbox, tell);
     }
 
-    /// Shows the film's picture of a view, if there is one and the view is not shown exactly already. The film has no
-    /// icons of lights. When playback stops, its picture is shown until one with the icons is drawn.
+    /// Shows the film's picture of a view, if there is one and the view is not shown exactly already. The pictures of a
+    /// film have no icons of lights. When playback stops, the film's picture stays until one with icons is drawn.
     fn show_finished(&mut self, order: &Order, index: usize, tell: Tell<'_>) {
         let (view, serial) = (&order.job.views[index], order.job.serial);
         if self.shows_exactly(order, index) {

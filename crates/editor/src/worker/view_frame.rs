@@ -8,7 +8,6 @@ use impasto_painting::{Frame, FrameOptions, Painting, Quality, Recall, StrokeCol
 
 use super::ViewJob;
 
-/// How a view is drawn.
 pub(super) struct DrawOptions<'a> {
     /// Width and height of the picture in pixels; smaller than the view's in a draft.
     pub(super) size_px: [u32; 2],
@@ -18,7 +17,6 @@ pub(super) struct DrawOptions<'a> {
     pub(super) give_up: &'a dyn Fn() -> bool,
 }
 
-/// The options in the form that the painting takes.
 pub(super) fn frame_options(view: &ViewJob, draw: &DrawOptions<'_>) -> FrameOptions {
     let share = draw.size_px[1] as f32 / view.size_px[1] as f32;
     FrameOptions {

@@ -121,7 +121,6 @@ fn a_conflict_names_the_other_command_and_is_taken_over_or_left() {
     click(&mut harness, "Take it over");
     assert_eq!(does(&harness, "K", Scope::Paint), Some(Action::Comb));
     assert_eq!(does(&harness, "K", Scope::Arrange), None);
-    // All keys are reset.
     click(&mut harness, "Reset all keys");
     assert_ne!(harness.state().keymap, Keymap::default(), "no key is reset before a question is answered");
     click(&mut harness, "Cancel the change");

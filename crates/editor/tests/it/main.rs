@@ -1,5 +1,5 @@
-//! Tests of the panels: what they ask for, and how they look. Controls are found by name. All are one program, since
-//! each further program would have to be linked.
+//! Tests of the editor's window: what its parts ask for, and how they look. Controls are found by name. All tests are
+//! one program, because each further program would have to be linked as well.
 
 mod column;
 mod frame_viewer;

@@ -91,7 +91,8 @@ impl Page {
         }
         self.is_open &= self.is_open && problems::problems(ui, &shown, &mut asks);
         CentralPanel::default().frame(egui::Frame::new().fill(Tokens::of(ui).app)).show(ui, |_| {});
-        // The window hands keys to the editor before it shows panels. This page hands over only Ctrl Enter, after them.
+        // The window hands keys to the editor before it shows its panels. This page hands over only Ctrl Enter, and
+        // does so after the panels.
         let typing = ui.ctx().text_edit_focused();
         if ui.input(|input| input.modifiers.command && input.key_pressed(Key::Enter)) {
             let view = View { camera: self.editor.camera(), size_px: glam::DVec2::ONE };

@@ -108,7 +108,7 @@ impl Page {
 }
 
 fn harness(page: Page) -> Harness<'static, Page> {
-    // This runs more than one pass, as chips need: they know their size from the second on.
+    // This runs more than one pass. Chips need that, because they know their size only from the second pass on.
     headless::harness(vec2(600.0, 420.0), Theme::Dark, page, |ui, page| page.ui(ui))
 }
 

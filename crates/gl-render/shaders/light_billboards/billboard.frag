@@ -7,7 +7,7 @@ flat in vec4 last_two;
 
 uniform sampler2DArray icons;    // r: ink, g: the disc under the ink
 uniform sampler2D depth_and_id;
-uniform float icon;              // layer of the texture; below 0 a ring as thin as a line
+uniform float icon;              // layer of `icons`; below 0: a thin ring instead
 uniform float px;                // a pixel as a share of half the quad's side
 uniform vec4 ink;                // encoded sRGB, straight alpha
 uniform float depth;             // depth of the icon along the gaze

@@ -7,7 +7,7 @@ uniform vec3 corner_11;
 uniform vec3 camera_right;       // unit, world space
 uniform vec3 camera_up;
 uniform mat4 clip_from_world;
-uniform float icon;              // layer of the texture; below 0 a ring
+uniform float icon;              // layer of the icon texture; below 0: a ring
 uniform float px;                // a pixel as a share of half the quad's side
 uniform float pieces;            // how many straight pieces make the ring
 

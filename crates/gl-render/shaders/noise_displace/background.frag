@@ -1,4 +1,4 @@
-// Lays the background under the bodies that noise colours; it shows where no other body is behind them.
+// Lays the background under bodies that noise colours. It shows through them where no other body is behind.
 uniform vec4 background;
 uniform sampler2D depth_and_id;
 

@@ -1,5 +1,6 @@
-// Layers of one texture that move against each other, multiplied: T = Π X·Y, where X and Y are a layer's two lookups,
-// moved along x and along y. Then T to the power `exponent`, then the tint.
+// Colours a body by noise. Several layers of one texture move against each other and are multiplied: T = Π X·Y, where X
+// and Y are two lookups per layer, one moved along x, the other along y. The colour is T to the power `exponent`, times
+// the tint.
 in vec2 texture_at;
 
 uniform sampler2D layer_noise;   // repeats
@@ -8,7 +9,7 @@ uniform vec2 tiling;
 uniform vec2 tile_offset;
 uniform vec2 travelled;          // how far layers moved, texture lengths mod 1; y is 0 unless they go round a circle
 uniform float speed;
-uniform float first_way;         // 1: the first layer goes forward
+uniform float first_way;         // way of the first layer: 1 forward, -1 backward
 uniform float exponent;
 uniform vec4 tint;               // linear, may be brighter than 1; A the opacity
 uniform float alpha_is_grey;

@@ -1,4 +1,5 @@
-// Lights every pixel of the surfaces. A style may ask for a part of the strong highlights apart from the colour.
+// Lights every pixel of the surfaces. For styles that want it, a part of each strong highlight goes to an output of its
+// own.
 #include "shared/lens.glsl"
 #ifndef DRAFT
 #define SHADOW_OF_SAMPLES
@@ -13,7 +14,7 @@ uniform sampler2D fine;          // depth and body id of every sample
 uniform sampler2D root_albedo;   // square root of the colour of every sample, and `is_lit`
 uniform int samples;             // per pixel along each axis; 1: the pixel itself is its only sample
 #endif
-uniform float highlight_in_color; // the share of a strong highlight that `color` has, 0..1
+uniform float highlight_in_color; // share of a strong highlight that stays in `color`, 0..1
 
 layout(location = 0) out vec4 color;
 layout(location = 1) out vec4 glint;     // how strong the highlight is, 0..1
@@ -24,9 +25,9 @@ layout(location = 2) out vec4 highlight; // what `color` leaves out, display-lin
 const vec2 STRONG = vec2(0.15, 0.40);
 
 #ifndef DRAFT
-// How much arrives of the light that casts shadows. Where the surface is seen flat, it is a mean over the samples that
-// show the body: a pixel covers more of the surface there than a texel of the shadow map, and a single place would be
-// lit or not by chance.
+// The share of the shadow-casting light that arrives, 0..1. Seen at a flat angle, a pixel covers more of the surface
+// than a texel of the shadow map, and a single point would be lit or not by chance. There the result is a mean over the
+// samples that show the body.
 float shadow_at(LitPoint at) {
     if (samples == 1) return shadow_of_point(at);
     float id = texelFetch(depth_and_id, ivec2(gl_FragCoord.xy), 0).y;

@@ -6,7 +6,7 @@ uniform sampler2D normal;        // and gloss
 uniform sampler2D depth_and_id;
 uniform sampler2D openness;      // ambient occlusion, 1 in the open; half the size
 
-layout(location = 0) out vec4 light_and_shadow;  // light that arrives; how much arrives of the light that casts shadows
+layout(location = 0) out vec4 light_and_shadow;  // rgb: arriving light; a: share of the shadow-casting light
 layout(location = 1) out vec4 open;
 
 void main() {
@@ -18,7 +18,7 @@ void main() {
     light_and_shadow = vec4(1.0);
     if (texelFetch(albedo_and_lit, at, 0).a == 0.0) return;
     vec4 normal_and_gloss = texelFetch(normal, at, 0);
-    // Noise colours this surface: no light falls on it.
+    // A surface without a normal is coloured by noise. No light falls on it.
     if (dot(normal_and_gloss.xyz, normal_and_gloss.xyz) < 0.25) return;
     LitPoint point;
     point.position = world_from_px(gl_FragCoord.xy, here.x);

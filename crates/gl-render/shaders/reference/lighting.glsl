@@ -1,8 +1,8 @@
-// Lighting: suns (the first casts shadows), point lights (without a sun, the brightest casts shadows), ambient light
-// from above and below; then a soft shoulder.
+// Lighting by suns, point lights and ambient light from above and below, then a soft shoulder. The first sun casts
+// shadows; without a sun, the brightest point light does.
 
-// A column for each light (`column` in lighting.rs): direction to a sun (w 0) or place of a point light (w 1); radiance
-// and the cone's slope; the cone's axis and offset.
+// A column per light, made by `column` in lighting.rs. Row 0: direction to a sun (w 0) or place of a point light (w 1).
+// Row 1: radiance; w: slope of the cone. Row 2: axis of the cone; w: its offset.
 uniform sampler2D lights;
 uniform int light_count;
 uniform int shadowed_light;      // index of the light that casts shadows, or -1
@@ -18,13 +18,13 @@ float away_from_lamp(vec3 position) {
     return (shadow_from_world * vec4(position, 1.0)).w;
 }
 
-// How much arrives of the light that casts shadows, 0..1: a mean over a grid of `side` x `side` places on the map, up
+// The share of the shadow-casting light that arrives, 0..1: a mean over a grid of `side` x `side` places on the map, up
 // to `spread` texels away.
 float sunlit(vec3 position, vec3 normal, int side, float spread) {
     float away = away_from_lamp(position);
     if (away <= 0.0) return 1.0;
-    // An offset along the normal keeps the surface from shadowing itself: the more slanted the light, the farther the
-    // point then is from the surface, measured along the light's ray.
+    // An offset along the normal keeps the surface from shadowing itself. Measured along the ray of the light, the
+    // offset grows as the light becomes more slanted.
     vec3 from = position + normal * (2.5 * shadow_texel * away);
     vec4 clip = shadow_from_world * vec4(from, 1.0);
     vec3 at = clip.xyz / clip.w * 0.5 + 0.5;
@@ -60,19 +60,18 @@ struct LitPoint {
     float gloss;                 // 0 matt .. 1 glazed
 };
 
-// The light on a point.
 struct Light {
     vec3 diffuse;                // what arrives from everywhere; a matt surface reflects this times its albedo
     vec3 highlight;              // what a glazed surface reflects in addition
     float glint;                 // how strong the highlight is: 0 none; near lights, or many, give more than 1
-    float shadowed;              // how much arrives of the light that casts shadows, 0..1
+    float shadowed;              // share of the shadow-casting light that arrives, 0..1
 };
 
 float shadow_of_point(LitPoint at) {
     return sunlit(at.position, at.normal, 3, 1.9);
 }
 
-// How much arrives at a point of the light that casts shadows. `light.frag` has its own version, a mean over the
+// The share of the shadow-casting light that arrives at a point. `light.frag` has its own version, a mean over the
 // samples of the pixel.
 #ifdef SHADOW_OF_SAMPLES
 float shadow_at(LitPoint at);

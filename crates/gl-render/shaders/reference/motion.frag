@@ -1,5 +1,5 @@
-// Where the surface point of each pixel is in another picture: offset in px (Y up), depth along the gaze there, body.
-// Both positions are interpolated in the same way, so that those of a body that stands still are equal.
+// For each pixel, where its surface point is in another picture: offset in px (Y up), depth along the gaze there, body.
+// Both positions are interpolated in the same way, so they are equal for a body that stands still.
 #include "shared/cutout.glsl"
 
 in vec4 clip_now;
@@ -15,7 +15,8 @@ void main() {
     cut_out();
     // A point behind the eye has no place in the picture: its depth is 0.
     bool in_front = clip_then.w > 0.0;
-    // Graphics cards round the two quotients differently, because they fuse one of them with the subtraction.
+    // Without this check, a body that stands still would get a tiny offset: graphics cards fuse one of the two
+    // quotients with the subtraction, and so round the two differently.
     bool stands_still = clip_then == clip_now;
     vec2 offset = stands_still ? vec2(0.0) : clip_then.xy / clip_then.w - clip_now.xy / clip_now.w;
     motion = vec4(in_front ? offset * 0.5 * size_px : vec2(0.0), in_front ? depth_then : 0.0, body_id);

@@ -1,5 +1,5 @@
-// Ambient occlusion at half the picture's size: 1 where the surroundings are open, less where things touch. The taps
-// are the same under quarter turns and never random, so that nothing shimmers.
+// Ambient occlusion at half the picture's size: 1 where the surroundings are open, less where things touch. The pattern
+// of taps is symmetric under quarter turns and never random, so nothing shimmers.
 #include "shared/lens.glsl"
 uniform sampler2D normal;
 uniform sampler2D depth_and_id;
@@ -7,7 +7,7 @@ uniform mat4 view_from_world;
 
 out vec4 openness;
 
-const float RADIUS = 0.055;     // of the picture's height
+const float RADIUS = 0.055;     // share of the picture's height
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy) * 2;

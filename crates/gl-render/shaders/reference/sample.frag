@@ -12,7 +12,7 @@ uniform float body_id;
 
 layout(location = 0) out vec2 depth_and_id;
 // The square root of the colour, so that 8 bits are enough for darks too.
-layout(location = 1) out vec4 root_albedo;  // dropped where no target takes it
+layout(location = 1) out vec4 root_albedo;  // dropped if there is no target for it
 
 void main() {
     cut_out();

@@ -10,14 +10,14 @@ uniform float px_scale;              // output pixels per pixel of the scene's o
 uniform mat4 view_from_world;
 uniform int block_px;                // side of a block
 
-out vec4 detail;                     // change of colour or turn, outline 0..1, highlight 0..1, body id + half its share
+out vec4 detail;                     // change or turn, outline, highlight; a: body id + 0.499 × its share of the block
 
 // Change of Oklab per pixel of the scene's own size: no detail below the first, full detail above the second.
 const vec2 CHANGE = vec2(0.004, 0.034);
 // The weight of an edge of colour. An edge is narrow, so it counts more than a turn, which goes on for longer.
 const float EDGE = 1.6;
-// How fast the surface turns, summed over x and y, radians per pixel of the scene's own size (0.02 in the middle of a
-// ball of 100 px radius): no detail below the first, full detail above the second.
+// How fast the surface turns, summed over x and y, radians per pixel of the scene's own size: no detail below the
+// first, full detail above the second. In the middle of a ball of 100 px radius it is 0.02.
 const vec2 TURN = vec2(0.012, 0.050);
 // A leap of the depth within a body, as a share of the depth: no outline below the first, an outline above the second.
 const vec2 LEAP = vec2(0.01, 0.03);
@@ -25,7 +25,8 @@ const vec2 LEAP = vec2(0.01, 0.03);
 void main() {
     ivec2 last = textureSize(depth_and_id, 0) - 1;
     ivec2 block = ivec2(gl_FragCoord.xy) * block_px;
-    // A block belongs to its foremost body, weighted by the body's share of sixteen taps: thin bodies fade in and out.
+    // A block belongs to its foremost body, weighted by that body's share of sixteen taps, so that thin bodies fade in
+    // and out.
     ivec2 taps[5];
     vec2 front = vec2(0.0);
     for (int index = 0; index < 5; index++) {
@@ -71,7 +72,7 @@ void main() {
         }
         float change = sqrt(dot(slopes[0], slopes[0]) + dot(slopes[1], slopes[1]));
         float of_color = clamp((change - CHANGE.x) / (CHANGE.y - CHANGE.x), 0.0, 1.0);
-        // Near the outline every surface turns fast per pixel: what counts is how fast it turns per length of surface.
+        // Near its outline every surface turns fast per pixel, so the turn is converted to turn per length of surface.
         turn *= clamp((mat3(view_from_world) * facing).z, 0.0, 1.0);
         float of_form = clamp((turn - TURN.x) / (TURN.y - TURN.x), 0.0, 1.0);
         detail.r += max(EDGE * of_color, of_form);

@@ -8,7 +8,7 @@ uniform sampler2D normal;            // of the surface, world space, towards the
 uniform sampler2D picture;           // premultiplied, display-linear
 uniform sampler2D reference_color;   // alpha 1 where a body is
 #ifndef DRAFT
-uniform sampler2D surface;           // depth, body id and half the share of the pixel that shows something else
+uniform sampler2D surface;           // x: depth; y: body id + half the share of the pixel that shows something else
 uniform sampler2D height;            // of the paint, in brush thicknesses, and how wet it is
 uniform sampler2D soft_height;       // half the size
 uniform sampler2D canvas;            // one tile: height, and its slope in x and in y, each stored around 0.5
@@ -18,7 +18,7 @@ uniform vec2 canvas_origin;          // canvas tiles at the picture's lower left
 #endif
 uniform vec4 background;             // premultiplied, display-linear
 #ifndef DRAFT
-uniform vec4 tone;                   // of the ground under paint, and how far it hides a wash of the body's colour
+uniform vec4 tone;                   // rgb: ground under the paint; a: how far it hides a wash of the body's colour
 #endif
 uniform float wash;                  // how far the toned ground under a body's paint hides the background, 0..1
 uniform vec4 finish;                 // relief, weave, varnish, output pixels per pixel of the scene's own size
@@ -45,12 +45,12 @@ const float MELTED_RELIEF = 0.45;
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 
 #ifndef DRAFT
-// The cosines between which strokes fade near an outline until few are left. A round body is seen at so flat an angle
-// only within less than a pixel of its outline. Ground that runs to the horizon is, over a wide strip.
+// Between these cosines, strokes fade towards an outline until few are left. On a round body such flat angles lie
+// within less than a pixel of the outline. On ground that runs to the horizon they fill a wide strip.
 const vec2 FLAT = vec2(0.015, 0.08);
 
-// How flat the angle is at which a surface is seen: 1 where its own colour must replace the strokes that faded, 0 where
-// none has faded.
+// How flat the angle is at which a surface is seen: 0 where no strokes have faded, 1 where the surface's own colour
+// must replace those that have.
 float flatness(ivec2 at) {
     vec3 facing = texelFetch(normal, at, 0).rgb;
     if (facing == vec3(0.0)) return 0.0;

@@ -1,5 +1,4 @@
-// The layers of paint, numbered as in `LayerKind`: in the order in which they are laid on, unless a scene states
-// another order.
+// The layers of paint, numbered as in `LayerKind`. They are laid in this order, unless a scene states another.
 const int UNDERPAINTING = 0;
 const int BODY = 1;
 const int FORM = 2;

@@ -1,7 +1,7 @@
 // How a stroke's colour is mixed from the colour under it. Colours are Oklab. A jitter, temperature or grading of 0
 // changes nothing.
 #ifdef PALETTES
-uniform sampler2D palettes;      // a row each: pigments in Oklab, w how far colours keep to them, 0 past the last
+uniform sampler2D palettes;      // a row per palette: pigments in Oklab; w: how far colours keep to it, 0 past the end
 
 const uint ANY_COLOR = 255u;
 #endif

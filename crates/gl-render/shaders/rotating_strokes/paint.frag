@@ -1,4 +1,5 @@
-// Paint in the shape of the brush mark, on the stroke's own body and a little past it: lays colour and height at once.
+// Lays the colour and the height of a stroke, in the shape of its brush mark, on the stroke's own body and a little
+// past it.
 #ifdef SHAPED
 #include "shared/stroke_shape.glsl"
 #endif
@@ -21,7 +22,7 @@ flat in float leaning;
 #endif
 
 uniform sampler2DArray brush_marks; // paint, height, tint
-uniform sampler2D surface;       // depth, body id and half the share that shows something else
+uniform sampler2D surface;       // x: depth; y: body id + half the share that shows something else
 uniform float units_per_px_at_1; // world units per pixel at depth 1; at any depth if rays are parallel
 uniform float orthographic;
 
@@ -31,8 +32,8 @@ layout(location = 1) out vec4 height; // and how wet the paint is
 #endif
 
 #ifdef STORES
-// Every fragment is noted: pixel, counted from the lower left; stroke and alpha; colour. `fragments.rs` reads these
-// notes.
+// Notes every fragment in three words: pixel (counted from the lower left), stroke and alpha, colour. `fragments.rs`
+// reads them.
 flat in uint number;
 layout(std430, binding = 0) buffer Fragments {
     uint count;
@@ -53,7 +54,7 @@ void note(vec3 color, float alpha) {
 }
 #endif
 
-// As in `core::brush`.
+// FILL and HEIGHT_SCALE as in `impasto_core::brush`, FREE as in `Stroke::FREE`, STEEPNESS as in `paint.vert`.
 const float FILL = 0.84;
 const float HEIGHT_SCALE = 1.5;
 const float FREE = 1e6;
@@ -74,8 +75,8 @@ float body_at(vec2 at_px) {
     return floor(texelFetch(surface, texel, 0).y);
 }
 
-// How much paint lies in a pixel past the stroke's own body, where paint reaches `reach_px` past that body. The reach
-// differs from hair to hair, by the mark's tint, so the edge is ragged.
+// How much paint lies in a pixel outside the stroke's own body. Paint reaches `reach_px` past that body. The reach
+// varies from hair to hair with the mark's tint, so the edge is ragged.
 float past_body(vec2 here, float reach_px) {
     float depth = own_depth();
     float bias = 2.0 * units_per_px_at_1 * mix(depth, 1.0, orthographic);
@@ -96,7 +97,8 @@ float past_body(vec2 here, float reach_px) {
     return on_own;
 }
 
-// How much paint lies here on the stroke's own body: all near the stroke's plane, none far off it, as past a crease.
+// How much paint lies here on the stroke's own body: all of it near the stroke's plane, none far off the plane, as past
+// a crease.
 float on_plane(float depth) {
     float px_per_unit = 1.0 / (units_per_px_at_1 * mix(own_depth(), 1.0, orthographic));
     float off_px = (depth - own_depth()) * px_per_unit;
@@ -132,7 +134,7 @@ void main() {
     vec2 at = vec2(u, 0.5 + (quad_at.y - 0.5) * body.w);
     at.y -= mark.w * ((u - 0.5) * (u - 0.5) - 0.06) * 0.5 * FILL;
 #ifdef DRAFT
-    // One level of detail alone is read faster than two.
+    // Reading one mipmap level is faster than reading two.
     level = floor(level + 0.5);
 #endif
     vec3 texel = textureLod(brush_marks, vec3(at, mark.x), level).rgb;

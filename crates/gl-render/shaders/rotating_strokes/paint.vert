@@ -1,12 +1,12 @@
-// One corner of a stroke, which is a quad flat on the screen and measured in pixels. With LINE, a vertex of a touch's
-// strip of triangles.
+// Places one corner of a stroke, a quad flat on the screen and measured in pixels. With LINE, places a vertex of a line
+// that was painted by hand (layer `Touches`), drawn as a strip of triangles.
 #include "shared/oklab.glsl"
 #include "rotating_strokes/layers.glsl"
 #ifdef SHAPED
 #include "shared/stroke_shape.glsl"
 #endif
 layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
-layout(location = 1) in vec4 size;           // length and width in px, facing fade, ln(supply / rank)
+layout(location = 1) in vec4 size;           // length and width in px, facing fade, supply_ln (see `Stroke`)
 layout(location = 2) in uvec4 marks;         // random bits, body id, albedo, mark
 layout(location = 3) in uvec2 bytes;         // paint, mixing
 layout(location = 4) in vec4 normal_and_bow; // normal in world space; bow of the mark in half widths
@@ -19,8 +19,8 @@ layout(location = 8) in vec2 shape;          // taper, bend in radians
 #ifdef LINE
 layout(location = 9) in vec4 corner_of_line; // corner in px; its place along and across the mark
 layout(location = 10) in vec4 middle_of_line; // px from the line's middle to the corner; depth, presence of the middle
-// Depth of the plane less that of the middle, and how far paint may lie off the plane, both in px; how dry the brush
-// runs.
+// x: depth of the plane under the vertex minus that of the line's middle, px; y: how far paint may lie off the plane,
+// px; z: how dry the brush has run.
 layout(location = 11) in vec3 lean;
 #endif
 
@@ -43,18 +43,18 @@ flat out uint number;
 
 out vec2 mark_at;                // place on the mark, 0..1; on a shaped stroke, px along and across it
 out vec2 from_center_px;
-flat out vec4 paint;             // colour, and the paint of the mark below which nothing is laid
+flat out vec4 paint;             // rgb: colour; a: where the mark has less paint than this, nothing is laid
 flat out vec3 half_mixed;        // other paint in the brush: added to the colour, times the mark's tint
 flat out vec4 picked_up;         // colour from below and how much of it
 flat out vec4 mark;              // number of the mark, level of detail, half the width of its soft edge, bow
 flat out vec4 body;              // opacity, thickness, overrun in px, sign of the flip
 flat out vec4 own;               // depth, id of the body, share of the stroke's length that shows, how wet its paint is
-flat out vec4 plane;             // of the stroke's plane, in px: slope of its depth along x and y, depth at the middle
-                                 // of the quad less the stroke's depth, how far paint may lie off the plane
+flat out vec4 plane;             // the stroke's plane, in px: slope of its depth along x and along y, its depth at the
+                                 // middle of the quad minus the stroke's depth, how far paint may lie off it
 #ifdef LINE
 out float run_dry;               // how much more paint the mark needs to show
-out vec4 line;                   // depth; presence; depth of the plane less the depth, px; how far paint may lie off
-                                 // the plane, px
+out vec4 line;                   // depth of the line's middle; presence; depth of the plane minus that of the middle,
+                                 // px; how far paint may lie off the plane, px
 #endif
 #ifdef SHAPED
 flat out vec4 form;              // half the quad's length (0: no shape) and width in px, taper, bend per px
@@ -69,10 +69,10 @@ const float WET_PICKUP = 0.25;
 const float BYTE = 1.0 / 255.0;
 
 #ifndef DRAFT
-// The mean colour below the first half of the stroke (not premultiplied), at twenty places, and how much of it is
-// picked up. Only places on the stroke's own body count, since paint past its border belongs to what lies beside it.
-// The fewer places count, the less is picked up; where hardly any paint lies, nothing. The places are far apart, so
-// that a body that passes in front of the stroke covers them one after the other, over many frames.
+// rgb: mean colour (not premultiplied) at twenty places below the first half of the stroke. a: how much of it is picked
+// up. Only places on the stroke's own body count, since paint past its border belongs to what lies beside it. The fewer
+// places count, the less is picked up; where hardly any paint lies, nothing. The places are far apart, so that a body
+// that passes in front of the stroke covers them one after the other, over many frames.
 vec4 paint_below(vec2 center_px, mat2 turn) {
     const int PLACES = 20;
     vec4 sum = vec4(0.0);
@@ -80,7 +80,6 @@ vec4 paint_below(vec2 center_px, mat2 turn) {
     for (int index = 0; index < PLACES; index++) {
         vec2 place_at = vec2(-0.3, 0.0) + (fract(float(index + 1) * vec2(0.75487767, 0.56984029)) - 0.5) * vec2(0.4, 0.8);
         ivec2 texel = clamp(ivec2(floor(center_px + turn * (place_at * size.xy))), ivec2(0), ivec2(size_px) - 1);
-        // No colour of one body is smeared over another.
         if (texelFetch(depth_and_id, texel, 0).y != float(marks.y)) continue;
         sum += texelFetch(below, texel, 0);
         share += 1.0 / float(PLACES);
@@ -90,7 +89,7 @@ vec4 paint_below(vec2 center_px, mat2 turn) {
 }
 #endif
 
-// As in `core::brush` and `marks::bounds`.
+// As in `impasto_core::brush` and `marks::bounds`.
 const vec2 MARK_SIZE = vec2(256.0, 96.0);
 const float FILL = 0.84;
 const int STEPS = 32;
@@ -148,7 +147,7 @@ void main() {
     float thickness = float((bytes.x >> 8) & 255u) / 50.0;
     float pickup = float((bytes.x >> 16) & 255u) * BYTE;
     float dryness = float(bytes.x >> 24) * BYTE;
-    // A drier brush leaves less of its mark, and so does one that fades.
+    // A drier brush leaves less of its mark, and so does a fading stroke.
     float share = 0.98 * (1.0 - dryness) * mix(0.5, 1.0, there);
     // A fading stroke shrinks from its ends to a quarter of its length, then fades as a whole.
     float extent = max(there, 0.25);

@@ -8,8 +8,8 @@ uniform float px_scale;          // output pixels per pixel of the scene's own s
 uniform mat4 view_from_world;
 const int kind = LAYER;          // the layer of paint that this program is for
 layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
-layout(location = 1) in vec4 size;           // length and width in px, facing fade, ln(supply / rank)
-layout(location = 2) in uvec4 marks;         // random bits, body id, albedo (sRGB bytes), mark; A 0: unlit, 128: fixed
+layout(location = 1) in vec4 size;           // length and width in px, facing fade, supply_ln (see `Stroke`)
+layout(location = 2) in uvec4 marks;         // random bits, body id, albedo (sRGB bytes; A 0: unlit, 128: fixed), mark
 layout(location = 3) in uvec2 bytes;         // paint, mixing
 layout(location = 4) in vec4 normal_and_bow; // normal in world space; bow of the mark in half widths
 layout(location = 5) in vec4 reach;          // overrun in px, slow noise of hue and of edges, skew
@@ -32,18 +32,18 @@ const float LEAST = 0.004;
 // or dark by chance. The less thin the face, the more the picture's colour counts.
 const float THIN = 0.6;
 
-// Standard deviation, across the stroke, of the Gaussian over which colours are averaged: for each layer in widths of
-// the stroke, but at least 1.4 pixels of the picture (down to LEAST_BLUR_PX in pictures below the scene's own size),
-// since single pixels change by chance.
+// Colours are averaged with a Gaussian. BLUR: its standard deviation across the stroke, in widths of the stroke, for
+// each layer. It is at least 1.4 pixels of the picture, since single pixels change by chance. In pictures below the
+// scene's own size this minimum shrinks down to LEAST_BLUR_PX.
 const float LEAST_BLUR_PX = 1.1;
 const float BLUR[8] = float[8](0.33, 0.20, 0.20, 0.22, 0.30, 0.60, 0.25, 0.25);
 
 // How far highlights are spread over their body, as in `RotatingStrokes`, pixels of the scene's own size.
 const float SPREAD_PX = 16.0;
-// Strokes of a highlight gather round its peak. GATHERED: a stroke's distance from the peak, as a share of its
-// particle's distance. A stroke fades as the highlight at its particle falls below NEAR_PEAK of the peak, and over the
-// second half of GATHER_PX (pixels of the scene's own size) from the peak. So none pops as its particle comes near or
-// goes.
+// Strokes of a highlight gather round its peak. GATHERED: a stroke's distance from the peak, as a share of the distance
+// of its particle (the point of the surface that carries it). A stroke fades as the highlight at its particle falls
+// below NEAR_PEAK of the peak, and over the second half of GATHER_PX (pixels of the scene's own size) from the peak. So
+// none pops as its particle comes near or goes.
 const float GATHERED = 0.3;
 const float GATHER_PX = 60.0;
 const float NEAR_PEAK = 0.7;
@@ -71,7 +71,7 @@ float hidden_at(vec2 offset_px, float bias, bool by_own) {
     return smoothstep(bias, 3.0 * bias, plane_depth(tap_px - place.xy) - there.x);
 }
 
-// The same, interpolated between the four nearest pixels, so that something that moves in front hides the place
+// As `hidden_at`, interpolated between the four nearest pixels, so that something that moves in front hides the place
 // gradually.
 float hidden_between(vec2 offset_px, float bias, bool by_own) {
 #ifdef DRAFT
@@ -128,8 +128,9 @@ float seen(mat2 turn) {
 #ifdef DRAFT
     float by_others = hidden_by_others(turn, bias, GRID, vec2(1.0));
 #else
-    // With the coarse grid alone, each tap would be a visible step as a stroke fades. But where all its taps agree,
-    // those on the stroke's rim too, the fine grid would find only things narrower than half a stroke.
+    // While a stroke fades, each tap of the coarse grid would be a visible step, so the fine grid is used. Where all
+    // coarse taps agree, those on the stroke's rim too, it is skipped: it would find only things narrower than half a
+    // stroke.
     float by_others = hidden_by_others(turn, bias, GRID, vec2(GRID) / vec2(GRID - 1));
     if (by_others > 0.0 && by_others < 1.0) by_others = hidden_by_others(turn, bias, FINE_GRID, vec2(1.0));
 #endif
@@ -157,12 +158,12 @@ vec3 color_of_own() {
     return lit(albedo, point);
 }
 
-// Below a presence of 0.1 only a few scattered hairs are left: not painted.
+// At a presence below 0.1 only a few scattered hairs would be left, so nothing is painted.
 float without_last(float there) {
     return max(there - 0.1, 0.0) / 0.9;
 }
 
-// The stroke's presence by its rank, as in `core::presence`.
+// The stroke's presence by its rank, as in `impasto_core::presence`.
 float presence(float supply_ln) {
     return without_last(smoothstep(0.0, 1.0, 0.5333823 + supply_ln / 1.4)) * size.z;
 }
@@ -345,7 +346,8 @@ void main() {
         moved = to_end_px(outline);
         turn = mat2(cos(turned), sin(turned), -sin(turned), cos(turned)) * turn;
     }
-    // What hides a touch is found pixel by pixel, in the paint pass; what hides a contour line, in `outline_near`.
+    // What hides a touch (a line painted by hand) is found pixel by pixel, in the paint pass; what hides a contour
+    // line, in `outline_near`.
     if (there > LEAST && kind != CONTOUR && kind != TOUCHES) there *= seen(turn);
     if (there <= LEAST) return;
 
@@ -358,7 +360,8 @@ void main() {
     // surrounding.
     blur_px *= kind == LIGHTS ? 1.0 : 1.0 + 1.5 * (1.0 - free);
     vec4 found = own_color(at_px, own.y, turn * blur_px, free);
-    // Only the picture has highlights, not the stroke's own lit albedo. On thin parts single pixels glint by chance.
+    // Highlights are in the picture only, not in the stroke's own lit albedo. On thin parts single pixels glint by
+    // chance, so these strokes fade there.
     if (kind == LIGHTS) there *= found.w * (1.0 - smoothstep(0.0, THIN, thinness(place.xy, own, 1.0)));
     float thin = kind == LIGHTS ? 0.0 : smoothstep(0.0, THIN, thinness(at_px, own, free));
     float known = kind == LIGHTS ? 1.0 : found.w * (1.0 - thin);

@@ -1,14 +1,14 @@
 // What surrounds a stroke in the reference picture. Everything here changes slowly with position, so that what depends
 // on it fades and never switches.
 uniform sampler2D reference_color;
-uniform sampler2D highlight;     // what the highlights add to it, display-linear; only strokes of highlights take it
+uniform sampler2D highlight;     // what highlights add to `reference_color`, display-linear; only for kind LIGHTS
 uniform sampler2D depth_and_id;
 uniform sampler2D normal;        // of the surface, world space, towards the eye; 0 where noise colours it
-uniform sampler2D detail;        // in blocks: change of colour, outline, highlight, body id and half its share
+uniform sampler2D detail;        // in blocks: change of colour or turn, outline, highlight, body id + half its share
 uniform float block_px;          // side of a block
 
-// How far from the stroke's centre the ends of its face are looked for, to tell how thin the face is: pixels in a
-// picture of half the scene's size or less, and more in larger ones.
+// How far from the stroke's centre the ends of its face are looked for, to tell how thin the face is. In pixels of a
+// picture of half the scene's size or less; more in larger ones.
 const float AROUND_PX = 8.0;
 
 // Cosine of the angle between a pixel's normal and the stroke's: below the first the pixel shows another face of the

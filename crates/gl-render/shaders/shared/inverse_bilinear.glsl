@@ -1,5 +1,5 @@
-// Finds where a point lies in a quad, as `core::inverse_bilinear` does. The comments there explain the formula, and say
-// for which quads it holds.
+// Finds where a point lies in a quad, as `impasto_core::inverse_bilinear` does. The comments there explain the formula,
+// and say for which quads it holds.
 float wedge(vec2 a, vec2 b) {
     return a.x * b.y - a.y * b.x;
 }

@@ -17,7 +17,7 @@ vec2 corner_of_box(vec2 corner, vec4 of, float skew) {
     return vec2(corner.x * along, across);
 }
 
-// Px along a bent stroke and off its middle line, which is an arc.
+// From a place on a bent stroke to px along the stroke and px off its middle line, which is an arc.
 vec2 straightened(vec2 at_px, float per_px) {
     if (abs(per_px) < 1e-6) return at_px;
     vec2 from_middle = vec2(per_px * at_px.x, 1.0 - per_px * at_px.y);

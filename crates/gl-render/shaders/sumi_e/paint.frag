@@ -1,4 +1,4 @@
-// Ink in the shape of the brush mark, on the stroke's own body and a little past it. The darkest ink stays; alpha
+// Lays ink in the shape of the brush mark, on the stroke's own body and a little past it. The darkest ink stays; alpha
 // counts overlaps.
 #include "shared/stroke_shape.glsl"
 in vec2 mark_at;
@@ -17,7 +17,7 @@ uniform float orthographic;
 
 out vec4 laid;
 
-// As in `core::brush`.
+// FILL as in `impasto_core::brush`, FREE as in `Stroke::FREE`.
 const float FILL = 0.84;
 const float FREE = 1e6;
 

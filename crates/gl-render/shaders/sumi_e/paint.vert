@@ -1,7 +1,7 @@
 // Places the four corners of a stroke of ink: a quad flat on the screen, with its size and its angle in pixels.
 #include "shared/stroke_shape.glsl"
 layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
-layout(location = 1) in vec4 size;           // length and width in px, facing fade, ln(supply / rank)
+layout(location = 1) in vec4 size;           // length and width in px, facing fade, supply_ln (see `Stroke`)
 layout(location = 2) in uvec4 marks;         // random bits, body id, albedo, mark
 layout(location = 3) in uvec2 bytes;         // opacity, thickness, pickup, dryness (lowest byte first); mixing
 layout(location = 4) in vec4 normal_and_bow; // normal in world space; bow of the mark in half widths
@@ -16,7 +16,7 @@ uniform float dryness;           // of the scene
 
 out vec2 mark_at;                // place on the mark, 0..1; on a shaped stroke, px along and across it
 out vec2 from_center_px;
-flat out vec4 ink;               // what it takes from white, and the paint of the mark below which no ink is laid
+flat out vec4 ink;               // rgb: what it takes from white; a: where the mark has less paint, no ink is laid
 flat out vec4 mark;              // its number, level of detail, half its soft edge, bow
 flat out vec4 body;              // opacity, how dry it ends, overrun in px, sign of the flip
 flat out vec2 own;               // depth and id of the body

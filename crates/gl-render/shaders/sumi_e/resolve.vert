@@ -1,7 +1,7 @@
 // One stroke per vertex: finds its ink, its presence, and where it lies on its body.
 #include "shared/lens.glsl"
 layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
-layout(location = 1) in vec4 size;           // length and width in px, facing fade, ln(supply / rank)
+layout(location = 1) in vec4 size;           // length and width in px, facing fade, supply_ln (see `Stroke`)
 layout(location = 2) in uvec4 marks;         // random bits, body id, albedo, mark
 layout(location = 3) in uvec2 bytes;         // paint, mixing
 layout(location = 4) in vec4 normal_and_bow; // normal in world space; bow of the mark in half widths
@@ -88,7 +88,7 @@ float shift(vec2 along) {
     return 0.25 * size.x * (forward - back);
 }
 
-// As in `core::presence`.
+// As in `impasto_core::presence`.
 float presence(float supply_ln) {
     return max(smoothstep(0.0, 1.0, 0.5333823 + supply_ln / 1.4) - 0.1, 0.0) / 0.9 * size.z;
 }

@@ -6,7 +6,6 @@ use super::opening::{OpenOptions, Opened};
 #[cfg(not(target_vendor = "apple"))]
 pub(super) use with_devices::open;
 
-/// Apple's systems have no EGL.
 #[cfg(target_vendor = "apple")]
 pub(super) fn open(_options: &OpenOptions) -> Result<Opened, String> {
     Err("this system has no EGL".to_owned())

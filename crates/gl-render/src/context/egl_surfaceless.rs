@@ -82,7 +82,6 @@ impl Functions {
     }
 }
 
-/// Opens a context on the surfaceless platform.
 pub(super) fn open(options: &OpenOptions) -> Result<Opened, String> {
     let egl = Rc::new(Functions::load()?);
     let mut config = std::ptr::null_mut();

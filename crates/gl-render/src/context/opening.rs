@@ -12,7 +12,6 @@ pub struct OpenOptions {
 /// An opened context, and the way to find its functions.
 pub(super) struct Opened {
     pub(super) platform: Box<dyn Platform>,
-    /// The device's name.
     pub(super) device: String,
 }
 

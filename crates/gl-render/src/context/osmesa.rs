@@ -37,7 +37,6 @@ const LIBRARIES: [&str; 2] = ["libOSMesa.8.dylib", "libOSMesa.dylib"];
 #[cfg(not(any(target_os = "windows", target_vendor = "apple")))]
 const LIBRARIES: [&str; 3] = ["libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"];
 
-/// Opens a context in memory.
 pub(super) fn open(_options: &OpenOptions) -> Result<Opened, String> {
     let library = first_library(&LIBRARIES)?;
     // SAFETY: the names and signatures are those of Mesa's GL/osmesa.h.

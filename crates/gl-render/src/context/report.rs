@@ -80,7 +80,7 @@ pub struct ContextReport {
     pub driver: Driver,
     /// How it was opened, in words, such as "EGL device".
     pub way: &'static str,
-    /// The device, where the driver names one.
+    /// Name of the device, or a word that stands for it, such as "memory".
     pub device: String,
     /// `GL_VENDOR`.
     pub vendor: String,
@@ -99,7 +99,7 @@ pub struct ContextReport {
 }
 
 impl ContextReport {
-    /// Whether the processor draws, by Mesa's drivers, and no graphics card.
+    /// Whether one of Mesa's software drivers draws, on the CPU.
     pub fn is_software(&self) -> bool {
         ["llvmpipe", "softpipe"].iter().any(|name| self.renderer.contains(name))
     }

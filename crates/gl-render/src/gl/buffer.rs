@@ -4,7 +4,6 @@ use glow::HasContext as _;
 
 use super::{GlError, Gpu};
 
-/// What a buffer is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum BufferUse {
     /// Written once.
@@ -15,7 +14,6 @@ pub(crate) enum BufferUse {
     ReadBack,
 }
 
-/// Bytes on the GPU.
 pub(crate) struct Buffer {
     gpu: Gpu,
     id: glow::Buffer,
@@ -76,7 +74,7 @@ impl Buffer {
         Ok(())
     }
 
-    /// Lets shaders write into it as the storage buffer of binding 0, from now on; its first 4 bytes are set to 0.
+    /// Binds it as storage buffer 0, so that shaders can write into it, and sets its first 4 bytes to 0.
     pub(crate) fn begin_storing(&self) {
         let gl = self.gpu.gl();
         // SAFETY: the context is current and has storage buffers; the caller has reserved more than 4 bytes.
@@ -87,7 +85,7 @@ impl Buffer {
         }
     }
 
-    /// Ends what [`Buffer::begin_storing`] began: what shaders have written can be read.
+    /// Ends what [`Buffer::begin_storing`] began. Afterwards, what shaders have written can be read.
     pub(crate) fn end_storing(&self) {
         let gl = self.gpu.gl();
         // SAFETY: the context is current and has storage buffers.

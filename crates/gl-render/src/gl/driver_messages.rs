@@ -41,7 +41,6 @@ impl DriverMessages {
         }
     }
 
-    /// Takes the messages so far.
     pub(crate) fn take(&self) -> Vec<String> {
         std::mem::take(&mut *self.pending.lock().unwrap_or_else(std::sync::PoisonError::into_inner))
     }

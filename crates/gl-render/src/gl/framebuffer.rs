@@ -6,7 +6,6 @@ use glow::{HasContext as _, PixelPackData};
 
 use super::{Format, GlError, Gpu, Texture};
 
-/// Textures that a pass draws into together.
 pub(crate) struct Framebuffer {
     gpu: Gpu,
     id: glow::Framebuffer,

@@ -51,7 +51,6 @@ pub(crate) struct Limits {
     pub shading_language: String,
     /// Longest side of a texture that can also be drawn into.
     pub max_side_px: u32,
-    /// Layers of a texture array.
     pub max_array_layers: u32,
     /// Whether fragment shaders can write into storage buffers (OpenGL 4.3).
     pub has_storage: bool,
@@ -60,7 +59,6 @@ pub(crate) struct Limits {
 }
 
 impl Limits {
-    /// Reads the limits from the current context.
     pub(crate) fn read(gl: &glow::Context) -> Self {
         // SAFETY: the context is current; the names are defined in OpenGL 3.3.
         unsafe {

@@ -33,7 +33,6 @@ pub(crate) struct DrawState {
     pub casts_shadow: bool,
 }
 
-/// What to draw.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Vertices {
     /// One triangle that covers the picture, made from the vertex number.

@@ -4,11 +4,9 @@ use std::ffi::{CStr, c_void};
 
 /// The part of a context that the windowing library owns. Dropping it destroys the context.
 pub(crate) trait Platform {
-    /// Makes the context current on this thread.
     fn make_current(&self) -> Result<(), String>;
-    /// Leaves this thread without a current context. Only needed for a library that may skip the next
-    /// [`Platform::make_current`]: EGL does so if it made this same context current last, even if OSMesa has made
-    /// another one current since.
+    /// Leaves this thread without a current context. EGL needs this: it skips the next [`Platform::make_current`] if it
+    /// made this same context current last, even if OSMesa has made another one current since.
     fn make_none_current(&self) -> Result<(), String> {
         Ok(())
     }

@@ -8,7 +8,6 @@ use glow::HasContext as _;
 use super::shader_text::{Expanded, Sources, expand};
 use super::{GlError, Gpu, ShaderFile, Texture};
 
-/// What a program is made of.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ProgramSource<'a> {
     /// Path of the vertex shader below `shaders/`.
@@ -41,7 +40,6 @@ impl<'a> ProgramSource<'a> {
     }
 }
 
-/// A linked program.
 pub(crate) struct Program {
     gpu: Gpu,
     id: glow::Program,

@@ -8,7 +8,6 @@ use std::fmt::Write as _;
 pub(crate) struct ShaderFile {
     /// Path below `shaders/`.
     pub path: &'static str,
-    /// The whole text.
     pub text: &'static str,
 }
 

@@ -55,7 +55,6 @@ pub(crate) enum Filter {
     ShadowCompare,
 }
 
-/// Size of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum TextureShape {
     Flat([u32; 2]),
@@ -63,7 +62,6 @@ pub(crate) enum TextureShape {
     Array([u32; 3]),
 }
 
-/// A texture.
 pub(crate) struct Texture {
     gpu: Gpu,
     id: glow::Texture,
@@ -85,7 +83,7 @@ impl Texture {
         Ok(texture)
     }
 
-    /// A flat texture with one level of contents.
+    /// A 2D texture with these texels and a single mipmap level.
     pub(crate) fn from_texels(
         gpu: &Gpu,
         format: Format,

@@ -33,7 +33,6 @@ impl VertexArray {
         Ok(Self { gpu: gpu.clone(), id })
     }
 
-    /// A vertex array with inputs from buffers.
     pub(crate) fn new(
         gpu: &Gpu,
         attributes: &[Attribute<'_>],

@@ -31,7 +31,6 @@ use crate::shader_files::{NOISE_DISPLACE, SHARED};
 use crate::watch::Watch;
 use bloom::Bloom;
 
-/// Draws the bodies that are coloured by noise.
 pub(crate) struct NoiseDisplace {
     gpu: Gpu,
     screen: VertexArray,
@@ -79,7 +78,7 @@ impl NoiseDisplace {
         })
     }
 
-    /// Creates at once every program that is otherwise created when it is first needed.
+    /// Creates all programs at once, also those that are usually created when first needed.
     pub(crate) fn ready_all(&mut self) -> Result<(), GlError> {
         let mut programs = Programs::new(&self.gpu)?;
         programs.place.ready_all()?;
@@ -223,7 +222,7 @@ impl<'a> Placed<'a> {
         Self { index, body, depth, bounds: if is_displaced { mesh.bounds } else { bounds } }
     }
 
-    /// Whether its bounding box lies in that of `outer`, grown on each side by a twentieth of the outer box's size.
+    /// Whether its bounding box lies within that of `outer`, grown by 5 % of its size on each side.
     fn is_within(&self, outer: &Self) -> bool {
         let (Some((low, high)), Some((outer_low, outer_high))) = (self.bounds, outer.bounds) else {
             return false;

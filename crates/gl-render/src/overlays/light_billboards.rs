@@ -120,7 +120,6 @@ const RING_PIECES: u32 = 64;
 /// An icon behind a surface is dimmed. It is dimmed fully if it lies this share of its depth behind the surface.
 const SOFTNESS: f32 = 0.03;
 
-/// Draws billboards.
 pub(crate) struct LightBillboards {
     gpu: Gpu,
     program: Program,

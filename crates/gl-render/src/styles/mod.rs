@@ -26,9 +26,9 @@ pub(crate) fn samples(frame: &Frame, max_side_px: u32) -> u32 {
     }
 }
 
-/// How much of a strong highlight is in the lit colour that strokes are painted with, 0..=1. It is below 1 if there are
-/// strokes of highlights, which add the rest: the strokes below them then stay calm when a highlight passes over a
-/// body.
+/// How much of a strong highlight is in the lit colour that strokes are painted with, 0..=1. It is below 1 where
+/// highlights have strokes of their own, which add the rest. The strokes below them then stay calm when a highlight
+/// passes over a body.
 pub(crate) fn highlight_in_color(frame: &Frame) -> f32 {
     match frame.style {
         Style::RotatingStrokes(_) if frame.has_highlight_strokes => 0.6,

@@ -6,7 +6,6 @@ use crate::shader_files::SHARED;
 use crate::style_renderer::{StyleInput, StyleRenderer};
 use crate::watch::Watch;
 
-/// Draws the plain render.
 pub(crate) struct Reference {
     gpu: Gpu,
     lay_over: Program,

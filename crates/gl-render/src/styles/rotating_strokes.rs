@@ -43,10 +43,9 @@ const BLOCK_PX: f32 = 4.0;
 /// How far detail is spread over its body: standard deviation of a Gaussian, pixels at the scene's size.
 const SPREAD_PX: f32 = 16.0;
 
-/// Whenever strokes that cover this many pixels are drawn, the caller is asked whether to stop.
+/// Each time that strokes covering this many pixels have been drawn, the caller is asked whether to stop.
 const PIECE_PX: f32 = 400_000.0;
 
-/// Draws brush strokes.
 pub(crate) struct RotatingStrokes {
     gpu: Gpu,
     coverage: Coverage,

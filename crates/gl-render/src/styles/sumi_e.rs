@@ -40,12 +40,12 @@ const LINE_PX: f32 = 1.6;
 /// How strong the wash is under strokes.
 const WASH_UNDER_STROKES: f32 = 0.6;
 
-/// Draws ink on paper.
 pub(crate) struct SumiE {
     gpu: Gpu,
     fibres: Texture,
     screen: VertexArray,
-    /// The programs of the source's rule and, in `painter`, of our own: each created when a frame first uses that rule.
+    /// The programs of the source's rule. `painter` has those of our own rule. Each set is created when a frame first
+    /// uses its rule.
     source: Option<SourcePrograms>,
     painter: Option<PainterPrograms>,
     source_targets: Option<SourceTargets>,
@@ -68,7 +68,6 @@ impl SumiE {
         })
     }
 
-    /// The source's five passes.
     fn draw_source(
         &mut self,
         input: &StyleInput<'_>,

@@ -81,7 +81,7 @@ pub(crate) fn read(
     Ok(Some(influences))
 }
 
-/// Makes the weights of each vertex sum to one, and finds the largest joint that counts.
+/// Makes the weights of each vertex sum to one, and finds the largest joint that has a weight.
 fn finish(reader: &mut MeshReader<'_, '_, '_, '_>, attributes: &Cursor<'_, '_>, influences: &mut Influences) {
     let (mut off, mut empty) = (0, 0);
     let vertices = influences

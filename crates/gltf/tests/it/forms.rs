@@ -182,8 +182,8 @@ fn what_is_not_read_is_refused_by_name() {
     }
 }
 
-/// Draco compression that `extensionsRequired` does not name: the accessors have no buffer view, and would be read as
-/// zeros.
+/// A file may use Draco compression without naming it in `extensionsRequired`. Its accessors have no buffer view, so
+/// they would be read as zeros.
 #[test]
 fn compressed_primitives_are_not_zeros() {
     let document = json!({

@@ -69,7 +69,6 @@ fn the_file_that_is_spoiled_is_good() {
     assert_eq!(gltf, from_glb);
 }
 
-/// Every pointer of a document.
 fn pointers(value: &Value, at: &str, found: &mut Vec<String>) {
     found.push(at.to_owned());
     match value {
@@ -313,7 +312,7 @@ fn scales_that_outgrow_all_numbers() {
     assert!(check(document.to_string().into_bytes(), "scales").is_ok());
 }
 
-/// A long list that many share is scanned once, not once for each.
+/// A long list that many primitives share is scanned only once.
 #[test]
 fn sharing_takes_no_time() {
     let count = 250_000;

@@ -1,5 +1,5 @@
-//! Measures M11, authoring: strokes must not change when the scene is saved and read again, when its frames are
-//! made in another order, or when it has twice the particles.
+//! Measures M11, authoring: strokes must not change when the scene is saved and read again, or when its frames are made
+//! in another order. They must keep their directions at twice the particles, and strokes on a guide must lie as drawn.
 
 use std::path::Path;
 use std::sync::Arc;

@@ -1,5 +1,5 @@
 //! Measures M14, the density of strokes: on the largest object while the camera zooms in, and on a tilted flat sheet
-//! with strokes of the same size and coverage.
+//! whose strokes have that object's size and coverage.
 
 use std::sync::Arc;
 
@@ -25,11 +25,12 @@ const TILTS_DEG: [f64; 6] = [0.0, 20.0, 40.0, 60.0, 70.0, 80.0];
 /// Side of the sheet's picture, large enough for thousands of strokes.
 const SHEET_PX: u32 = 2048;
 
-/// Strokes are counted within this share of the sheet's sides: near its border, strokes from beyond it are missing.
+/// Strokes are counted only within this share of the sheet's sides: nearer to the border, neighbours on its far side
+/// are missing.
 const WINDOW: f64 = 0.85;
 
-/// Above this many wanted strokes per particle, particles run out. Strokes fade over a range of ranks. The part of that
-/// range above rank 1 has no particles, so fewer strokes show than are wanted.
+/// Above this many wanted strokes per particle, particles run out. Strokes fade out over a range of ranks, and the
+/// ranks of particles end at 1. The part of the range above 1 has no particles, so fewer strokes show than are wanted.
 const RUN_OUT: f64 = 0.82;
 
 /// The strokes of an object in one view.

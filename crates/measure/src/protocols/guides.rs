@@ -100,9 +100,9 @@ fn at_guide(
     Ok(errors)
 }
 
-/// Distance of a point to a guide's line, the direction of the gesture there, and by how many degrees strokes are
-/// turned from it. At each of the guide's points the direction is the mean of the two pieces that meet there; along a
-/// piece it changes evenly.
+/// The distance of a point to a guide's line, the direction of the line there, and by how many degrees strokes are
+/// turned from that direction. At each of the guide's points, the direction is the mean of the two pieces that meet
+/// there. Along a piece it changes evenly.
 fn nearest(guide: &Guide, at: DVec3) -> Option<(f64, DVec3, f64)> {
     let points: Vec<DVec3> = guide.points.iter().map(|point| DVec3::from(point.at)).collect();
     let pieces: Vec<DVec3> = points.windows(2).map(|pair| (pair[1] - pair[0]).normalize_or_zero()).collect();

@@ -1,5 +1,5 @@
-//! Measures M6, reveal coherence: whether strokes that the reference did not see agree with their neighbours, in views
-//! from about 90 and 180 degrees round the target.
+//! Measures M6, reveal coherence: whether strokes that the reference view did not see agree with their neighbours, in
+//! views from about 90 and 180 degrees round the target.
 
 use impasto_painting::Rotation;
 

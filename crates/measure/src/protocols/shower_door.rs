@@ -150,7 +150,8 @@ fn least_step(
     Ok(Some(far))
 }
 
-/// The lag over the strokes of the shot whose surface has turned or changed shape in the picture since the reference.
+/// The lag over those strokes of the shot whose surface has turned or changed shape in the picture since the reference
+/// picture.
 fn lag_of(context: &mut MeasureContext<'_>, rotation: Rotation) -> Result<Lag, MeasureError> {
     let painting = context.painting(SceneVersion::NoContour(TurnSolver::Own))?;
     let reference = Reference::of(&painting, context.size_px);

@@ -13,7 +13,6 @@ use crate::strokes::strokes_by_key;
 use crate::turns::{Reference, Turn};
 use crate::versions::{SceneVersion, TurnSolver};
 
-/// The cameras of the fixed views: orbited round the target, moved sideways, zoomed in.
 fn fixed_views(camera: &CameraPose) -> Vec<CameraPose> {
     vec![
         orbited(camera, 10.0),
@@ -101,7 +100,7 @@ pub(super) fn row(context: &mut MeasureContext<'_>, series: &mut Vec<Series>) ->
     Ok(row)
 }
 
-/// Whether the scene itself asks for the paper's solver.
+/// Whether the scene itself asks for the source paper's solver.
 pub(super) fn uses_horn(context: &MeasureContext<'_>) -> bool {
     use impasto_scene::document::{Solver, Style};
     let scene = &context.loaded.scene;

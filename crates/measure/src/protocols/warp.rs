@@ -20,8 +20,8 @@ use crate::warp::{Warp, correspondences, warp_error};
 /// A body whose pixels all move by less than this stands still.
 const STILL_PX: f64 = 0.01;
 
-/// Fixed angles are compared over as many frames as it takes half of the strokes to turn by `TURN_DEG`; not at all if
-/// that takes more than `MOST_FRAMES`.
+/// Fixed angles are compared over the number of frames in which half of the strokes turn by `TURN_DEG`. They are not
+/// compared if that takes more than `MOST_FRAMES`.
 const TURN_DEG: f64 = 12.0;
 const MOST_FRAMES: u32 = 48;
 
@@ -103,8 +103,8 @@ struct Turned {
     fixed: f64,
 }
 
-/// The warp error over as many frames as it takes half of the strokes to turn by [`TURN_DEG`]; `None` if the shot or
-/// [`MOST_FRAMES`] end before that.
+/// The warp error over the number of frames in which half of the strokes turn by [`TURN_DEG`]; `None` if that takes
+/// more frames than the shot has, or more than [`MOST_FRAMES`].
 fn turned(context: &mut MeasureContext<'_>) -> Result<Option<Turned>, MeasureError> {
     let timeline = &context.loaded.scene.timeline;
     let (first, last) = (timeline.first as f64, timeline.last as f64);

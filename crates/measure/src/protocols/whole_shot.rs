@@ -30,7 +30,7 @@ const NAMED: usize = 3;
 /// A frame with what M17 needs of it.
 struct Looked {
     drawn: Rc<DrawnFrame>,
-    /// Luma of the picture and of a plain render of it, blurred.
+    /// Luma of the painted frame and of a plain render of it, both blurred.
     lumas: [Plane; 2],
     /// 1 where paint of a nearer body may lie.
     covered: Plane,
@@ -115,7 +115,6 @@ fn shown(drawn: &DrawnFrame) -> Shown<'_> {
     }
 }
 
-/// Says in words where the worst value was found.
 fn place_words(context: &MeasureContext<'_>, place: Place) -> String {
     let [x, y] = place.at_px;
     let stroke = place.stroke.map_or_else(String::new, |key| {

@@ -38,8 +38,8 @@ impl FieldInputs {
         self.guides.iter().filter(move |guide| usize::from(guide.rule) == rule)
     }
 
-    /// The tangent whose stroke lies along the gesture of a combing guide, as seen in the view that the gesture was
-    /// drawn in.
+    /// The tangent whose stroke lies along the gesture (the drawn line) of a combing guide, as seen in the view that
+    /// the gesture was drawn in.
     pub(super) fn combed(
         &self,
         guide: &BodyGuide,
@@ -141,7 +141,6 @@ impl FieldInputs {
         if found.dot(last) < 0.0 && symmetry == Symmetry::Lines { -found } else { found }
     }
 
-    /// Whether any guide smooths.
     pub(super) fn smooths(&self) -> bool {
         self.guides.iter().any(|guide| guide.mode == GuideMode::Smooth)
     }

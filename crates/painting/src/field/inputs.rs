@@ -31,7 +31,6 @@ pub(crate) struct FieldInputs {
     pub(crate) parts: Arc<BodyParts>,
     /// Centre and length of the diagonal of the body's bounds, model space.
     pub(crate) extent: (DVec3, f64),
-    /// Whether rays are parallel.
     pub(crate) orthographic: bool,
 }
 

@@ -6,7 +6,6 @@ use impasto_core::direction::field::MAX_SAMPLES;
 use impasto_core::neighbours::Points;
 use impasto_core::sampling::{self, Particle, Surface};
 
-/// The samples of a body.
 #[derive(Debug)]
 pub(crate) struct FieldSamples {
     pub(super) particles: Vec<Particle>,

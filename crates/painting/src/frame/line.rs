@@ -34,11 +34,11 @@ pub struct LineVertex {
     pub from_middle_px: [f32; 2],
     /// Depth of the centre line beside the vertex, world units.
     pub depth: f32,
-    /// How far the paint is there, 0..=1; 0 where the surface is seen edge-on.
+    /// How much of the paint is there, 0..=1; 0 where the surface is seen edge-on.
     pub presence: f32,
-    /// Depth of the surface's plane under the vertex, less that of the centre line beside it, pixels.
+    /// Depth of the surface's tangent plane under the vertex, less that of the centre line beside it, pixels.
     pub lean_px: f32,
-    /// How far the surface may leave that plane before paint ends, pixels of depth.
+    /// How far in depth the surface may lie from that plane before the paint ends, pixels.
     pub leave_px: f32,
     /// How far the brush has run dry: how much more paint a texel of the mark must have to show here than at the line's
     /// beginning, as a share of full paint.

@@ -25,8 +25,8 @@ pub struct Stroke {
     pub width_px: f32,
     /// Fades strokes out before their surface turns away: 0 edge-on .. 1.
     pub facing_fade: f32,
-    /// ln(D/u), with u the rank and D the supply: the strokes wanted per pixel over the particles per pixel, if the
-    /// layer is wanted in full there. At 0, half of the stroke is there.
+    /// ln(D/u). u is the rank of the particle. D is the supply: the strokes wanted per pixel over the particles per
+    /// pixel, where the layer is wanted in full. At 0, half of the stroke is there.
     pub supply_ln: f32,
     /// Random bits of the stroke, the same in every frame.
     pub bits: u32,
@@ -35,7 +35,7 @@ pub struct Stroke {
     /// Albedo at the stroke, sRGB encoded, 8 bits a channel, as 0xAABBGGRR. A is 0 for unlit surfaces. A is
     /// [`Stroke::AS_IT_IS`] if the stroke is painted in exactly this colour.
     pub albedo_srgb8: u32,
-    /// Index of the mark in [`super::Frame::brushes`], counted over all brushes, and [`Stroke::FLIPPED`].
+    /// Index of the mark in [`super::Frame::brushes`], counted over all brushes; the bit [`Stroke::FLIPPED`] flips it.
     pub mark: u32,
     /// The paint.
     pub paint: Paint,
@@ -78,7 +78,7 @@ pub struct Paint {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
 pub struct Mixing {
-    /// Factor on the difference from stroke to stroke, times [`Mixing::SCALE`].
+    /// Factor on how much colours differ from stroke to stroke, times [`Mixing::SCALE`].
     pub jitter: u8,
     /// Factor on the temperature, times [`Mixing::SCALE`].
     pub temperature: u8,
@@ -154,7 +154,7 @@ pub struct StrokeSource {
     pub kappa: f32,
     /// Cosine between the surface normal and the direction to the eye.
     pub facing: f32,
-    /// Rank in (0, 1): low ranks stay longest when strokes thin out. 0 for a touch.
+    /// Rank in (0, 1]: low ranks stay longest when strokes thin out. 0 for a touch.
     pub rank: f32,
 }
 
@@ -167,7 +167,7 @@ pub struct Strokes {
     pub sources: Vec<StrokeSource>,
     /// Runs of `strokes` that belong to one layer, in painting order.
     pub layers: Vec<LayerRun>,
-    /// The lines of the layer of touches.
+    /// The lines of touches, which are strokes placed by hand.
     pub lines: Lines,
 }
 

@@ -84,13 +84,11 @@ impl<'a> ArraysToWrite<'a> {
         self.0.push((Cow::Owned(bytemuck::cast_slice(array).to_vec()), size_of::<T>() as u32));
     }
 
-    /// How many bytes are written.
     pub(super) fn bytes(&self) -> u64 {
         let table = self.0.len() * size_of::<Row>();
         (size_of::<Header>() + table + self.0.iter().map(|(array, _)| array.len()).sum::<usize>()) as u64
     }
 
-    /// Writes them under a key.
     pub(super) fn write(&self, key: &KeptKey, out: &mut dyn Write) -> io::Result<()> {
         let row = |(array, size): &(Cow<'_, [u8]>, u32)| Row {
             bytes: array.len() as u64,
@@ -115,7 +113,7 @@ impl<'a> ArraysToWrite<'a> {
     }
 }
 
-/// The CRC of the header, with 0 as its own CRC, and of the table.
+/// The CRC of the header and the table. The header's field for the CRC counts as 0.
 fn crc_of(header: &Header, table: &[u8]) -> u32 {
     let mut hasher = crc32fast::Hasher::new();
     hasher.update(bytemuck::bytes_of(&Header { crc: 0, ..*header }));
@@ -164,7 +162,6 @@ impl<'a> Arrays<'a> {
         Ok(Self { bytes, rows: table.into_iter(), at })
     }
 
-    /// The next array.
     pub(super) fn next<T>(&mut self) -> Result<Array<'a, T>, Unfit> {
         let row = self.rows.next().ok_or(Unfit::Damaged)?;
         let array = Array { bytes: self.bytes, at: self.at, row, of: PhantomData };
@@ -189,7 +186,6 @@ pub(super) struct Array<'a, T> {
 }
 
 impl<T: Pod> Array<'_, T> {
-    /// How many numbers it has.
     pub(super) fn len(&self) -> usize {
         self.row.bytes as usize / size_of::<T>()
     }

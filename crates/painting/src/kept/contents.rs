@@ -45,7 +45,7 @@ pub(super) struct CoatNumbers {
     pub(super) state: [u64; 4],
     /// The bits of the area, which is a float.
     pub(super) area: u64,
-    /// 0 or 1, as are the next three: whether the particles lie on the whole surface.
+    /// Whether the particles lie on the whole surface. This number and the next three are 0 or 1.
     pub(super) is_everywhere: u64,
     /// Whether looks have base angles.
     pub(super) has_angles: u64,
@@ -123,7 +123,7 @@ impl KeptPainting {
         }
         let [order, firsts] = [arrays.next::<u32>()?, arrays.next::<u32>()?];
         arrays.end()?;
-        // Memory is allocated only from here on, and no more of it than there are bytes.
+        // The large arrays are read only from here on, into no more memory than there are bytes.
         let mark = |texels: Array<'_, [u8; 3]>| Ok(Mark { texels: texels.of_len(TEXELS)? });
         let read_marks = || marks.into_par_iter().map(mark).collect::<Result<Vec<Mark>, Unfit>>();
         let read_objects = || {

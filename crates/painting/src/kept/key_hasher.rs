@@ -1,4 +1,4 @@
-//! Makes a key: a cryptographic hash of lists of numbers and of words. The length of each list is hashed too, so that
+//! Makes a key: a cryptographic hash of lists of numbers and of texts. The length of each list is hashed too, so that
 //! the hash changes when numbers move from one list to the next.
 
 use std::fmt::{Debug, Write as _};
@@ -12,7 +12,7 @@ const MANY: usize = 1 << 20;
 #[derive(Default)]
 pub(crate) struct KeyHasher {
     hasher: blake3::Hasher,
-    /// Holds the words of a value while they are hashed; reused.
+    /// The text of a value while it is hashed. It is kept, so that its memory is used again.
     text: String,
 }
 
@@ -28,7 +28,6 @@ impl KeyHasher {
         }
     }
 
-    /// Feeds words.
     pub(crate) fn words(&mut self, words: &str) {
         self.numbers(words.as_bytes());
     }
@@ -44,7 +43,6 @@ impl KeyHasher {
         self.text = text;
     }
 
-    /// The hash of all that was fed.
     pub(crate) fn finish(&self) -> [u8; 32] {
         *self.hasher.finalize().as_bytes()
     }

@@ -60,14 +60,14 @@ pub struct PrepareOptions<'a> {
     /// Gives the process's peak memory since the last call, bytes, or `None` where that is not known.
     pub peak_bytes: &'a dyn Fn() -> Option<u64>,
     /// Gives the bytes that another process kept under a key (see [`crate::Painting::to_keep`]), if there are any. It
-    /// is called once, when the surfaces are there. `None` asks for nothing.
+    /// is called once, after the surfaces have been made. With `None`, nothing is looked for.
     pub kept: Option<&'a FindKept<'a>>,
     /// From where the painting will be seen.
     pub seen_from: SeenFrom<'a>,
 }
 
 impl Default for PrepareOptions<'_> {
-    /// Never gives up, sets no limit, asks for nothing that was kept, and is seen by the scene's own camera.
+    /// Never gives up, sets no limit, looks for nothing that was kept, and expects the scene's own camera.
     fn default() -> Self {
         Self {
             give_up: &|| false,

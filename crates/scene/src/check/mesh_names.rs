@@ -1,4 +1,4 @@
-//! Checks that groups and materials which the document names exist in its meshes.
+//! Checks that the groups and materials that the document names exist in its meshes.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
@@ -40,8 +40,7 @@ enum Kind {
     Material,
 }
 
-/// The names in one mesh. They are sets, so that the check stays quick where a mesh has many groups and a scene many
-/// regions.
+/// The names in one mesh, as sets: the check stays quick even if the mesh has many groups and the scene many regions.
 struct KnownNames<'a> {
     mesh_path: &'a str,
     groups: BTreeSet<&'a str>,

@@ -13,8 +13,8 @@ use crate::mesh_file::MeshFile;
 use crate::morph;
 use crate::point_cache::PointCache;
 
-/// Work limit of one check: each point of a guide and each dab counts once for every triangle of its mesh. Guides and
-/// dabs beyond the limit are not checked.
+/// The most distances between a point and a triangle that one check may need: each point of a guide and each dab counts
+/// once for every triangle of its mesh. Guides and dabs beyond the limit are not checked.
 const MOST_DISTANCES: usize = 200_000_000;
 
 pub(super) fn check(
@@ -277,7 +277,7 @@ fn check_dabs(
 ) {
     let Some(mut reached) = Reached::of(object, file, 1.0) else { return };
     let (mut off, count) = (0, dabs.len());
-    // A dab without a radius or a place is refused elsewhere.
+    // A radius that is not above 0 and a place that is not finite are reported elsewhere.
     for (at, radius) in dabs.filter(|&(at, radius)| radius > 0.0 && DVec3::from(at).is_finite()) {
         let Some(rest) = left.checked_sub(file.mesh.triangles.len()) else { return };
         *left = rest;

@@ -106,7 +106,7 @@ fn check_dabs(field_path: &str, dabs: &[Dab], findings: &mut Findings) {
         let mend = "paint it somewhere, or remove it";
         findings.warning(field_path, "the region has no dabs and covers nothing", mend);
     }
-    // Values inside a variant such as `Dabs(…)` have no path of their own, so findings give the path of the variant.
+    // Values inside a variant such as `Dabs(…)` have no path of their own, so findings give the variant's path.
     for dab in dabs {
         findings.vector(field_path, dab.at);
         findings.direction(field_path, dab.normal);

@@ -162,7 +162,7 @@ fn check_gaze(field_path: &str, eye: DVec3, target: DVec3, findings: &mut Findin
     let gaze = target - eye;
     let scale = eye.abs().max(target.abs()).max_element();
     if !scale.is_finite() || scale > limits::MAX_LENGTH {
-        return; // Reported already for the field that is out of range.
+        return; // The field that is out of range was reported already.
     }
     // Eye and target must differ by more than rounding, so that the gaze still has a direction.
     if gaze.length() <= limits::MIN_LENGTH.max(1e-12 * scale) {

@@ -31,7 +31,6 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
     }
 }
 
-/// Checks a rule of the style, and reports it if it is broken.
 fn check_style(rule: &SettingRule, findings: &mut Findings) {
     match *rule {
         SettingRule::Range { field, value, ref limits } => {
@@ -76,7 +75,6 @@ pub(crate) fn brush_pictures(scene: &Scene) -> Vec<(&str, String)> {
     found
 }
 
-/// Checks the stroke settings of a region.
 pub(super) fn check_of_region(strokes_path: &str, scene: &Scene, index: usize, findings: &mut Findings) {
     let settings = &scene.regions[index].strokes;
     check_settings(strokes_path, settings, findings);

@@ -26,7 +26,7 @@ pub enum Ease {
 }
 
 impl Ease {
-    /// The curve that is offered for a key that has none of its own yet: `ease` of CSS.
+    /// The curve that is offered first for a key without a curve: `ease` of CSS.
     pub const USUAL_CURVE: Self = Self::Curve([0.25, 0.1], [0.25, 1.0]);
 
     /// How far the value has come: 0 at the key, 1 at the next one. `time` is the time since the key, as a share of the

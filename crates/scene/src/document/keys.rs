@@ -78,7 +78,8 @@ pub struct BackgroundKey {
     pub ease: Ease,
 }
 
-/// How the strokes of a scene or region are changed at a frame. Strokes come and go by their fixed ranks, so none pops.
+/// How the strokes of a scene or region are changed at a frame. Strokes come and go in the order of their fixed ranks,
+/// so none pops.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct StrokesKey {

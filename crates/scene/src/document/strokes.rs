@@ -64,7 +64,7 @@ const PERCENT: Shown = Shown { unit: "%", file_per_shown: 0.01, step: 5.0, ..PIX
 const FACTOR: Shown = Shown { unit: "×", drag: 0.0..=8.0, step: 0.1, decimals: 1, ..PIXELS };
 
 // A row has
-// - a comment of a sentence or two: what the number does, for the inspector and for the page of the file format;
+// - a comment of a sentence or two: what the number does, for the inspector and for `docs/scene_file.md`;
 // - its field in a scene file => its field in `ResolvedStrokes`, as `plain` (the same number) or as an `angle` (degrees
 //   in the file, radians once resolved);
 // - `usual`: its value in the default preset, and in every preset that says nothing else (`presets/table.rs`);

@@ -80,8 +80,8 @@ pub(super) fn of(
         let placed = if is_skinned { DAffine3::IDENTITY } else { origin.copy };
         let position = wide(origin.primitive.positions[origin.vertex]);
         let turn = cofactors(placed.matrix3);
-        // If the file has no normal, the one that was made for the mesh at rest is used. In a skinned mesh, the joints'
-        // rest pose has turned it: that turn is undone.
+        // If the file has no normal, the one that was made for the mesh at rest is used. In a skinned mesh, the rest
+        // pose of the joints has turned that normal, so the turn is undone.
         let normal = match &origin.primitive.normals {
             Some(normals) => turn * wide(normals[origin.vertex]),
             None => unmoved(origin, &rest, is_skinned).transpose() * mesh_at_rest.normals[vertex].as_dvec3(),

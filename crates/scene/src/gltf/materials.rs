@@ -56,7 +56,6 @@ fn cutoff(stated: &Stated) -> Option<f32> {
     Some(of_all / stated.values.base_color[3].max(1e-6))
 }
 
-/// A warning that a material is too transparent to be painted.
 fn unseen(path: &Path, index: usize, name: &str) -> Problem {
     Problem {
         severity: Severity::Warning,
@@ -75,7 +74,6 @@ pub(super) fn shown_picture(stated: &Stated) -> Option<TextureUse> {
     if glows(stated) { stated.emissive_texture } else { stated.base_color_texture }
 }
 
-/// Whether the surface's emission is brighter than its colour.
 fn glows(stated: &Stated) -> bool {
     let most = |color: [f32; 3]| color.into_iter().fold(0.0f32, f32::max);
     let [r, g, b, _] = stated.values.base_color;

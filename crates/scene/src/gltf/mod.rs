@@ -187,7 +187,6 @@ impl GltfFile {
     }
 }
 
-/// A finding of the reader as a problem of the file.
 fn in_file(path: &Path, finding: &Finding) -> Problem {
     let severity = match finding.severity {
         Level::Warning => Severity::Warning,

@@ -72,7 +72,7 @@ struct Shift {
     ndc: Vec<[f64; 2]>,
 }
 
-/// The sidecar of a glTF file.
+/// The path of a glTF file's sidecar.
 pub(crate) fn path_beside(path: &Path) -> PathBuf {
     path.with_extension("impasto.json")
 }
@@ -93,7 +93,8 @@ pub(super) fn read(path: &Path, root: &Path, folders: &AssetFolders) -> Result<S
         Err(AssetError::Missing { .. }) => return Ok(Sidecar::default()),
         Err(error) => return Err(Report(vec![error.to_problem(Severity::Error, &beside, None)])),
     };
-    // The problem's place will be where the scene names the shot, so the place in the sidecar goes into the message.
+    // The problem's `place` will be where the scene names the shot. So the position in the sidecar goes into the
+    // message.
     let found = serde_json::from_slice::<Sidecar>(&asset.bytes).map_err(|error| {
         let words = error.to_string();
         let message = words.split(" at line ").next().unwrap_or(&words).to_owned();

@@ -1,5 +1,4 @@
-//! Splits a matrix into a turn and a stretch, so that a body that is only moved can be told from one that changes its
-//! shape.
+//! Splits a matrix into a turn and a stretch. This tells a body that only moves from one that changes its shape.
 
 use glam::DMat3;
 
@@ -10,8 +9,8 @@ const EVEN: f64 = 1e-5;
 const STEPS: usize = 60;
 
 /// The symmetric stretch S of `matrix` = Q S with a turn Q (polar decomposition, Higham 1986). For a mirroring matrix
-/// it is −S, so that Q stays a turn. It is the identity for a matrix that only turns and scales evenly, which is left
-/// to the pose, and for a singular matrix, for which Q is not unique.
+/// it is −S, so that Q stays a turn. The result is the identity for a matrix that only turns and scales evenly, since
+/// the pose takes care of that. It is also the identity for a singular matrix, for which Q is not unique.
 pub(crate) fn stretch_of(matrix: DMat3) -> DMat3 {
     let determinant = matrix.determinant();
     let size = matrix.to_cols_array().iter().fold(0.0f64, |most, value| most.max(value.abs()));

@@ -31,7 +31,7 @@ pub(super) fn mesh_of_nodes<'a>(
 pub(super) fn mesh_of_node(file: &GltfFile, node: (usize, DAffine3)) -> Option<MeshFile> {
     let mut joined = Joined::default();
     let bends = bend::bends(file, node.0);
-    // Points are numbered for one copy of the mesh: with instances, a cache would move only the first.
+    // Points are numbered for a single copy of the mesh: of several instances, a cache would move only the first.
     let of_file = &file.gltf.nodes[node.0];
     let has_points = of_file.instances.is_none()
         && of_file.mesh.is_some_and(|mesh| {

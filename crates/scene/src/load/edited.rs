@@ -28,7 +28,7 @@ impl LoadedScene {
         let reader = MeshReader::default();
         let is_same = scene.shot == self.scene.shot && Choice::of(&scene) == Choice::of(&self.scene);
         let (lost, of_shot) = match self.scene.stage.shot.as_ref().filter(|_| is_same) {
-            // A document that was edited has the shot on its stage already; one that was read does not.
+            // A document that was edited has the shot on its stage already. One that was just read has not.
             Some(shot) if scene.stage.shot.is_none() => {
                 let lost = Arc::clone(shot).enter(&mut scene);
                 (lost.into_iter().map(super::lost_object).collect(), Vec::new())

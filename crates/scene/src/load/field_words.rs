@@ -2,7 +2,6 @@
 
 use crate::document::{LayerSettings, RotatingStrokes, STROKE_NUMBERS, Style, SumiE, SurfaceNoise};
 
-/// What a field holds, in words for a message.
 pub(super) fn what_goes_into(field: &str) -> Option<&'static str> {
     Some(match field {
         "version" => "the whole number 1",
@@ -106,8 +105,8 @@ mod tests {
 
     use super::*;
 
-    /// All fields that the page of the file format has a row for. Where it says what they take, in every table alike, the
-    /// words say the same.
+    /// Every field with a row in `docs/scene_file.md` has words. If all its rows say the same about what it takes, the
+    /// words agree with them.
     #[test]
     fn every_field_has_words() {
         let page = include_str!("../../../../docs/scene_file.md");

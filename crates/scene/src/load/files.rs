@@ -16,7 +16,7 @@ pub(super) type TextureRead = Result<(Arc<Texture>, Vec<Problem>), Problem>;
 
 /// How the files of one scene are read. Names are as the document writes them.
 pub(super) struct Readers<'a> {
-    /// `true` asks for the mesh's points too, since a cache moves them.
+    /// `true` asks for the mesh's points too, which a point cache needs.
     pub(super) mesh: &'a dyn Fn(&str, bool) -> MeshRead,
     pub(super) cache: &'a dyn Fn(&str) -> Result<Arc<PointCache>, Problem>,
     pub(super) texture: &'a dyn Fn(&str) -> TextureRead,
@@ -34,8 +34,8 @@ pub(super) struct Files {
 }
 
 impl Files {
-    /// Reads every file once, however many objects name it. `at` gives a problem the position of a field of the
-    /// document.
+    /// Reads every file once, however many objects name it. `at` gives a problem the position of the field with this
+    /// path.
     pub(super) fn read(scene: &Scene, readers: &Readers<'_>, at: impl Fn(Problem, &str) -> Problem) -> Self {
         let mut files = Self::default();
         let meshes = first_uses(scene, |object| Some(&object.mesh), "mesh");

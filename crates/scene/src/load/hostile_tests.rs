@@ -27,7 +27,7 @@ const SEED: &str = r##"#![enable(implicit_some)]
 )
 "##;
 
-/// Texts that replace parts of the scene.
+/// Texts to break the scene with: they replace parts of it, or are put between its parts.
 const NASTY: [&str; 44] = [
     "",
     "(",
@@ -121,8 +121,8 @@ fn mutate(dice: &mut Dice) -> String {
     pieces.concat()
 }
 
-/// Asserts that a text is a scene, or is refused with a place and a mend. A scene that passes the checks must also read
-/// back equal once it is saved, and have finite poses. Returns whether the text was taken as a scene.
+/// Asserts that a text is a scene, or is refused with a position and a way to mend it. A scene that passes the checks
+/// must also read back equal once it is saved, and have finite poses. Returns whether the text was taken as a scene.
 fn assert_handled(text: &str) -> bool {
     let path = Path::new("s.ron");
     let lines = text.matches('\n').count() + 1;

@@ -15,7 +15,7 @@ use crate::problem::{Problem, Report};
 /// A value that was put into the document.
 #[derive(Debug)]
 pub(super) struct Applied {
-    /// As a check would name the field: `objects[0].particles`.
+    /// The path of the field, written as in the findings of the checks: `objects[0].particles`.
     field_path: String,
     /// The whole option as the user wrote it, for messages.
     pub(super) option: PathBuf,
@@ -31,7 +31,6 @@ impl Applied {
     }
 }
 
-/// Puts all values into the document, in the order of the command line.
 pub(super) fn apply(
     mut parsed: Parsed,
     overrides: &[(String, String)],
@@ -47,8 +46,8 @@ pub(super) fn apply(
 }
 
 /// The text of a scene with values put in; the rest of the text stays as it is. A path that ends in `+` adds the value
-/// to a list: at its end or, as in `regions[2]+`, before one of its items. An empty value removes the field or the
-/// item. `path` is for messages only.
+/// to a list: at its end, or before the item that the path names, as in `regions[2]+`. An empty value removes the field
+/// or the item. `path` is for messages only.
 ///
 /// # Errors
 /// The text is no scene, or a value does not fit.
@@ -71,7 +70,7 @@ pub fn edited_text(path: &Path, text: &str, values: &[(String, String)]) -> Resu
             put_in(&parsed, field_path, value, &option)?.0
         };
     }
-    // Values that bring a new fatal finding are refused. Findings that the text had before are not their fault.
+    // Values that bring a new fatal finding are refused. Fatal findings that the text had before do not count.
     let found = fatal_findings(&parsed).into_iter().find(|finding| !known.contains(finding));
     match found {
         None => Ok(parsed.located.text().to_owned()),
@@ -81,7 +80,7 @@ pub fn edited_text(path: &Path, text: &str, values: &[(String, String)]) -> Resu
     }
 }
 
-/// The fatal findings about the document, without its files.
+/// The fatal findings of the checks that need only the document, not its files.
 fn fatal_findings(parsed: &Parsed) -> Vec<Finding> {
     check::check(&parsed.scene).into_iter().filter(|finding| finding.severity.is_fatal()).collect()
 }
@@ -119,8 +118,8 @@ fn before_item(located: &Located, spot: Spot) -> Spot {
     Spot { end: spot.start, after: format!(",{gap}"), ..spot }
 }
 
-/// What to write between two parts of a value: a line end and the indent of the first part, if that begins a line, else
-/// a space. `inside` is the text behind the opening bracket.
+/// What to write between two items or fields of a value. If the first one begins a line, a line end and the indent of
+/// that line; else a space. `inside` is the text behind the opening bracket.
 fn gap_in(inside: &str) -> String {
     let lead = inside.trim_start_matches([' ', '\t', '\r', '\n']);
     let blank = &inside[..inside.len() - lead.len()];
@@ -192,7 +191,7 @@ fn candidates(value: &str) -> Vec<String> {
     as_it_is.into_iter().chain([quoted]).collect()
 }
 
-/// An error message, and the mend.
+/// An error message, and what to do about the error.
 type Fault = (String, String);
 
 /// Where a value goes: the bytes that it replaces, and what is written around it.
@@ -312,7 +311,7 @@ fn after_last(located: &Located, node: &Node, inside: usize) -> Spot {
     let gap = gap_in(&text[inside..node.end as usize]);
     let Inside::Fields(fields) = &node.inside else { return Spot::default() };
     let last = fields.iter().map(|field| field.value.end as usize).max().unwrap_or(inside);
-    // A comment at the end of the last field's line belongs to that field, so the new field goes behind it.
+    // A comment at the end of the last field's line belongs to that field, so the new field goes behind the comment.
     let tail = &text[last..node.end as usize];
     let line = tail.split('\n').next().unwrap_or_default();
     if tail.trim_start().starts_with(',') && line.contains("//") && gap.starts_with('\n') {

@@ -74,7 +74,7 @@ fn is_mistyped(error: &SpannedError, problems: &[Problem]) -> bool {
     problems.iter().any(|problem| problem.mend.starts_with(&suggestion))
 }
 
-/// Checks the version. It is checked before anything else, since a newer file may have any fields.
+/// Checks the version. This check comes before all others, since a newer file may have any fields.
 pub(super) fn check_version(path: &Path, located: &Located) -> Result<(), Problem> {
     let Inside::Fields(_) = &located.root().inside else { return Ok(()) };
     let place = |node: &Node| Some(located.place(node.start as usize));
@@ -101,7 +101,6 @@ pub(super) fn check_version(path: &Path, located: &Located) -> Result<(), Proble
     }
 }
 
-/// The field that says the version.
 pub(super) fn version_field(located: &Located) -> Option<&Field> {
     let Inside::Fields(fields) = &located.root().inside else { return None };
     fields.iter().find(|field| located.text_of(&field.key) == "version")
@@ -201,14 +200,13 @@ pub(super) fn blank_out(text: &mut String, field: &Field) {
     blank_range(text, range);
 }
 
-/// A part of a text with the comma behind it.
+/// A part of a text, together with the comma behind it if there is one.
 pub(super) fn with_comma(text: &str, range: Range<usize>) -> Range<usize> {
     let behind = text[range.end..].trim_start();
     let end = if behind.starts_with(',') { text.len() - behind.len() + 1 } else { range.end };
     range.start..end
 }
 
-/// Overwrites a part of a text with spaces.
 pub(super) fn blank_range(text: &mut String, range: Range<usize>) {
     let blank = |character: char| match character {
         '\n' => "\n".to_owned(),

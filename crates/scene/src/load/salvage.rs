@@ -42,7 +42,7 @@ const MOST_PASSES: usize = 1000;
 pub struct Salvaged {
     /// The scene and its files; boxes stand in for meshes that cannot be used.
     pub loaded: LoadedScene,
-    /// What could not be read, in the order of the file; empty where everything could.
+    /// What could not be read, in the order of the file; empty if everything was read.
     pub losses: Vec<Loss>,
     /// The text that the scene was read from, without byte order mark.
     pub text: String,
@@ -55,7 +55,7 @@ pub struct Loss {
     pub problem: Problem,
     /// A sentence that says what is used until this is mended.
     pub instead: String,
-    /// If a box stands in for a mesh: the mesh as the document writes it.
+    /// The name, as in the document, of the mesh that a box stands in for; `None` for any other loss.
     pub mesh: Option<String>,
     /// What would mend it.
     pub fix: Option<Fix>,
@@ -125,7 +125,7 @@ struct Reading<'a> {
 }
 
 impl Reading<'_> {
-    /// One pass: the scene if it is valid, `None` if something was removed.
+    /// Makes one pass. Returns the scene if it is valid, or `None` if the text was changed and needs another pass.
     fn pass(&mut self, cache: &mut FileCache<'_>) -> Result<Option<LoadedScene>, Report> {
         let alone = |problem| Report(vec![problem]);
         let located = match source::scan_refusing(&self.left) {

@@ -89,7 +89,6 @@ pub(super) fn too_long(path: &Path) -> Problem {
     Problem { severity: Severity::Limit, ..problem }
 }
 
-/// An error in a file.
 pub(super) fn error_in(
     path: &Path,
     place: Option<TextPosition>,

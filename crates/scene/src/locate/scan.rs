@@ -171,7 +171,7 @@ impl<'a> Scanner<'a> {
                 Ok(Some(self.at + end))
             }
             Some(b'\'') if hashes == 0 => {
-                // If no character literal follows the quote, only the quote is skipped; the parser reports it.
+                // If this quote begins no character literal, only the quote is skipped. The parser reports the error.
                 let is_character = |end: &usize| *end - body <= "\\u{10FFFF}'".len();
                 let end = end_of_escaped(rest, body, b'\'').filter(is_character).unwrap_or(body);
                 Ok(Some(self.at + end))

@@ -39,7 +39,6 @@ impl Span {
         if self.overshoots() { mixed.clamp(*limits.start(), *limits.end()) } else { mixed }
     }
 
-    /// Whether the ease overshoots here: the share is below 0 or above 1.
     pub(crate) fn overshoots(&self) -> bool {
         !(0.0..=1.0).contains(&self.share)
     }

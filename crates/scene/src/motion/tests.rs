@@ -260,7 +260,6 @@ fn a_pose_is_held_for_as_many_frames_as_its_object_says() {
     }
 }
 
-/// An object that holds its pose takes its morph, its point cache and its time from the frame of that pose.
 #[test]
 fn an_object_that_holds_its_pose_holds_all_that_moves_it() {
     let mut keys = vec![key(2.0), key(26.0)];
@@ -277,8 +276,6 @@ fn an_object_that_holds_its_pose_holds_all_that_moves_it() {
     close(morphs_at(&scene, 6.5), [0.12, 0.18]);
 }
 
-/// The pose at a key, turned back into a key, gives the same values, whether the scale is even or not. A scale past the
-/// limits is clamped.
 #[test]
 fn a_pose_comes_back_as_a_key() {
     for scale in [[1.0; 3], [2.5; 3], [0.5, 3.0, 1.25]] {

@@ -15,7 +15,7 @@ const FOV_Y_DEG: f64 = 35.0;
 /// Share of the picture that stays free at each border.
 const MARGIN: f64 = 0.1;
 
-/// Scale of the backdrop, in diagonals of the mesh: it fills the picture.
+/// Scale of the backdrop, in diagonals of the mesh: large enough to fill the picture.
 const BACKDROP_SCALE: f64 = 3.0;
 
 /// Scale of a patch of floor, and how far its middle lies to the side where the shadow falls, in diagonals of the mesh.
@@ -40,7 +40,6 @@ pub(super) struct View {
 /// Where a ground lies, and how it is turned.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Footing {
-    /// The camera's axes.
     pub axes: Axes,
     /// The middle of the model's underside, world space.
     pub foot: DVec3,

@@ -127,13 +127,13 @@ impl Ground {
         let mut colored = chosen.clone();
         colored.ground = color.unwrap_or(chosen.ground);
         let keeps_background = is_of_no_ground(scene.background, [&chosen, &colored]);
-        // A plain ground ignores `color` and gets the scheme's own. So it is recognized later as a colour that nobody
-        // set.
+        // A plain ground ignores `color` and takes the scheme's own colour. `is_of_no_ground` later recognizes that
+        // colour as one that nobody chose.
         let scheme = if self == Self::Plain { chosen } else { colored };
         let taken: Vec<&str> = scene.objects.iter().map(|object| object.name.as_str()).collect();
         let laid = self.lay(&footing, &scheme, &taken, name_hash);
         scene.objects.extend(laid.object);
-        // Inserted first, because later regions win: those that a person has made take precedence.
+        // The ground's regions go first. Later regions win, so those that a person has made take precedence.
         let taken: HashSet<&str> = scene.regions.iter().map(|region| region.name.as_str()).collect();
         let named = |region: Region| Region { name: add::unique(&region.name, &taken), ..region };
         let regions: Vec<Region> = laid.regions.into_iter().map(named).collect();

@@ -13,8 +13,8 @@ use glam::DVec3;
 /// The grey of faces without a material; exporters write it too where nobody has chosen a colour.
 const NO_COLOR: [f32; 3] = [0.8; 3];
 
-/// The light that a well lit middle tone should reflect, before the soft shoulder, and the most that lighter tones
-/// should.
+/// The light that a well lit middle tone should reflect, and the most that lighter tones should. Both are before the
+/// soft shoulder of the reference render.
 const BODY_LIGHT: f64 = 0.52;
 const MOST_BODY_LIGHT: f64 = 0.66;
 /// The light that the floor should reflect: under a light model, and under a dark one.
@@ -55,7 +55,6 @@ const GROUP_LIGHTNESS: f32 = 0.05;
 /// The chroma of a ground under a model with colours of its own.
 const GROUND_CHROMA: f32 = 0.035;
 
-/// Light and colour of a new scene.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Scheme {
     /// The colour of the model, from which [`Self::of_group`] makes those of its groups: lightness, chroma and hue
@@ -114,7 +113,6 @@ impl Scheme {
         Self { body, ground: srgb(of_luminance(ground, albedo)), light }
     }
 
-    /// The colour of one of several groups.
     pub fn of_group(body: [f32; 3], group: usize) -> Color {
         // The steps of the groups: 0, 1, −1, 2, −2, …
         let step = group.div_ceil(2) as f32 * if group % 2 == 1 { 1.0 } else { -1.0 };

@@ -14,7 +14,7 @@ use crate::mesh_file::MeshFile;
 /// Number of samples of a model's surface by which its stance is judged.
 const SAMPLES: usize = 1500;
 
-/// A sample has a mirror image if another sample lies this close to the mirrored place, in spacings.
+/// A sample has a mirror image if another sample lies this close to the mirrored place, in spacings of the samples.
 const MIRRORED_WITHIN: f64 = 1.3;
 
 /// A plane mirrors the model if more than this share of the samples have a mirror image.
@@ -28,8 +28,8 @@ const USUAL_VIEW: DVec3 = DVec3::new(0.5, 0.27, 0.9);
 /// thing is seen from above, a tall one from the front.
 const RISES: [f64; 2] = [0.38, 0.18];
 
-/// Light comes from the left, unless it would light less than this share of the surface that faces the eye, and light
-/// from the right would light more.
+/// Light usually comes from the left. It comes from the right if light from the left would reach less than this share
+/// of the surface that faces the eye, and light from the right would reach more.
 const LEAST_LIT: f64 = 0.36;
 
 /// Weight of a triangle's back in a view; its front has weight 1.
@@ -68,13 +68,13 @@ pub enum ViewFrom {
     Top,
 }
 
-/// Samples of a model, in the axes of its file.
+/// Samples of a model's surface. [`Samples::of`] gives them in the axes of the file.
 pub(super) struct Samples {
     points: Vec<DVec3>,
     normals: Vec<DVec3>,
     /// Normals of the triangles that the samples lie on. Even a box with smooth normals has flat sides.
     face_normals: Vec<DVec3>,
-    /// Whether each lies on the back of a sheet. A closed shell that is inside out has no backs.
+    /// Whether each sample lies on the back of a sheet. A closed shell that is inside out has no backs.
     flipped: Vec<bool>,
     spacing: f64,
 }
@@ -107,7 +107,7 @@ impl Samples {
         }
     }
 
-    /// The stance. `up` and `view` are as the user states them; the samples decide what the user leaves open.
+    /// `up` and `view` are what the user states. The samples decide what the user leaves open.
     pub fn stance(&self, up: Option<Up>, view: ViewFrom) -> Stance {
         let (found, up_is_unsure) = match up {
             Some(up) => (up, false),
@@ -316,7 +316,7 @@ fn face_normal(mesh: &MeshFile, sample: &Particle) -> DVec3 {
     if normal.dot(own) < 0.0 { -normal } else { normal }
 }
 
-/// 0 up to the first bound, 1 from the second on.
+/// 0 up to the first bound, 1 from the second on, and linear between them.
 fn ramp(value: f64, [from, to]: [f64; 2]) -> f64 {
     ((value - from) / (to - from)).clamp(0.0, 1.0)
 }

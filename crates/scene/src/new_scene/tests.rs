@@ -41,7 +41,6 @@ fn box_between(low: Vec3, high: Vec3, open: bool) -> MeshFile {
     MeshFile::still(mesh, vec![String::new()], vec![material([0.8; 3])])
 }
 
-/// A material of this sRGB colour.
 fn material(color: [f32; 3]) -> crate::mesh_file::Material {
     crate::mesh_file::Material::plain(String::new(), color)
 }

@@ -33,7 +33,6 @@ impl Tally {
     }
 }
 
-/// Oddities of a text that are no errors.
 #[derive(Default)]
 pub(super) struct Oddities {
     pub degenerate: Tally,
@@ -56,7 +55,6 @@ pub(super) struct Oddities {
 }
 
 impl Oddities {
-    /// Reports what was counted, as warnings.
     pub fn tell(&self, findings: &mut Findings<'_>) {
         self.degenerate.tell(findings, "this face repeats its corners and has no area", "it is left out");
         self.too_few.tell(findings, "this face has fewer than 3 corners", "it is left out");

@@ -30,7 +30,7 @@ pub(super) enum Kind {
 /// Indices of a corner, counted from 1, by [`Kind`]; 0 where the corner has none.
 pub(super) type Indices = [u32; 3];
 
-/// How many values, faces and corners a piece has before some line.
+/// How many values, faces and corners a piece has: in all, or before some line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Counts {
     /// Positions, texture coordinates and normals, by [`Kind`].
@@ -73,7 +73,6 @@ pub(super) fn unit(numbers: [f64; 3]) -> Option<[f32; 3]> {
     (length > 1e-30 && length.is_finite()).then(|| numbers.map(|number| (number / length) as f32))
 }
 
-/// Raises the highest indices to those of a corner.
 #[inline]
 pub(super) fn raise(highest: &mut Indices, corner: Indices) {
     for (highest, index) in highest.iter_mut().zip(corner) {

@@ -8,7 +8,6 @@ use crate::problem::{Problem, Report, Severity, TextPosition};
 /// How many errors, and how many warnings, are reported one by one.
 const MAX_REPORTED: usize = 20;
 
-/// A word of the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Word<'a> {
     /// Its bytes, none of them white space.

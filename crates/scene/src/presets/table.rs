@@ -3,7 +3,6 @@
 use super::{DEFAULT_PRESET, INK_PRESET, PAPER_PRESET};
 use crate::document::{Edges, PresetNumbers, ResolvedLayer, ResolvedStrokes};
 
-/// A complete set of values under a name.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Preset {
     pub(super) name: &'static str,

@@ -33,7 +33,6 @@ fn scene(strokes: StrokeSettings, of_region: StrokeSettings) -> Scene {
     }
 }
 
-/// Length, width and coverage of the body layer.
 fn body(strokes: &ResolvedStrokes) -> (f32, f32, f32) {
     let body = strokes.body();
     (body.length_px, body.width_px, body.coverage)

@@ -15,7 +15,6 @@ pub(super) enum Value {
 pub(super) struct Group {
     /// The name before the bracket; empty for none.
     pub(super) name: &'static str,
-    /// The opening and the closing bracket.
     pub(super) brackets: [char; 2],
     /// Each with the name of its field, which is empty where it has none.
     pub(super) items: Vec<(&'static str, Value)>,

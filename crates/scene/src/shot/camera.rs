@@ -26,14 +26,14 @@ pub(super) fn lens_in(lens: ShotLens, (width, height): (u32, u32)) -> Lens {
     }
 }
 
-/// Half the width and half the height of what a lens shows.
 struct HalfSize {
     /// `None` if the file leaves the aspect to the picture.
     x: Option<f64>,
     y: f64,
 }
 
-/// Half the size of what a lens shows: at depth 1 in perspective, at any depth in parallel projection.
+/// Half the width and half the height of what a lens shows: at depth 1 in perspective, at any depth in parallel
+/// projection.
 fn half_size(lens: ShotLens) -> HalfSize {
     match lens {
         ShotLens::Perspective { yfov_rad, aspect, .. } => {

@@ -8,8 +8,8 @@ use super::Shot;
 use crate::document::{Color, Light, LightKind};
 
 /// The intensity that a sun of one watt per square metre gets in a scene. It makes a white surface as bright as in the
-/// program that made the shot. That brightness is 1/π; the soft shoulder darkens middle values to about 0.7 of theirs,
-/// so the intensity is 1/π divided by 0.7.
+/// program that made the shot, which is 1/π. The soft shoulder of the reference render darkens middle values to about
+/// 0.7 of theirs, so the intensity is 1/π divided by 0.7.
 const OF_WATT: f64 = 0.455;
 
 /// Lux per watt per square metre, as exporters convert.
@@ -188,9 +188,9 @@ impl Shot {
         lit
     }
 
-    /// Blender 5.0 writes keys of the strength of point and spot lights without the 1/4π of the light itself. If this
-    /// shows (a key is 4π times as strong as the light at rest, and none is as strong as the light), the keys are
-    /// divided by 4π.
+    /// Blender 5.0 writes keys of the strength of point and spot lights without the factor 1/4π that the light itself
+    /// has. Such keys are divided by 4π. They are recognized if one of them is 4π times as strong as the light at rest,
+    /// and none is as strong as the light.
     pub(super) fn mend_light_keys(&mut self, odd: &mut Vec<[String; 2]>) {
         const FOUR_PI: f64 = 4.0 * std::f64::consts::PI;
         let is_near = |value: f64, wanted: f64| (value / wanted - 1.0).abs() < 1e-3;

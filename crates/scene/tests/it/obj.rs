@@ -43,7 +43,6 @@ fn assert_sound(file: &MeshFile) {
     assert!(mesh.material_of_triangle.iter().all(|&material| (material as usize) < file.materials.len()));
 }
 
-/// The distinct corners of a polygon, sorted.
 fn corner_set(corners: impl Iterator<Item = [f32; 3]>) -> Vec<[u32; 3]> {
     let mut corners: Vec<[u32; 3]> = corners.map(|corner| corner.map(f32::to_bits)).collect();
     corners.sort_unstable();

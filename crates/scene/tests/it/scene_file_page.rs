@@ -1,5 +1,5 @@
-//! Tests that `docs/scene_file.md` agrees with the source. Its tables must be those that are made here from the
-//! declarations of the document, with their comments, and from the tables of numbers; its examples must load.
+//! Tests that `docs/scene_file.md` agrees with the source. Its tables must equal those that are made here from the
+//! structs, enums and number tables of `scene::document`, with their doc comments. Its examples must load.
 //! `IMPASTO_BLESS=1` rewrites the tables.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by it")]
@@ -93,7 +93,7 @@ impl Page<'_> {
         format!("[{}](#{})", heading.to_lowercase(), anchor.replace(['`', ','], ""))
     }
 
-    /// The table of a struct's fields, or of the variants of a choice.
+    /// The table of a struct's fields, or of an enum's variants.
     fn table(&self, name: &str) -> String {
         let declared = self.find(name).unwrap_or_else(|| panic!("there is no {name}"));
         let mut table = String::new();
@@ -316,7 +316,7 @@ fn every_field_that_is_read_was_found() {
     assert_eq!(found("LayerSettings", &numbers), known_at(["strokes: (layers: [(", "", ")])"]));
 }
 
-/// Stating what the page calls the default changes nothing.
+/// A field with its default written out must give the same scene as the field left out.
 #[test]
 fn every_default_of_the_page_is_the_default() {
     let declared = declared();

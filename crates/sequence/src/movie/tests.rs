@@ -26,7 +26,6 @@ const ALPHAS: [u8; 7] = [255, 128, 64, 192, 1, 254, 0];
 /// Side of a patch of one colour and one alpha, in pixels.
 const PATCH_PX: usize = 32;
 
-/// How many frames the movies have.
 const FRAMES: usize = 4;
 
 /// The most by which a channel may be off, of 255.
@@ -41,7 +40,7 @@ fn has_ffmpeg() -> bool {
     let all = is_there("ffmpeg") && is_there("ffprobe");
     assert!(all || std::env::var_os("CI").is_none(), "ffmpeg is missing; `cargo xtask test` installs it");
     if !all {
-        // Not by `eprintln!`: the test runner shows its output only for tests that fail.
+        // The test runner would show the output of `eprintln!` only if the test failed.
         let _ = writeln!(std::io::stderr(), "ignored: ffmpeg is missing; `cargo xtask test` installs it");
     }
     all

@@ -22,7 +22,6 @@ fn light<'a>(editor: &'a Editor, name: &str) -> &'a Light {
     editor.document().scene().lights.iter().find(|light| light.name == name).expect("it is there")
 }
 
-/// Where the icon of a light shows.
 fn icon(editor: &Editor, name: &str) -> DVec2 {
     let places = editor.light_places();
     let place = places.iter().find(|place| place.light.name == name).expect("it has a place");

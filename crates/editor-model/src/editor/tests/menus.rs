@@ -5,7 +5,6 @@ use impasto_scene::new_scene::Ground;
 use super::*;
 use crate::command::SceneEdit;
 
-/// Presses and releases the right button at a place.
 fn right_click(editor: &mut Editor, at_px: DVec2) -> Vec<Request> {
     event(editor, PointerKind::Move, at_px, HERE);
     event(editor, PointerKind::Press(Button::Right), at_px, HERE);

@@ -159,7 +159,6 @@ fn with_the_view_locked_to_it_orbit_keys_the_shot() {
     assert_eq!(editor.document().undo_count(), count + 2);
 }
 
-/// Frame and eye of the shot camera's keys.
 fn camera_keys(scene: &Scene) -> Vec<(f64, [f64; 3])> {
     scene.camera.keys.iter().map(|key| (key.frame, key.eye)).collect()
 }

@@ -153,7 +153,6 @@ fn a_press_on_the_line_inserts_and_alt_drags_the_radius() {
 #[test]
 fn a_long_piece_takes_a_point_where_it_is_pressed() {
     let mut world = drawn();
-    // Few points, far apart.
     let mut sparse = world.guides(0).to_vec();
     let points = &mut sparse[0].points;
     *points = vec![points[0].clone(), points.last().unwrap().clone()];

@@ -7,7 +7,6 @@ use crate::session::Pressure;
 
 const LINE: [[f64; 2]; 5] = [[290.0, 185.0], [305.0, 183.0], [320.0, 185.0], [335.0, 187.0], [350.0, 185.0]];
 
-/// A new test world after a drag of this tool with these pressures.
 fn drawn(tool: Tool, set: impl Fn(&mut ToolOptions), pressures: [f64; 5]) -> World {
     let mut world = World::new();
     set(&mut world.options);

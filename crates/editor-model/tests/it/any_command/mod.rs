@@ -1,4 +1,4 @@
-//! Any command for a scene, made from a few random numbers. The test of the history and a fuzz target share it.
+//! Makes any command for a scene from a few random numbers. The test of the history and a fuzz target share it.
 
 use glam::{DAffine3, DQuat, DVec3};
 use impasto_editor_model::Item;

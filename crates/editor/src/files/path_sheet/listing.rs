@@ -13,10 +13,8 @@ const MAX_ROWS: usize = 5000;
 /// At most this many entries of a folder are read.
 const MAX_ENTRIES: usize = 50_000;
 
-/// A line of the list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum ListedFile {
-    /// The parent folder.
     Parent,
     Folder(String),
     File(String),

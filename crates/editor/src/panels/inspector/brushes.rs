@@ -10,18 +10,17 @@ use super::parts::{note, reset};
 use crate::panels::brush_thumbnails::thumbnail;
 use crate::widgets::{self, Tip};
 
-/// What the brushes are chosen for.
 pub(super) struct BrushRow<'a> {
     /// The layer of paint that has these brushes; the buttons' names end with it. Empty for the strokes themselves.
     pub(super) of: &'a str,
     /// The brushes that are used now; one named twice is taken twice as often.
     pub(super) mix: &'a [String],
-    /// Whether they are stated here, so that they can be reset.
+    /// Whether the mix is stated here, so that it can be reset.
     pub(super) is_own: bool,
 }
 
-/// One radio button for each brush; with Shift or Ctrl, a click adds a brush to the mix or takes it out. `set` gives
-/// the command for a mix, or for none to reset it.
+/// One radio button for each brush. With Shift or Ctrl, a click adds a brush to the mix or takes it out. `set` makes
+/// the command that sets a mix, or with `None` resets it.
 pub(super) fn show(
     ui: &mut Ui,
     asker: &mut Asker<'_, '_>,

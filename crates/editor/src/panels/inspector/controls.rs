@@ -9,8 +9,8 @@ use crate::panels::{Ask, PanelInput, brush_thumbnails};
 use crate::theme::{self, Theme};
 use crate::widgets;
 
-/// Size of the column that is laid out to list its controls, points: as wide as the column of a narrow window, and
-/// higher than any page.
+/// Size in points of the column that is laid out to list its controls. It is as wide as the column of a narrow window
+/// and higher than any page.
 const SIZE: Vec2 = Vec2::new(280.0, 40_000.0);
 
 /// A control of the inspector for what is selected.
@@ -18,7 +18,7 @@ const SIZE: Vec2 = Vec2::new(280.0, 40_000.0);
 pub struct Control {
     /// Its name.
     pub name: String,
-    /// The name of its section; empty above all sections. The head of a section has that section's name.
+    /// The name of the section it is in; empty for a control above all sections. A section's head is in that section.
     pub section: String,
 }
 

@@ -6,7 +6,8 @@ use impasto_scene::presets::{self, ResolvedStrokes};
 
 use super::Asker;
 
-/// The stroke settings of a region or of the scene. Pairs hold them first as they are shown, then as they are stored.
+/// The stroke settings of a region or of the scene. In each pair, the first is as shown, with the change being
+/// previewed; the second is as stored.
 pub(super) struct EditedStrokes<'a> {
     pub(super) of: StrokesOf,
     pub(super) own: [&'a StrokeSettings; 2],
@@ -17,7 +18,8 @@ pub(super) struct EditedStrokes<'a> {
 }
 
 impl<'a> EditedStrokes<'a> {
-    /// The settings of a region, by its name, or of the scene. `None` if a scene lacks the region.
+    /// The settings of the region of this name, or of the scene if `region` is `None`. Returns `None` if the shown or
+    /// the stored scene lacks the region.
     pub(super) fn new(asker: &Asker<'a, '_>, region: Option<&str>) -> Option<Self> {
         let scenes = [asker.scene(), asker.stored()];
         let index_in =
@@ -50,7 +52,6 @@ impl<'a> EditedStrokes<'a> {
         }
     }
 
-    /// The command that changes one of these settings.
     pub(super) fn set(&self, change: StrokeChange) -> Command {
         Command::Regions(Regions::SetStroke(self.of.clone(), change))
     }

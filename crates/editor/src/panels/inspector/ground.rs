@@ -1,4 +1,4 @@
-//! The row that chooses what the scene's objects stand on: on the page of the scene, and on that of the ground itself.
+//! The row that chooses what the scene's objects stand on. Both the page of the scene and that of the ground show it.
 
 use egui::Ui;
 use impasto_editor_model::command::{Command, SceneEdit};

@@ -24,7 +24,6 @@ impl EditedLayer {
         }
     }
 
-    /// What it is, one sentence.
     pub(super) fn effect(self) -> &'static str {
         match self {
             Self::Ground => "The tone under all layers.",
@@ -109,7 +108,7 @@ impl EditedLayer {
 }
 
 impl EditedStrokes<'_> {
-    /// The command that replaces what is stated for the layer of this name by `layer`.
+    /// The command that replaces what is stated for the layer of the same name by `layer`.
     pub(super) fn set_layer(&self, layer: LayerSettings) -> Command {
         self.set(StrokeChange::PaintLayer(Box::new(layer)))
     }

@@ -21,8 +21,7 @@ struct Setting<T> {
     of: fn(&mut T) -> &mut f64,
 }
 
-/// A setting of one part of the noise that offers a few words: its label, name and effect, the words, which of them is
-/// chosen, and how to set it.
+/// A setting of one part of the noise that offers a few words to choose from.
 struct Choice<T> {
     label: &'static str,
     name: &'static str,

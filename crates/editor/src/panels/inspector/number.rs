@@ -17,7 +17,7 @@ pub(super) struct Number<'a> {
     pub(super) name: &'a str,
     /// The label, where the name is too long for one.
     pub(super) label: Option<&'a str>,
-    /// What it belongs to, where several things of one selection have numbers of this name.
+    /// What the number belongs to. It tells numbers of the same name apart where one selection has several.
     pub(super) of: &'a str,
     /// What the number does, one sentence.
     pub(super) effect: &'a str,
@@ -41,7 +41,6 @@ pub(super) struct Number<'a> {
     pub(super) warns: bool,
 }
 
-/// Any number.
 pub(super) const ANY: RangeInclusive<f64> = f64::NEG_INFINITY..=f64::INFINITY;
 
 impl<'a> Number<'a> {

@@ -98,7 +98,6 @@ fn missing(ui: &mut Ui, asker: &mut Asker<'_, '_>, object: &Object) {
     });
 }
 
-/// The mesh's path, which can be typed.
 fn path_row(ui: &mut Ui, asker: &mut Asker<'_, '_>, object: &Object, look: FieldStyle) {
     let key = egui::Id::unique(("mesh", &object.name));
     let typed = row(ui, "Mesh", |ui| text(ui, "Mesh file", key, &object.mesh, look));

@@ -1,4 +1,4 @@
-//! The sections of the inspector for what changes over time and is no pose: strokes and the background.
+//! The sections of the inspector for how the strokes and the background change over time.
 
 use egui::Ui;
 use impasto_editor_model::command::{Command, KeyOf, KeyedValue, StrokesOf, Time, strokes_at};

@@ -38,7 +38,8 @@ pub(super) fn section_of(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<
     });
 }
 
-/// Whether the style is brush strokes: only then does the order of layers matter, and do touches lie over them.
+/// Whether the style is brush strokes. Only in this style does the order of layers matter, and only here do touches
+/// lie over the layers.
 fn is_painted(asker: &Asker<'_, '_>) -> bool {
     matches!(asker.scene().style, Style::RotatingStrokes(_))
 }

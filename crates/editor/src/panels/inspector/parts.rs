@@ -15,12 +15,12 @@ use crate::panels::column_state::ColumnState;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Tip};
 
-/// From this window width on, in points, there is room for sections that start folded in a smaller window.
+/// From this window width on, in points, more sections start open.
 const WIDE: f32 = 1600.0;
 /// Room for the eye and the lock at a head's end.
 const HEAD_END: f32 = 64.0;
 
-/// Whether the window has room for sections that start folded in a smaller one.
+/// Whether the window is wide enough for more sections to start open.
 pub(super) fn is_wide(ui: &Ui) -> bool {
     ui.ctx().content_rect().width() >= WIDE
 }
@@ -116,7 +116,6 @@ pub(super) fn head_note(ui: &mut Ui, words: &str) {
     });
 }
 
-/// An icon at the left of a head.
 pub(super) fn head_icon(ui: &mut Ui, icon: Icon, colour: Color32) {
     let (rect, _) = ui.allocate_exact_size(vec2(measure::HIT, measure::HIT), Sense::hover());
     let font = type_face::icon(measure::ICON);
@@ -178,9 +177,7 @@ pub(super) fn text(ui: &mut Ui, name: &str, key: Id, current: &str, look: FieldS
 /// How a line of text looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FieldStyle {
-    /// As the head of the inspector.
     Head,
-    /// As a field.
     Field,
     /// As a field with something wrong in it.
     Wrong,

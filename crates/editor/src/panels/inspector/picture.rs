@@ -12,13 +12,11 @@ use crate::widgets::{self, Tip};
 
 /// The picture that something uses.
 pub(super) struct Picture<'a> {
-    /// The label of the row.
     pub(super) label: &'a str,
     /// The row's name for screen readers, as in *Surface noise file*.
     pub(super) name: &'a str,
     /// What the picture does, one sentence.
     pub(super) effect: &'a str,
-    /// What the picture is for.
     pub(super) of: PictureFor,
     /// The file, as the scene names it.
     pub(super) file: Option<&'a str>,

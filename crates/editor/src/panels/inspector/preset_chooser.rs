@@ -15,8 +15,9 @@ const AS_SCENE: &str = "As the scene";
 
 /// Cards in a row.
 const CARDS: usize = 3;
-/// The gap between cards, and the greatest height of the list of presets in the menu, points.
+/// The gap between cards, points.
 const GAP: f32 = 4.0;
+/// The greatest height of the list of presets in the menu, points.
 const LIST: f32 = 480.0;
 
 pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
@@ -87,7 +88,6 @@ fn list(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, chose
     });
 }
 
-/// Lays cards out in rows.
 fn cards<T>(ui: &mut Ui, all: impl IntoIterator<Item = T>, mut card: impl FnMut(&mut Ui, T)) {
     let mut rest = all.into_iter().peekable();
     while rest.peek().is_some() {

@@ -18,7 +18,6 @@ pub(super) struct Entry {
     pub(super) words: String,
     /// Its keys. For a preference or a control of the inspector, the place where it is found.
     pub(super) keys: String,
-    /// Whether it is on.
     pub(super) on: bool,
     /// The request, or why it cannot be made now.
     pub(super) ask: Result<Ask, &'static str>,

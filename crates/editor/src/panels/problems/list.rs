@@ -25,7 +25,7 @@ const WORDS: f32 = 94.0;
 /// Buttons that take more than this share of a row stand under its words.
 const MOST_BUTTONS: f32 = 0.45;
 
-/// A button of a row: the words on it, its name for screen readers, whether it is the best thing to do, what it asks for.
+/// A button of a row: `words` are on it, `name` is its name for screen readers.
 struct Verb {
     words: String,
     name: String,
@@ -33,7 +33,6 @@ struct Verb {
     ask: Ask,
 }
 
-/// What a row shows.
 struct Row<'a> {
     is_error: bool,
     place: Option<TextPosition>,

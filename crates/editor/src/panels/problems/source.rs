@@ -82,7 +82,7 @@ pub fn restore_text(ctx: &Context, document: &Document, typed: String) {
     Memory { typed, begun_from: document.source().cloned(), go_to: None }.store(ctx);
 }
 
-/// Drops the edited text, because the user wants that or another document is opened.
+/// Drops the edited text.
 pub fn forget_text(ctx: &Context) {
     Memory::default().store(ctx);
 }

@@ -16,7 +16,6 @@ const COLUMN: usize = 6;
 /// Width of a column, points: room for the longest name, and some space.
 const COLUMN_WIDTH: f32 = 104.0;
 
-/// Shows the row.
 pub(super) fn format(ui: &mut Ui, scene: &Scene, settings: &mut RenderSettings) {
     labelled(ui, "Format", |ui| {
         let mut chosen = FileKind::ALL.iter().position(|kind| *kind == settings.kind).unwrap_or(0);

@@ -8,7 +8,6 @@ fn id() -> Id {
     Id::unique("lane that was clicked")
 }
 
-/// Notes that the name of this lane was clicked.
 pub(super) fn note(ui: &Ui, of: &KeyOf) {
     ui.data_mut(|data| data.insert_temp(id(), of.clone()));
 }

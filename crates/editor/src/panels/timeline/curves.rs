@@ -24,7 +24,6 @@ const MARGIN: f32 = 14.0;
 /// The arrows move a handle by this share of time and value; with `Shift` ten times as far.
 const STEP: f64 = 0.01;
 
-/// The names of the handles.
 const HANDLES: [&str; 2] = ["First handle", "Second handle"];
 
 /// Maps frames and shares to the window. A share is a value's progress from one key (0) to the next (1).
@@ -80,7 +79,6 @@ fn with_handle(ease: Ease, index: usize, handle: [f64; 2]) -> Ease {
     }
 }
 
-/// The drag of a handle.
 #[derive(Clone, Debug)]
 struct Drag {
     key: KeyAt,
@@ -120,7 +118,6 @@ fn memory_id() -> Id {
     Id::unique("curves of the timeline")
 }
 
-/// The id of the menu of the curves with this id.
 fn menu_id(curves: Id) -> Id {
     curves.with("menu")
 }

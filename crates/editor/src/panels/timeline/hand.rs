@@ -19,9 +19,7 @@ pub(super) struct LaneLayout<'a> {
     pub(super) top: f32,
     /// Height of a lane.
     pub(super) lane: f32,
-    /// Maps frames to the window.
     pub(super) across: FrameScale,
-    /// The lanes.
     pub(super) lanes: &'a [Lane],
 }
 
@@ -49,7 +47,6 @@ struct Memory {
     down: bool,
     /// The menu that was opened last.
     menu: Option<KeyMenu>,
-    /// The keys that were copied.
     copied: Vec<KeyAt>,
 }
 
@@ -108,7 +105,7 @@ pub(super) fn hand(ui: &mut Ui, layout: &LaneLayout<'_>, shown: &PanelInput<'_>,
     ui.data_mut(|data| data.insert_temp(id, memory));
 }
 
-/// Of the two keys of a lane between which a place lies, the left one; `None` if it does not lie between two keys.
+/// The left one of the two keys that a place of a lane lies between; `None` if it does not lie between two keys.
 fn between(layout: &LaneLayout<'_>, at: Pos2) -> Option<KeyAt> {
     let place = layout.place(at);
     let lane = layout.lanes.get(place.lane)?;

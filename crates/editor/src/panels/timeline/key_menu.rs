@@ -27,7 +27,6 @@ pub(super) struct KeyMenu {
     pub(super) lane: Option<KeyOf>,
 }
 
-/// What a row of the menu does.
 enum Does {
     Ask(Box<Ask>),
     Copy,

@@ -24,11 +24,9 @@ const MOST_SWING: f32 = 11.0;
 /// Where a lane is drawn.
 #[derive(Clone, Copy)]
 pub(super) struct LaneRow {
-    /// The whole row.
     pub(super) rect: Rect,
     /// X at which its name ends and its keys begin.
     pub(super) names: f32,
-    /// Maps frames to the window.
     pub(super) across: FrameScale,
 }
 
@@ -43,7 +41,6 @@ pub(super) fn item(of: &KeyOf) -> Option<Item> {
     }
 }
 
-/// Whether the owner of these keys is selected.
 pub(super) fn is_selected(selection: &Selection, of: &KeyOf) -> bool {
     item(of).is_some_and(|item| selection.contains(&item))
 }

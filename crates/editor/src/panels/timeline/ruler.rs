@@ -15,7 +15,6 @@ use crate::theme::{Tokens, measure, type_face};
 /// Height of the strip below the lanes in which the reference's pin stands.
 pub(super) const PIN: f32 = 24.0;
 
-/// Height of the ruler.
 pub(super) const HEIGHT: f32 = 28.0;
 /// The least distance between labels, in points.
 const LABELS: f32 = 90.0;

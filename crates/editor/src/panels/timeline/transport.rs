@@ -191,7 +191,6 @@ fn pacing_icon(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     }
 }
 
-/// The toggle for playing in a loop.
 pub(in crate::panels) fn looped(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let mut looped = shown.session.looped;
     let response = widgets::icon_toggle(ui, icons::LOOP, "Loop", &mut looped);

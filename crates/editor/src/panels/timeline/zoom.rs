@@ -4,7 +4,7 @@ use egui::{Id, Rect, Ui};
 
 use super::across::FrameScale;
 
-/// The ruler shows at least this many frames.
+/// The fewest frames that zooming in leaves visible.
 const FEWEST: f64 = 8.0;
 
 /// What is remembered between passes: the first and last visible frame (`None` for all frames), and the shown frame.

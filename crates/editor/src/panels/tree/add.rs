@@ -23,7 +23,6 @@ pub(super) fn menu(button: &Response, shown: &PanelInput<'_>, asks: &mut Vec<Ask
     Popup::menu(button).width(190.0).show(|ui| entries(ui, shown, asks));
 }
 
-/// The rows of the menu.
 pub(in crate::panels) fn entries(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.y = 0.0;
     ui.set_min_width(190.0);
@@ -39,12 +38,10 @@ pub(in crate::panels) fn entries(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut
     });
 }
 
-/// Something that can be added to the scene.
 pub(in crate::panels) struct Addition {
     icon: Icon,
-    /// What it is: *Lamp*.
+    /// What it is, such as *Lamp*.
     pub(in crate::panels) words: String,
-    /// What adds it.
     pub(in crate::panels) ask: Ask,
 }
 

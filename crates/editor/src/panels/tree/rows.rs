@@ -17,7 +17,6 @@ const ROWS_OPEN_AT_FIRST: usize = 20;
 pub(super) struct TreeLine {
     /// What it stands for; `None` for the canvas.
     pub(super) item: Option<Item>,
-    /// What it shows.
     pub(super) name: String,
     /// What kind of thing it is, as a screen reader says it: *region*, *object*, *light*.
     pub(super) kind: &'static str,
@@ -31,9 +30,7 @@ pub(super) struct TreeLine {
     pub(super) note: String,
     /// Whether it has more than one key.
     pub(super) keyed: bool,
-    /// Whether it is hidden: its eye is shut.
     pub(super) hidden: bool,
-    /// Whether it is locked.
     pub(super) locked: bool,
 }
 

@@ -147,8 +147,8 @@ mod tests {
         assert!(runs_within(&[pos2(-10.0, 60.0), pos2(110.0, 60.0)], AREA).is_empty());
     }
 
-    /// A ring that passes just before the eye has points this far away. In single precision, dashes along it never
-    /// come to an end.
+    /// A ring that passes just in front of the eye has points this far away. In single precision, dashes along it
+    /// never come to an end.
     #[test]
     fn a_line_to_the_end_of_the_world_has_few_dashes() {
         let far = [pos2(50.0, 25.0), pos2(3e12, -7e11), pos2(-2e20, 1e19), pos2(50.0, 26.0)];

@@ -24,8 +24,8 @@ pub struct RegionTint {
     runs: Vec<[usize; 3]>,
     edge: Outline,
     cells_per_point: f64,
-    /// Where its name is drawn: the place in its cells that is nearest to their mean, in points of the window from the
-    /// picture's upper left corner.
+    /// Where its name is drawn, in points from the picture's upper left corner: the place in its cells that is
+    /// nearest to their mean.
     middle_points: DVec2,
 }
 
@@ -40,7 +40,7 @@ impl RegionTint {
         let [columns, rows] = map.size();
         let mut cells: Vec<Option<usize>> = Vec::with_capacity(columns * rows);
         let mut runs: Vec<Vec<[usize; 3]>> = vec![Vec::new(); names.len()];
-        // Most faces lie in several cells.
+        // Most faces cover several cells, so the region of each face is looked up only once.
         let mut known: HashMap<Face, Option<usize>> = HashMap::new();
         let mut region = |face: Face| *known.entry(face).or_insert_with(|| region_of(face));
         for row in 0..rows {
@@ -136,7 +136,6 @@ fn apart(wanted: &[Rect], cells: &[usize]) -> Vec<Option<Rect>> {
     places
 }
 
-/// Draws a region in its colour, with its edge.
 fn fill_and_edge(sheet: &Sheet<'_>, tint: &RegionTint) {
     let side = 1.0 / tint.cells_per_point as f32;
     let fill = tint.colour.gamma_multiply(FILL);

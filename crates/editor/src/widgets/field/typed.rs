@@ -48,12 +48,12 @@ impl NumberField<'_> {
         let name = self.name;
         response
             .widget_info(|| WidgetInfo { label: Some(name.to_owned()), ..WidgetInfo::new(Role::TextInput) });
-        // Without a default to bring back, a double click selects the whole number and not just a part of it.
         if at_once {
             // To the text field, the click that opened it counts as a click elsewhere, which would end its focus.
             response.request_focus();
             keep_focus(ui.ctx(), edit_id);
         } else if fresh || self.default.is_none() && is_double_click_in(ui, frame) {
+            // In a field without a default, a double click selects the whole number.
             response.request_focus();
             let mut state = output.state;
             let all = egui::text::CCursorRange::two(

@@ -20,7 +20,8 @@ impl PaintWorker {
         self.prepare_for(order, views, mailbox, tell)
     }
 
-    /// The views of an order at rest, if its scene was prepared for others: then large surfaces may lack particles.
+    /// The views of an order at rest, if its scene was prepared for other views. Large surfaces may then lack
+    /// particles.
     pub(super) fn lacking(&self, order: &Order) -> Option<EditorViews> {
         let known = self.prepared.as_ref().filter(|known| known.serial == order.job.serial)?;
         if is_moving(order) || !known.painting.depends_on_views() {

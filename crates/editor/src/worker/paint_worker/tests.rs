@@ -9,7 +9,6 @@ use super::*;
 use crate::worker::tests::{scene, view};
 use crate::worker::{Job, Later};
 
-/// A worker with its mailbox, and a scene.
 struct Bench {
     loaded: Arc<LoadedScene>,
     mailbox: Mailbox,

@@ -218,7 +218,6 @@ fn fields_shift_the_motion_in_arrange_and_key_it_in_animate() {
     assert_eq!(field.accesskit_node().value().as_deref(), Some("43"));
 }
 
-/// Two clicks in quick succession in the middle of a field.
 fn double_click(harness: &mut Harness<'_, Column>, name: &str) {
     // The test's clock moves in large steps, so the delay has to be long.
     harness.ctx.options_mut(|options| options.input_options.max_double_click_delay = 2.0);

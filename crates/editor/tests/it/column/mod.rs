@@ -275,7 +275,6 @@ pub fn drag(harness: &mut Harness<'_, Column>, name: &str, by: f32) {
     harness.run();
 }
 
-/// Presses and releases the right button in the middle of a control.
 pub fn right_click(harness: &mut Harness<'_, Column>, name: &str) {
     let pos = harness.get_by_label(name).rect().center();
     harness.event(egui::Event::PointerMoved(pos));

@@ -51,7 +51,6 @@ fn scenes() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes")
 }
 
-/// A document with nothing in it.
 pub fn nothing() -> Document {
     Document::empty(&scenes())
 }

@@ -6,7 +6,6 @@ use glam::Vec2;
 /// Texels along a side.
 pub(super) const SIDE: usize = 64;
 
-/// How many icons there are.
 pub(super) const COUNT: u32 = 3;
 
 /// Half the width of a line, in halves of the icon's side.

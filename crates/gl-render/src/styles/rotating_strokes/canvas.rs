@@ -17,8 +17,8 @@ const WANDER: f32 = 0.35;
 /// How often a thread strays and returns in one tile.
 const WANDER_CYCLES: u32 = 3;
 
-/// Height above the mean, then its slopes in x and in y per texel, −1..1 stored as 0..255; four bytes a texel, the last
-/// unused; bottom row first.
+/// The tile, bottom row first, four bytes a texel: height above the mean, slope in x and slope in y (both per texel),
+/// unused. The bytes 0..255 stand for −1..1.
 pub(super) fn tile() -> Vec<u8> {
     let side = SIDE as usize;
     let heights: Vec<f32> = (0..side * side).map(|index| height(index % side, index / side)).collect();
@@ -84,7 +84,6 @@ mod tests {
                 / (side * side) as f32;
             assert!(mean.abs() < 1.0, "channel {channel}: {mean}");
         }
-        // Across the border the step is no larger than the largest elsewhere.
         let step = |x: usize| -> f32 {
             (0..side).map(|y| (texel(x, y, 0) - texel((x + 1) % side, y, 0)).abs()).sum()
         };

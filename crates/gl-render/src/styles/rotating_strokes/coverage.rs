@@ -12,7 +12,6 @@ use crate::watch::Watch;
 
 use super::programs::FILES;
 
-/// Finds how much of each pixel its body covers.
 pub(super) struct Coverage {
     gpu: Gpu,
     borders: Program,
@@ -21,7 +20,6 @@ pub(super) struct Coverage {
     surface: Option<Target>,
 }
 
-/// A texture, and the pass that draws into it.
 struct Target {
     texture: Rc<Texture>,
     pass: Framebuffer,
@@ -50,7 +48,6 @@ impl Covered {
         self.samples = 1;
     }
 
-    /// Sets the uniform `surface`.
     pub(super) fn set_surface<'a>(&self, bound: Bound<'a>) -> Bound<'a> {
         bound.texture("surface", &self.surface)
     }
@@ -66,7 +63,6 @@ impl Coverage {
         })
     }
 
-    /// Lets its targets go.
     pub(super) fn let_go(&mut self) {
         self.surface = None;
     }

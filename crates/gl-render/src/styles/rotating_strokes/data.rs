@@ -29,7 +29,6 @@ impl PaintData {
         Ok(Self { gpu: gpu.clone(), programs: DataPrograms::new(gpu)?, gatherer, target: None })
     }
 
-    /// Begins a picture.
     pub(super) fn begin(&mut self, frame: &Frame) -> Result<(), GlError> {
         if frame.strokes.len() > MOST_STROKES {
             return Err(GlError::Resource {
@@ -40,20 +39,19 @@ impl PaintData {
         self.gatherer.clear()
     }
 
-    /// A layer is painted in pieces: this is the most pixels that the strokes of a piece may cover, so that all their
-    /// fragments can be noted. A stroke's quad has more fragments than the stroke covers pixels; if the stroke is
-    /// narrow, many more.
+    /// The most pixels that the strokes of one piece of a layer may cover, so that all their fragments can be noted. A
+    /// stroke's quad has more fragments than the stroke covers pixels; if the stroke is narrow, many more.
     pub(super) fn piece_px(&self) -> f32 {
         const MOST_TIMES: f32 = 4.0;
         self.gatherer.capacity() as f32 / MOST_TIMES
     }
 
-    /// The program that paints and notes.
+    /// The program that paints strokes and notes their fragments.
     pub(super) fn paint(&self, has_shape: bool) -> &Program {
         if has_shape { &self.programs.shaped_paint } else { &self.programs.paint }
     }
 
-    /// The program that paints lines and notes.
+    /// The program that paints lines and notes their fragments.
     pub(super) fn line_paint(&self) -> &Program {
         &self.programs.line_paint
     }
@@ -68,7 +66,6 @@ impl PaintData {
         self.gatherer.take()
     }
 
-    /// Ends a layer.
     pub(super) fn end_layer(&mut self, layer: LayerRun, size_px: [u32; 2]) {
         self.gatherer.end_layer(layer, size_px);
     }

@@ -63,7 +63,6 @@ impl StrokePrograms {
         Ok(())
     }
 
-    /// Creates the program for tapered and bent strokes, unless it is there.
     pub(super) fn ready_shaped(&mut self, gpu: &Gpu, quality: Quality) -> Result<(), GlError> {
         if self.shaped_paint.is_none() {
             let source = match quality {
@@ -75,7 +74,6 @@ impl StrokePrograms {
         Ok(())
     }
 
-    /// Creates the program for lines, unless it is there.
     pub(super) fn ready_line(&mut self, gpu: &Gpu, quality: Quality) -> Result<(), GlError> {
         if self.line_paint.is_none() {
             let source = match quality {

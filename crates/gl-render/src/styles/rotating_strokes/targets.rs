@@ -9,7 +9,6 @@ use crate::gl::{Filter, Format, Framebuffer, GlError, Gpu, Texture};
 /// Where small strokes are wanted, block by block.
 pub(super) struct DetailTargets {
     size_px: [u32; 2],
-    /// Side of a block.
     pub(super) block_px: u32,
     pub(super) detail: [Rc<Texture>; 2],
     pub(super) passes: [Framebuffer; 2],
@@ -31,7 +30,6 @@ impl DetailTargets {
     }
 }
 
-/// The render targets of the paint.
 pub(super) struct PaintTargets {
     pub(super) paint: Rc<Texture>,
     /// Height of the paint, and how wet it is.

@@ -8,7 +8,7 @@ use crate::shader_files::{SHARED, SUMI_E};
 /// The files that the style's shaders may include.
 const FILES: &[&[ShaderFile]] = &[SHARED, SUMI_E];
 
-/// The programs of `InkRule::Source`, the published way of drawing ink, for five passes: `low_pass` runs twice.
+/// The programs of `InkRule::Source`, the published way of drawing ink. It has five passes: `low_pass` runs twice.
 pub(super) struct SourcePrograms {
     pub(super) silhouette: BodyProgram,
     pub(super) interior: BodyProgram,
@@ -16,7 +16,7 @@ pub(super) struct SourcePrograms {
     pub(super) mix: Program,
 }
 
-/// The programs of our own way of drawing ink.
+/// The programs of `InkRule::Painter`, our own way of drawing ink.
 pub(super) struct PainterPrograms {
     pub(super) wash: Program,
     pub(super) soften: Program,

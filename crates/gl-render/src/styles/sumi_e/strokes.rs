@@ -14,10 +14,9 @@ use crate::stroke_buffers::StrokeBuffers;
 use crate::style_renderer::StyleInput;
 use crate::watch::Watch;
 
-/// Whenever this many strokes are drawn, the caller is asked whether to stop.
+/// Each time that this many strokes have been drawn, the caller is asked whether to stop.
 const PIECE: u32 = 4096;
 
-/// Draws the strokes of a frame.
 pub(super) struct InkStrokes {
     gpu: Gpu,
     buffers: StrokeBuffers,

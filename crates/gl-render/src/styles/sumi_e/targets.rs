@@ -42,7 +42,7 @@ impl SourceTargets {
     }
 }
 
-/// The targets of the rule `Painter`, our own.
+/// The targets of `InkRule::Painter`, our own rule.
 pub(super) struct PainterTargets {
     pub(super) wash: Rc<Texture>,
     pub(super) between: Rc<Texture>,

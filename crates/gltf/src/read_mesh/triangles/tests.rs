@@ -4,7 +4,7 @@ use super::{Mode, assembled};
 fn strips_wind_alike_and_drop_their_stitches() {
     let strip = assembled(Mode::Strip, 5, |corner| corner as u32);
     assert_eq!(strip, [[0, 1, 2], [1, 3, 2], [2, 3, 4]]);
-    // Two quads joined by repeated corners, the stitches: the winding goes on alternating across them.
+    // Two quads joined by repeated corners (the stitches). The winding goes on alternating across the stitches.
     let joined = [0, 1, 2, 3, 3, 4, 4, 5, 6, 7];
     let strip = assembled(Mode::Strip, joined.len(), |corner| joined[corner]);
     assert_eq!(strip, [[0, 1, 2], [1, 3, 2], [4, 5, 6], [5, 7, 6]]);

@@ -80,7 +80,7 @@ fn a_curve_is_solved_for_its_time() {
         for part in times() {
             let [time, share] = divided([first, second], part);
             let found = Ease::Curve(first, second).share(time);
-            // The tolerance is wide since near times 0 and 1, x hardly changes along some of these curves.
+            // The tolerance is wide because x hardly changes near the ends of some of these curves.
             assert!((found - share).abs() < 1e-6, "{first:?} {second:?}: {found} for {share} at {time}");
         }
     }
@@ -95,7 +95,7 @@ fn a_curve_is_solved_for_its_time() {
 fn a_curve_that_rises_never_falls() {
     for ends in 0..=20_u32 {
         let [first, second] = [f64::from(ends % 5) / 4.0, f64::from(ends / 5) / 4.0];
-        // y rises along the curve. So if the share falls, an earlier part of the curve was found for a later time.
+        // y rises along the curve. If the share falls, an earlier part of the curve was found for a later time.
         let curve = Ease::Curve([first, 0.4], [second, 0.6]);
         let shares: Vec<f64> = times().map(|time| curve.share(time)).collect();
         assert!(shares.is_sorted(), "{curve:?}");

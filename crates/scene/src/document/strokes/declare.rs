@@ -3,17 +3,14 @@
 
 /// Numbers that are resolved without conversion.
 pub(super) mod plain {
-    /// From a preset.
     pub(crate) fn of_preset(value: f32) -> f32 {
         value
     }
 
-    /// From a scene file.
     pub(crate) fn of_file(value: f64) -> f32 {
         value as f32
     }
 
-    /// In the units of a scene file.
     pub(crate) fn in_file(value: f32) -> f64 {
         f64::from(value)
     }
@@ -21,17 +18,14 @@ pub(super) mod plain {
 
 /// Angles: degrees in files and presets, radians where they are resolved.
 pub(super) mod angle {
-    /// From a preset.
     pub(crate) fn of_preset(value_deg: f32) -> f32 {
         value_deg.to_radians()
     }
 
-    /// From a scene file.
     pub(crate) fn of_file(value_deg: f64) -> f32 {
         value_deg.to_radians() as f32
     }
 
-    /// In the units of a scene file.
     pub(crate) fn in_file(value_rad: f32) -> f64 {
         f64::from(value_rad).to_degrees()
     }

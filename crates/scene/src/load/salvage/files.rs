@@ -25,7 +25,7 @@ const DEEPEST: usize = 4;
 
 type Read<T> = Result<(Arc<T>, Vec<Problem>), Problem>;
 
-/// A cache of files that were read or failed, so that each is read once over all passes.
+/// Files that were read, and errors of files that could not be. Each file is tried only once over all passes.
 pub(super) struct FileCache<'a> {
     path: &'a Path,
     options: &'a LoadOptions,
@@ -58,7 +58,6 @@ impl<'a> FileCache<'a> {
         Self { path, options, meshes, point_caches, textures, brushes, nearby: None }
     }
 
-    /// Reads the files that a scene names.
     pub(super) fn read(&mut self, scene: &Scene, located: &Located) -> Found {
         let mut found = Found::default();
         let (path, folders) = (self.path, &self.options.folders);

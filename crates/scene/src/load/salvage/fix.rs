@@ -11,7 +11,7 @@ const NEAR: usize = 2;
 /// A change of the text that mends a loss.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fix {
-    /// The verb: *Rename*, *Use leaf.obj*.
+    /// The text of the button: *Rename*, *Use leaf.obj*.
     pub verb: String,
     /// Whether the fix is certainly what was meant, and not a guess.
     pub is_certain: bool,

@@ -33,7 +33,6 @@ impl Folder {
     }
 }
 
-/// The text of a scene with these objects and further fields.
 fn scene(objects: &str, more: &str) -> String {
     format!(
         "(\n  version: 1,\n  camera: (keys: [(frame: 0, eye: (0, 1, 4), target: (0, 0, 0))]),\n  objects: [\n{objects}\n  ],\n{more}\n)\n"
@@ -52,7 +51,6 @@ fn names(salvaged: &Salvaged) -> Vec<&str> {
     salvaged.loaded.scene.objects.iter().map(|object| object.name.as_str()).collect()
 }
 
-/// Applies all fixes and reads the scene again.
 fn all_fixed(salvaged: &Salvaged, path: &Path) -> Salvaged {
     let fixes: Vec<&Fix> = salvaged.losses.iter().filter_map(|loss| loss.fix.as_ref()).collect();
     salvage_text(path, &mended(&salvaged.text, &fixes), &LoadOptions::default()).expect("opens")

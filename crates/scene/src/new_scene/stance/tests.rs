@@ -73,7 +73,6 @@ fn as_it_is(at: Vec3) -> Vec3 {
     at
 }
 
-/// From Y up to Z up.
 fn with_z_up(at: Vec3) -> Vec3 {
     Vec3::new(at.x, -at.z, at.y)
 }

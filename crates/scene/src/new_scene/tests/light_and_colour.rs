@@ -73,7 +73,7 @@ fn a_model_without_colours_gets_one_by_its_name_and_its_groups_neighbouring_ones
 
 #[test]
 fn light_is_as_strong_as_the_model_asks() {
-    // The sunlight that a side facing the sun reflects, before the soft shoulder, as `lighting.glsl` computes it.
+    // The sunlight that a side facing the sun reflects, as `lighting.glsl` computes it before its soft shoulder.
     let reflected = |value: f32| {
         let mut mesh = box_between(Vec3::NEG_ONE, Vec3::ONE, false);
         mesh.materials = vec![material([value; 3])];

@@ -105,7 +105,7 @@ fn default_of(kind: &str) -> String {
         "Lens" => "Perspective()",
         "Style" => "RotatingStrokes()",
         "Timeline" | "StrokeSettings" => "()",
-        // Left out only where the scene has a shot.
+        // A scene can leave these out only if it has a shot.
         "Camera" | "String" => "",
         kind if kind.starts_with("Option<") || kind.starts_with("Vec<") => "",
         kind => panic!("what is the default of {kind}?"),
@@ -162,8 +162,8 @@ fn read(text: &str, texts: &[String], found: &mut Vec<Declared>) {
     let mut is_skipped = false;
     // Whether every field of the type may be left out.
     let mut has_defaults = false;
-    // The type that the line is inside of, if any, and then perhaps a variant of it with named fields. Each is given as
-    // its index in `found` and the indent of its first line.
+    // The type around the current line, and inside it perhaps a variant with named fields. Each is given as its index
+    // in `found` and the indent of its first line.
     let mut open: Vec<(usize, usize)> = Vec::new();
     for line in text.lines() {
         let indent = line.len() - line.trim_start().len();
