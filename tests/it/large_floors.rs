@@ -1,13 +1,14 @@
 //! Tests that a surface which no view sees whole is painted as densely as a small one, with particles only where it is
 //! seen.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use impasto_core::presence;
 use impasto_gl_render::context::Driver;
 use impasto_painting::{FrameOptions, Painting, PrepareOptions, Preparer, SeenFrom, prepare};
-use impasto_scene::document::{Color, Lens, Light, LightKind, MaterialOverride, Scene, Style};
+use impasto_scene::document::{Color, Lens, Light, LightKind, MaterialOverride, ObjectKey, Scene, Style};
 use impasto_scene::motion::CameraPose;
 use impasto_tests::pictures::renderer;
 use impasto_tests::shapes;
@@ -152,6 +153,43 @@ fn a_free_camera_finds_particles_where_it_was_announced() {
     assert!(shot_too.abs_diff(shot) * 50 < shot, "{shot} and {shot_too} strokes");
     assert_eq!(strokes(SeenFrom::AsBefore), (shot_too, with));
     assert_eq!(strokes(SeenFrom::SHOT), (shot, without));
+}
+
+/// A floor swells into hills while the camera drives over it, so that it bends, grows and turns away.
+#[test]
+fn a_floor_that_bends_has_the_same_strokes_with_fewer_particles() {
+    let mut scene = floor_scene(500.0);
+    scene.timeline.last = 10;
+    scene.camera.keys = vec![
+        shapes::camera_key(0.0, [0.0, 1.6, 5.0], [0.0, 0.9, 0.0]),
+        shapes::camera_key(10.0, [7.0, 2.6, 1.0], [11.0, 1.3, -3.0]),
+    ];
+    scene.objects[0].morph = Some("target.obj".to_owned());
+    scene.objects[0].keys = vec![ObjectKey::at(0.0), ObjectKey { morph: 1.0, ..ObjectKey::at(10.0) }];
+    let hilly = |at: DVec3| {
+        let [along, across] = [0.7 * at.x, 0.9 * at.z + 0.4].map(f64::sin);
+        DVec3::new(at.x + 0.4 * across, at.y + 1.1 * along * across, at.z + 0.3 * along)
+    };
+    let flat = floor(60.0, 90);
+    let target = shapes::moved(&flat, hilly);
+    let loaded = shapes::morphing(scene, [flat, target]);
+    let painting = |seen_from: SeenFrom<'_>| {
+        let options = PrepareOptions { seen_from, ..PrepareOptions::default() };
+        Preparer::default().prepare_with(Arc::clone(&loaded), &options).unwrap()
+    };
+    let [shot, anywhere] = [SeenFrom::SHOT, SeenFrom::Anywhere].map(painting);
+    assert!(shot.is_partial() && !anywhere.is_partial());
+    assert!(2 * shot.particle_total() < anywhere.particle_total(), "{} particles", shot.particle_total());
+    for frame in [0.0, 3.0, 6.5, 10.0] {
+        let strokes = |painting: &Painting| -> BTreeSet<[u32; 2]> {
+            let frame = painting.at(frame, &FrameOptions::new(SIZE_PX));
+            frame.strokes.iter().map(|stroke| stroke.center_px.map(f32::to_bits)).collect()
+        };
+        let [few, all] = [&shot, &anywhere].map(strokes);
+        // Where particles are left out, those beside them have more room, so a few others are chosen.
+        let missing = all.difference(&few).count();
+        assert!(all.len() > 2000 && 200 * missing < all.len(), "frame {frame}: {missing} of {}", all.len());
+    }
 }
 
 /// An editor's view shows what lies round the picture, so paint goes on past each border for a quarter of the picture.

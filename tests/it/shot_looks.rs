@@ -7,6 +7,7 @@ use std::sync::Arc;
 use impasto_core::color::linear_from_srgb;
 use impasto_gl_render::context::Driver;
 use impasto_painting::{FrameOptions, prepare};
+use impasto_scene::document::Light;
 use impasto_scene::load::{LoadOptions, load};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::{motion, save};
@@ -81,6 +82,55 @@ fn a_shot_is_as_bright_as_where_it_was_made_within_limits() {
     assert!((burning - 1.7).abs() < 1e-3 && (lit(1.0)[0] - 1.7).abs() < 1e-3, "{burning}");
     assert!(moon > 0.05 * 0.455 * 2.0 && moon < 0.2 * usual, "{moon}");
     assert!(day > 0.7 && night < 0.3, "{day} {night}");
+}
+
+#[test]
+fn the_cone_of_a_lamp_moves_as_the_shot_moves_it() {
+    let home = Home::new();
+    glb::edit(&home.shot(), |root, bin| {
+        let light = &mut root["extensions"]["KHR_lights_punctual"]["lights"][0];
+        light["type"] = json!("spot");
+        light["spot"] = json!({ "innerConeAngle": 0.1, "outerConeAngle": 0.3 });
+        root["extensionsUsed"].as_array_mut().unwrap().push(json!("KHR_animation_pointer"));
+        let mut add = |of: &str, item: Value| {
+            if !root[of].is_array() {
+                root[of] = json!([]);
+            }
+            let all = root[of].as_array_mut().unwrap();
+            all.push(item);
+            all.len() - 1
+        };
+        let mut numbers = |numbers: [f32; 2]| {
+            bin.resize(bin.len().next_multiple_of(4), 0);
+            let at = bin.len();
+            bin.extend(numbers.iter().flat_map(|number| number.to_le_bytes()));
+            let view = add("bufferViews", json!({ "buffer": 0, "byteOffset": at, "byteLength": 8 }));
+            let accessor = json!({ "bufferView": view, "componentType": 5126, "count": 2, "type": "SCALAR",
+                "min": [numbers[0]], "max": [numbers[1]] });
+            add("accessors", accessor)
+        };
+        let [times, angles] = [[0.0, 1.0], [0.3, 0.6]].map(&mut numbers);
+        let pointer = "/extensions/KHR_lights_punctual/lights/0/spot/outerConeAngle";
+        let target =
+            json!({ "path": "pointer", "extensions": { "KHR_animation_pointer": { "pointer": pointer } } });
+        let animation = json!({ "name": "Iris", "samplers": [{ "input": times, "output": angles }],
+            "channels": [{ "sampler": 0, "target": target }] });
+        add("animations", animation);
+        root["buffers"][0]["byteLength"] = json!(bin.len());
+    });
+    let shot = loaded(&home.shot());
+    let sun = shot.scene.lights.iter().find(|light| light.name == "Sun").unwrap();
+    let cone = |light: &Light, seconds: f64| {
+        let frame = seconds * shot.scene.timeline.fps;
+        motion::light_at(&shot.scene, light, frame).cone_deg.unwrap().map(|angle| angle.to_radians())
+    };
+    for (seconds, outer_rad) in [(0.0, 0.3), (0.5, 0.45), (1.0, 0.6)] {
+        let [inner, outer] = cone(sun, seconds);
+        assert!((outer - outer_rad).abs() < 1e-6 && (inner - 0.1).abs() < 1e-6, "{inner} {outer}");
+    }
+    // What the document states stays.
+    let stated = Light { cone_deg: Some([5.0, 50.0]), ..sun.clone() };
+    assert!((cone(&stated, 1.0)[1] - 50f64.to_radians()).abs() < 1e-12);
 }
 
 #[test]

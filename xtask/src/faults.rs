@@ -38,7 +38,10 @@ pub fn run(root: &Path, names: &[String]) -> anyhow::Result<()> {
         .iter()
         .filter(|fault| names.is_empty() || names.iter().any(|name| fault.name.contains(name)))
         .collect();
-    ensure!(!chosen.is_empty(), "no fault is called `{}`", names.join(" "));
+    if let Some(name) = names.iter().find(|name| !list::FAULTS.iter().any(|fault| fault.name.contains(*name)))
+    {
+        bail!("no fault is called `{name}`");
+    }
     let program = built_tests(root)?;
     let folder = target_folder(root)?.join("faults");
     // The tests run with unchanged shaders first. So a test that fails anyway is not taken for one that notices a

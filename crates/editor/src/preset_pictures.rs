@@ -205,7 +205,7 @@ fn paint(
     frame.lay(painting.strokes(&camera, wanted.frame, &options, None));
     let picture = renderer.render_unless(&frame, &mut || give_up()).ok()??;
     let size = picture.size_px.map(|side| side as usize);
-    Some(ColorImage::from_rgba_premultiplied(size, &picture.rgba8))
+    Some(ColorImage::from_rgba_unmultiplied(size, &picture.rgba8))
 }
 
 /// The size of the small picture for a scene of this size, pixels.

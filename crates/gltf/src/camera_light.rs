@@ -202,6 +202,7 @@ fn light(cursor: &Cursor<'_, '_>, findings: &mut Findings) -> Checked<Light> {
             outer_cone_rad = outer_cone_rad.clamp(1e-4, FRAC_PI_2);
             inner_cone_rad = inner_cone_rad.clamp(0.0, outer_cone_rad * 0.999);
         }
+        outer_cone_rad = outer_cone_rad.min(FRAC_PI_2);
     }
     Ok(Light {
         name,

@@ -36,8 +36,8 @@ pub(crate) struct CountInputs {
     left_out: [bool; LAYERS],
     /// The least count of a layer: see [`particle_count::least`].
     least: u32,
-    /// How often its faces may cover the picture: see [`particle_count::deepest`].
-    deepest: f64,
+    /// See [`ObjectInputs::groups`].
+    groups: usize,
     /// The body layer's count, where the object states it.
     stated: Option<u64>,
     /// The factor, at least 1, by which painted amounts raise the counts.
@@ -50,7 +50,7 @@ pub(crate) struct CountInputs {
 impl PartialEq for CountInputs {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.surface, &other.surface)
-            && (self.left_out, self.least, self.deepest) == (other.left_out, other.least, other.deepest)
+            && (self.left_out, self.least, self.groups) == (other.left_out, other.least, other.groups)
             && (self.stated, self.more_wanted, self.paper) == (other.stated, other.more_wanted, other.paper)
             && self.unneeded == other.unneeded
             && self.layers == other.layers
@@ -92,7 +92,7 @@ impl CountInputs {
             fits: context.rules.iter().map(|rule| rule.strokes.fit).collect(),
             left_out,
             least: particle_count::least(context.scene.objects.len()),
-            deepest: particle_count::deepest(object.groups),
+            groups: object.groups,
             stated: context.scene.objects[object.index].particles,
             more_wanted: object.amounts.more_wanted(),
             paper: context.paper,
@@ -109,7 +109,7 @@ impl CountInputs {
         let Found { needed, is_cut, deepness } = particle_count::find::<LAYERS>(
             surface,
             &self.sightings,
-            self.deepest,
+            particle_count::deepest(self.groups),
             positions_at,
             wanted_per_px,
         );
@@ -147,6 +147,11 @@ impl CountInputs {
         let positions = self.surface.positions_at(shape);
         let gradients = (!self.surface.is_at_rest(shape)).then(|| self.surface.gradients().at(&positions));
         (positions, gradients)
+    }
+
+    /// Of how many objects its mesh consists, at least 1.
+    pub(crate) fn groups(&self) -> usize {
+        self.groups.max(1)
     }
 
     /// Whether nothing shows through a triangle: no texture cuts holes into it.

@@ -43,10 +43,12 @@ const FEW: f64 = 4.0;
 const MOST_DEPTH: u32 = 12;
 
 /// An object whose faces cover its part of the picture at least `HEAP` times over is a heap: surface that the object
-/// itself hides needs no particles. A heap's layer gets a longer order than on its whole surface only while at most
+/// itself hides needs no particles. Groups of one mesh that are objects of their own share this number, but that of each
+/// is at least `LEAST_HEAP`. A heap's layer gets a longer order than on its whole surface only while at most
 /// `MOST_MADE_OF_HEAP` of its particles are made. When its cells are cut, needs count only up to an order of
 /// `MOST_OF_HEAP` particles.
 const HEAP: f64 = 12.0;
+const LEAST_HEAP: f64 = 6.0;
 const MOST_MADE_OF_HEAP: f64 = 20_000.0;
 const MOST_OF_HEAP: f64 = 400_000.0;
 
@@ -114,7 +116,8 @@ impl NeededInputs {
             Unneeded::None => None,
             Unneeded::AtRest if cells.all().len() * sightings.len() > MOST_PAIRS => None,
             Unneeded::AtRest => {
-                let own = (counted.deepness >= HEAP).then(|| {
+                let heap = (HEAP / self.counted.groups() as f64).max(LEAST_HEAP);
+                let own = (counted.deepness >= heap).then(|| {
                     let is_solid = |triangle: usize| self.counted.is_solid(triangle);
                     OwnDepths::of_all(surface, sightings, is_solid, self.reach)
                 });
@@ -130,6 +133,14 @@ impl NeededInputs {
                     .then(|| self.seen_moving(surface, &cells, noise > 0.0, needed_per_px))
             }
         };
+        eprintln!(
+            "heap {is_heap} deep {} counts {:?} may {:?} pairs {} seen {}",
+            counted.deepness,
+            counted.counts,
+            counted.may_depend_on_views,
+            cells.all().len() * sightings.len(),
+            seen.is_some()
+        );
         let Some(seen) = seen else { return counts };
         let tree = SeenTree::new(seen);
         for (kind, count) in counts.iter_mut().enumerate() {
@@ -360,6 +371,7 @@ impl SeenTree {
             smallest().map(|((share, needed), _)| share * needed[kind].min(count_on_whole)).sum()
         };
         let most = self.most_in_picture[kind].min(MOST_ON_WHOLE);
+        eprintln!("  kind {kind} everywhere {everywhere} made {}", made(everywhere));
         let enough = MOST_SHARE * everywhere;
         if made(everywhere) > enough {
             return None;

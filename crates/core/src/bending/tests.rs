@@ -2,6 +2,8 @@ use glam::{DMat3, DVec3, EulerRot, Mat3};
 
 use super::*;
 use crate::TriangleMesh;
+use crate::cofactors::cofactors_f32;
+use crate::hash;
 use crate::sampling::{PackedParticle, Particle};
 use crate::solve::BakedParticles;
 
@@ -220,4 +222,40 @@ fn what_stays_together_has_one_gradient() {
         assert_eq!((gradients[1], gradients[2]), (gradients[4], gradients[3]), "{bonds:?}");
         assert_ne!(gradients[0], gradients[1]);
     }
+}
+
+#[test]
+fn carried_normals_are_sums_of_the_vectors_around_them() {
+    let random = |which: u32| hash::unit(hash::scramble(which)) - 0.5;
+    let vector = |which: u32| Vec3::new(random(which), random(which + 1), random(which + 2));
+    let mut behind = 0;
+    for case in 0..40u32 {
+        let from = 1000 * case;
+        // Some of these gradients bend a little, others much.
+        let much = if case % 2 == 0 { 0.3 } else { 1.5 };
+        let turn = Mat3::from_rotation_y(vector(from).x * 6.0);
+        let gradient = |which: u32| {
+            let [x, y, z] = [0, 3, 6].map(|column| vector(from + which + column) * much);
+            turn + Mat3::from_cols(x, y, z)
+        };
+        let gradients = [100, 110, 120].map(gradient);
+        let normals = [200, 203, 206, 209].map(|which| (Vec3::Z + vector(from + which) * 0.5).normalize());
+        for sample in 0..60 {
+            let weights = |which: u32| {
+                let own = [0, 1, 2].map(|corner| random(from + which + 7 * sample + corner) + 0.5);
+                own.map(|weight| weight / own.iter().sum::<f32>())
+            };
+            let [u, v, w] = weights(300);
+            let blended = gradients[0] * u + gradients[1] * v + gradients[2] * w;
+            let [u, v, w] = weights(350);
+            let normal = normals[0] * u + normals[1] * v + normals[2] * w;
+            let carried = cofactors_f32(blended) * normal;
+            let towards = vector(from + 900 + 3 * sample);
+            if normals_around(gradients, normals).all(|around| around.dot(towards) <= 0.0) {
+                behind += 1;
+                assert!(carried.dot(towards) <= 1e-6, "case {case}: {carried} towards {towards}");
+            }
+        }
+    }
+    assert!(behind > 200, "{behind}");
 }

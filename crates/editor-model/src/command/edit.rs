@@ -144,6 +144,7 @@ fn duplicate(scene: &mut Scene, items: &[Item]) -> Result<Done, Refusal> {
             Item::Object(name) => made.push(Item::Object(duplicate_object(scene, name)?)),
             Item::Region(name) => {
                 let mut region = region_mut(scene, name)?.clone();
+                region.locked = false;
                 region.name = names::unique(name, scene.regions.iter().map(|region| region.name.as_str()));
                 made.push(Item::Region(region.name.clone()));
                 scene.regions.push(region);
@@ -189,6 +190,7 @@ fn duplicate_object(scene: &mut Scene, name: &str) -> Result<String, Refusal> {
     let of_it: Vec<_> =
         scene.regions.iter().filter(|region| region.on.object() == Some(name)).cloned().collect();
     for mut region in of_it {
+        region.locked = false;
         region.name = names::unique(&region.name, scene.regions.iter().map(|region| region.name.as_str()));
         // `rename_object` gets a scene with only this region, so that nothing else is renamed.
         let mut alone =

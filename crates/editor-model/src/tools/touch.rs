@@ -173,9 +173,20 @@ fn near(around: &Surroundings, object: &str, touched: &[PathPoint], radius: f64)
         };
         touch.on == object
             && !touch.hidden
-            && touched.iter().any(|stamp| line.iter().any(|at| at.distance(stamp.position) <= 1.5 * radius))
+            && touched.iter().any(|stamp| distance_to_line(&line, stamp.position) <= 1.5 * radius)
     };
     around.scene().touches.iter().filter(is_near).map(|touch| touch.name.clone()).collect()
+}
+
+/// The distance from a point to the nearest place on a line through these points; infinite without points.
+fn distance_to_line(line: &[DVec3], to: DVec3) -> f64 {
+    let to_piece = |piece: &[DVec3]| {
+        let (from, along) = (piece[0], piece[piece.len() - 1] - piece[0]);
+        let share = (to - from).dot(along) / along.length_squared().max(f64::MIN_POSITIVE);
+        (from + along * share.clamp(0.0, 1.0)).distance(to)
+    };
+    let pieces = if line.len() == 1 { line.chunks(1) } else { [].chunks(1) };
+    pieces.chain(line.windows(2)).map(to_piece).fold(f64::INFINITY, f64::min)
 }
 
 impl Drag {
@@ -248,5 +259,21 @@ impl Drag {
                 dabs,
             })
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_near_between_its_points_too() {
+        let line = [DVec3::ZERO, DVec3::X * 10.0, DVec3::X * 10.0, DVec3::new(10.0, 2.0, 0.0)];
+        let distance = |line: &[DVec3], x: f64, y: f64| distance_to_line(line, DVec3::new(x, y, 0.0));
+        assert_eq!(distance(&line, 5.0, 0.5), 0.5);
+        assert_eq!(distance(&line, -3.0, 4.0), 5.0);
+        assert_eq!(distance(&line, 12.0, 1.0), 2.0);
+        assert_eq!(distance(&line[..1], 3.0, 4.0), 5.0);
+        assert_eq!(distance(&[], 3.0, 4.0), f64::INFINITY);
     }
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use glam::DVec3;
 use impasto_editor_model::command::{Arrange, Command, Edit, SceneEdit, Touches};
 use impasto_editor_model::{Document, Item};
-use impasto_scene::document::{Direction, Object, Scene, Touch, TouchPoint, Up};
+use impasto_scene::document::{Direction, Object, Region, Scene, Touch, TouchPoint, Up};
 use impasto_scene::load::LoadOptions;
 use impasto_scene::motion::poses_at;
 use impasto_scene::new_scene::Ground;
@@ -129,6 +129,24 @@ fn a_copy_of_what_a_shot_brings_stands_and_moves_as_it_does() {
         }
         document.undo();
     }
+}
+
+#[test]
+fn a_copy_is_not_locked() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/lane.ron");
+    let mut document = Document::open(&path, &LoadOptions::default()).expect("a shipped scene opens");
+    let scene = document.scene();
+    let on_object = |region: &&Region| region.on.object().is_some();
+    let region = scene.regions.iter().find(on_object).expect("a region");
+    let object = Item::Object(region.on.object().expect("an object").to_owned());
+    let (region, counts) = (Item::Region(region.name.clone()), (scene.objects.len(), scene.regions.len()));
+    let all = || vec![object.clone(), region.clone()];
+    document.apply(&Command::Edit(Edit::SetLocked(all(), true))).expect("locked");
+    document.apply(&Command::Edit(Edit::Duplicate(all()))).expect("copied");
+    let scene = document.scene();
+    assert!(scene.objects.len() > counts.0 && scene.regions.len() > counts.1 + 1);
+    assert!(scene.objects[counts.0..].iter().all(|copy| !copy.locked));
+    assert!(scene.regions[counts.1..].iter().all(|copy| !copy.locked));
 }
 
 /// The pose of an object in the world at frame 0.

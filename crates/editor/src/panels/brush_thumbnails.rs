@@ -17,15 +17,16 @@ const LENGTH: f32 = 0.9;
 /// Texels with no more paint than this stay empty: the stroke then has holes, as from a brush that is not quite full.
 const LEAST_PAINT: u8 = 24;
 
-type Known = BTreeMap<String, (usize, TextureHandle)>;
+/// For each brush, its picture if it is read from a file, and its thumbnail.
+type Known = BTreeMap<String, (Option<Arc<Texture>>, TextureHandle)>;
 
 /// The thumbnail of a brush, by its name in a scene; cached. None if the brush is neither built in nor in the scene.
 pub fn thumbnail(ctx: &Context, name: &str, loaded: &LoadedScene) -> Option<TextureHandle> {
     let known: Arc<Known> = ctx.data_mut(|data| data.get_temp(key())).unwrap_or_default();
     let picture = loaded.brushes.get(name);
-    // When the file of a brush is read again, its picture has another address, so the brush gets a new thumbnail.
-    let version = picture.map_or(0, |picture| Arc::as_ptr(picture).addr());
-    if let Some((_, handle)) = known.get(name).filter(|(of, _)| *of == version) {
+    // A file that is read again gives another picture.
+    let is_same = |of: &Option<Arc<Texture>>| of.as_ref().map(Arc::as_ptr) == picture.map(Arc::as_ptr);
+    if let Some((_, handle)) = known.get(name).filter(|(of, _)| is_same(of)) {
         return Some(handle.clone());
     }
     let mark = match picture {
@@ -34,7 +35,7 @@ pub fn thumbnail(ctx: &Context, name: &str, loaded: &LoadedScene) -> Option<Text
     };
     let handle = ctx.load_texture(format!("brush {name}"), image(&mark), TextureOptions::LINEAR);
     let mut known = (*known).clone();
-    known.insert(name.to_owned(), (version, handle.clone()));
+    known.insert(name.to_owned(), (picture.cloned(), handle.clone()));
     ctx.data_mut(|data| data.insert_temp(key(), Arc::new(known)));
     Some(handle)
 }

@@ -114,6 +114,10 @@ vec3 pigment_of(float red) {
     return count > 0 ? mix(bare, pigment.rgb, pigment.w) : ink;
 }
 
+const int SHARES_ROW = 1024;
+
+ivec2 texel_of_body(int id) { return ivec2((id - 1) % SHARES_ROW, (id - 1) / SHARES_ROW); }
+
 void main() {
     vec2 along = vec2(cos(place.w), sin(place.w));
     mat2 turn = mat2(along, vec2(-along.y, along.x));
@@ -123,7 +127,7 @@ void main() {
     float there = presence(size.w);
     // Unlit surfaces have no strokes: only the wash shows them.
     if (there <= LEAST || (marks.z >> 24) == 0u) return;
-    if (texelFetch(shares, ivec2(int(marks.y) - 1, 0), 0).r == 0.0) return;
+    if (texelFetch(shares, texel_of_body(int(marks.y)), 0).r == 0.0) return;
 
     vec3 found = ink_round(along);
     float rim = found.r, tone = found.g, red = clamp(found.b, 0.0, 1.0);

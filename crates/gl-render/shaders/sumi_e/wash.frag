@@ -29,11 +29,15 @@ float ends(ivec2 at, vec2 here, float facing) {
     return sum;
 }
 
+const int SHARES_ROW = 1024;
+
+ivec2 texel_of_body(int id) { return ivec2((id - 1) % SHARES_ROW, (id - 1) / SHARES_ROW); }
+
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec2 here = texelFetch(depth_and_id, at, 0).xy;
     wash = vec4(0.0);
-    if (here.y == 0.0 || texelFetch(shares, ivec2(int(here.y) - 1, 0), 0).r == 0.0) return;
+    if (here.y == 0.0 || texelFetch(shares, texel_of_body(int(here.y)), 0).r == 0.0) return;
     vec3 towards = towards_eye_from_px(gl_FragCoord.xy);
     vec3 n = texelFetch(normal, at, 0).xyz;
     float size = length(n);

@@ -293,13 +293,15 @@ fn silhouette_range(settings: &Settings) -> Vec2 {
     Vec2::new(from, (settings.silhouette_to as f32).max(from + 1e-4))
 }
 
-/// A texture with a texel for each body that says how much ink it gets: a backdrop gets none.
+/// A texture with a texel for each body, row by row, that says how much ink it gets: a backdrop gets none. The shaders
+/// know the length of a row as `SHARES_ROW`.
 fn shares(gpu: &Gpu, frame: &Frame) -> Result<Texture, GlError> {
-    let most = gpu.limits().max_side_px as usize;
+    const ROW: usize = 1024;
+    let rows = frame.bodies.len().div_ceil(ROW).max(1);
     let mut texels: Vec<u8> =
-        frame.bodies.iter().take(most).flat_map(|body| [if body.is_backdrop { 0 } else { 255 }; 4]).collect();
-    texels.resize(texels.len().max(4), 255);
-    Texture::from_texels(gpu, Format::Rgba8, [texels.len() as u32 / 4, 1], &texels)
+        frame.bodies.iter().flat_map(|body| [if body.is_backdrop { 0 } else { 255 }; 4]).collect();
+    texels.resize(rows * ROW * 4, 255);
+    Texture::from_texels(gpu, Format::Rgba8, [ROW as u32, rows as u32], &texels)
 }
 
 /// Sets the uniforms of `sumi_e/paper.glsl`.

@@ -317,13 +317,21 @@ impl Reading<'_> {
         let fatal: Vec<&Finding> = findings.iter().filter(|finding| finding.severity.is_fatal()).collect();
         let locator = FieldLocator { path: self.path, written: Some(located), applied: &[], edited: None };
         let before = self.left.clone();
+        let already_blanked = self.blanked.len();
         for finding in &fatal {
             if finding.field_path.is_empty() {
                 continue;
             }
             let instead = format!("{} is left out until then.", described(&finding.field_path));
             let index = self.lose(locator.problem((*finding).clone()), instead);
-            self.blank_for(located, &finding.field_path, index)?;
+            // Several things may be wrong with one field; it is taken out once.
+            let is_out = removable_range(located, &finding.field_path, &before).is_some_and(|range| {
+                let mut out = self.blanked[already_blanked..].iter();
+                out.any(|(blanked, _)| blanked.start <= range.start && range.end <= blanked.end)
+            });
+            if !is_out {
+                self.blank_for(located, &finding.field_path, index)?;
+            }
         }
         if !fatal.is_empty() && self.left == before {
             return Err(self.given_up_with(fatal.iter().map(|finding| locator.problem((*finding).clone()))));

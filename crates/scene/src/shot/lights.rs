@@ -164,8 +164,8 @@ impl Shot {
         self.exposure * LUX_PER_WATT / OF_WATT
     }
 
-    /// A light of the scene in this pose of the shot: intensity, colour, direction and position are the shot's, unless
-    /// the document changed them.
+    /// A light of the scene in this pose of the shot: intensity, colour, direction, position and cone are the shot's,
+    /// unless the document changed them.
     pub(crate) fn light_at(&self, light: &Light, posed: &Posed) -> Light {
         let brought = self.lights.iter().find(|(brought, _)| brought.name == light.name);
         let Some((rest, Some(node))) = brought.filter(|(brought, _)| brought.kind == light.kind) else {
@@ -184,6 +184,9 @@ impl Shot {
         }
         if light.position == rest.position || light.position.is_none() {
             lit.position = now.position;
+        }
+        if light.cone_deg == rest.cone_deg || light.cone_deg.is_none() {
+            lit.cone_deg = now.cone_deg;
         }
         lit
     }

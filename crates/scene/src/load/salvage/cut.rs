@@ -48,11 +48,11 @@ pub(super) fn before(text: &str, fault: usize) -> Option<Cut> {
                 continue;
             }
             b'/' if bytes.get(at + 1) == Some(&b'*') => {
-                let Some(length) = text[at..].find("*/") else {
+                let Some(behind) = behind_comment(bytes, at) else {
                     read_to = at;
                     break;
                 };
-                at += length + 2;
+                at = behind;
                 continue;
             }
             // An attribute before the scene: `#![enable(…)]`.
@@ -122,6 +122,21 @@ fn closing_of(opening: u8) -> u8 {
         b'(' => b')',
         b'[' => b']',
         _ => b'}',
+    }
+}
+
+/// The index behind the block comment that opens here, with the comments inside it; `None` if it is never closed.
+fn behind_comment(bytes: &[u8], opened_at: usize) -> Option<usize> {
+    let (mut open, mut at) = (0usize, opened_at);
+    loop {
+        match bytes.get(at..at + 2)? {
+            b"/*" => (open, at) = (open + 1, at + 2),
+            b"*/" => (open, at) = (open - 1, at + 2),
+            _ => at += 1,
+        }
+        if open == 0 {
+            return Some(at);
+        }
     }
 }
 
