@@ -116,7 +116,8 @@ pub enum Arrange {
     /// Sets the lens of the shot. Also removes the fields of view from the camera's keys, unless only the near and
     /// far depths change.
     SetLens(Lens),
-    /// Gives the shot's camera this pose at a frame, by shifting all its keys.
+    /// Gives the shot's camera this pose at a frame, by shifting all its keys; an orthographic one also the height of the
+    /// pose's lens.
     SetCamera {
         /// The frame.
         frame: f64,
@@ -469,6 +470,11 @@ fn set_camera(scene: &mut Scene, frame: f64, pose: &CameraPose) -> Result<(), Re
         key.eye = (DVec3::from(key.eye) + eye_by).map(tidy).to_array();
         key.target = (DVec3::from(key.target) + target_by).map(tidy).to_array();
         key.roll_deg = tidy(key.roll_deg + roll_by);
+    }
+    if let (Lens::Orthographic { height: of_shot, .. }, Lens::Orthographic { height, .. }) =
+        (&mut scene.camera.lens, &pose.lens)
+    {
+        *of_shot = tidy(*height);
     }
     Ok(())
 }

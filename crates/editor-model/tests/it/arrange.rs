@@ -6,9 +6,9 @@ use std::path::Path;
 use glam::DVec3;
 use impasto_editor_model::command::{Arrange, Command, Edit, SceneEdit, Touches};
 use impasto_editor_model::{Document, Item};
-use impasto_scene::document::{Direction, Object, Region, Scene, Touch, TouchPoint, Up};
+use impasto_scene::document::{Direction, Lens, Object, Region, Scene, Touch, TouchPoint, Up};
 use impasto_scene::load::LoadOptions;
-use impasto_scene::motion::poses_at;
+use impasto_scene::motion::{CameraPose, camera_at, poses_at};
 use impasto_scene::new_scene::Ground;
 
 const AT: [f64; 3] = [0.4, 0.3, -0.2];
@@ -147,6 +147,25 @@ fn a_copy_is_not_locked() {
     assert!(scene.objects.len() > counts.0 && scene.regions.len() > counts.1 + 1);
     assert!(scene.objects[counts.0..].iter().all(|copy| !copy.locked));
     assert!(scene.regions[counts.1..].iter().all(|copy| !copy.locked));
+}
+
+#[test]
+fn the_camera_takes_how_much_an_orthographic_view_shows() {
+    let mut document = cubes();
+    let (near, far) = (0.1, 50.0);
+    let lens = |height: f64| Lens::Orthographic { height, near, far };
+    document.apply(&Command::Arrange(Arrange::SetLens(lens(3.0)))).expect("it fits");
+    let place = |document: &mut Document, lens: Lens| {
+        let pose = CameraPose { lens, ..camera_at(document.scene(), 0.0) };
+        document.apply(&Command::Arrange(Arrange::SetCamera { frame: 0.0, pose })).expect("it fits");
+        document.scene().camera.lens.clone()
+    };
+    assert_eq!(place(&mut document, lens(1.25)), lens(1.25));
+    let perspective = Lens::Perspective { fov_y_deg: 35.0, near, far };
+    assert_eq!(place(&mut document, perspective), lens(1.25), "the projection stays");
+    document.undo();
+    document.undo();
+    assert_eq!(document.scene().camera.lens, lens(3.0));
 }
 
 /// The pose of an object in the world at frame 0.

@@ -88,6 +88,6 @@ pub fn trust_legend(painter: &Painter, at: Pos2, tokens: &Tokens) -> Rect {
     for dot in 0..5 {
         painter.circle_filled(pos2(x + 1.5 + 3.8 * dot as f32, at.y), 1.5, tokens.pink);
     }
-    x = words(x + 25.0, "not seen in the reference");
+    x = words(x + 25.0, "unsure or not seen");
     Rect::from_min_max(pos2(at.x, at.y - 8.0), pos2(x, at.y) + vec2(0.0, 8.0))
 }
