@@ -42,8 +42,8 @@ fn inside_a_heap_there_are_few_strokes_and_on_it_no_fewer() {
         lens: scene.camera.lens.clone(),
     };
     let (shot, behind) = (pose([0.0, 1.2, 6.0]), pose([0.0, 1.2, -6.0]));
-    // The number of particles, and how many times over strokes would cover two parts of the heap: the side that this
-    // camera sees, and the part behind the middle.
+    // The number of particles. Then the area of all strokes over the area in which they are counted, for the side of
+    // the heap near the camera, and for the half behind its middle.
     let of = |seen_from: SeenFrom<'_>, camera: &CameraPose| {
         let loaded = shapes::loaded(scene.clone(), [heap(9000)]);
         let options = PrepareOptions { seen_from, ..PrepareOptions::default() };

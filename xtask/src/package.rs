@@ -110,8 +110,8 @@ fn debian_architecture() -> anyhow::Result<&'static str> {
     }
 }
 
-/// Packs the tree for any Linux: names sorted, one time stamp for all files, root as owner. The completions for zsh move
-/// to where zsh itself looks for them.
+/// Packs the tree for any Linux: names sorted, one time stamp for all files, root as owner. The completions for zsh
+/// move to where zsh itself looks for them.
 fn archive(root: &Path, tree: &Path, when: &Moment) -> anyhow::Result<PathBuf> {
     let name = format!("impasto-{}-{}-linux", version(), std::env::consts::ARCH);
     let made = root.join(FOLDER).join(format!("{name}.tar.zst"));

@@ -70,7 +70,8 @@ pub(crate) enum Command {
 /// How much to say.
 #[derive(Args, Clone, Copy, Debug)]
 pub(crate) struct Talk {
-    /// Say more: which driver and why, the steps of preparing, and for each frame its strokes, overdraw, memory and passes.
+    /// Say more: which driver and why, the steps of preparing, and for each frame its strokes, overdraw, memory and
+    /// passes.
     #[arg(short, long, action = clap::ArgAction::Count)]
     pub(crate) verbose: u8,
     /// Say nothing but errors.
@@ -163,8 +164,9 @@ pub(crate) struct EditArguments {
 pub(crate) struct RenderArguments {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
-    /// Where frames go: #### or %04d or $F4 stands for the frame number, - for standard output (one frame). A name that ends in
-    /// .exr gives linear pictures for compositing; one in .mp4, .mkv (H.264), .mov (ProRes 4444) or .webm (VP9) a movie, by ffmpeg.
+    /// Where frames go: #### or %04d or $F4 stands for the frame number, - for standard output (one frame). A name that
+    /// ends in .exr gives linear pictures for compositing; one in .mp4, .mkv (H.264), .mov (ProRes 4444) or .webm (VP9)
+    /// a movie, by ffmpeg.
     #[arg(short, long, default_value = "out/frame_####.png")]
     pub(crate) output: String,
     /// Which frames: a-b, a..b, a-bxN and a-b:N (every Nth), commas; left out, the scene's own.
@@ -185,8 +187,8 @@ pub(crate) struct RenderArguments {
     /// A style in place of the scene's own.
     #[arg(long, value_parser = style_names())]
     pub(crate) style: Option<String>,
-    /// How strokes turn, for comparison: off leaves them as in the reference pose, random turns them anew in each frame,
-    /// mapped lays them on the surface as a texture.
+    /// How strokes turn, for comparison: off leaves them as in the reference pose, random turns them anew in each
+    /// frame, mapped lays them on the surface as a texture.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) rotation: RotationChoice,
     /// What strokes are coloured by: the scene, or how far their turn can be trusted.
@@ -230,15 +232,15 @@ pub(crate) struct MovieArguments {
     /// The movie: .mp4, .mkv (H.264), .mov (ProRes 4444) or .webm (VP9).
     #[arg(short, long, value_name = "MOVIE")]
     pub(crate) output: PathBuf,
-    /// Which frames, in which order: a-b, a..b, a-bxN and a-b:N (every Nth), commas; left out, all that are there, without
-    /// gaps.
+    /// Which frames, in which order: a-b, a..b, a-bxN and a-b:N (every Nth), commas; left out, all that are there,
+    /// without gaps.
     #[arg(short = 'f', long = "frames", value_name = "LIST", allow_hyphen_values = true)]
     pub(crate) list: Option<String>,
     /// Frames a second, such as 25, 23.976 or 24000/1001.
     #[arg(long, default_value = "24", value_parser = parse_fps)]
     pub(crate) fps: f64,
-    /// Make a transparent movie (.mov or .webm) in any case. Left out, these two are transparent where the frames are, and
-    /// in an .mp4 or .mkv frames lie over black.
+    /// Make a transparent movie (.mov or .webm) in any case. Left out, these two are transparent where the frames are,
+    /// and in an .mp4 or .mkv frames lie over black.
     #[arg(long)]
     pub(crate) alpha: bool,
     /// Say nothing but errors.
@@ -275,7 +277,8 @@ pub(crate) struct NewArguments {
 pub(crate) struct SetArguments {
     /// The scene file.
     pub(crate) scene: PathBuf,
-    /// What is written: strokes.scale=1.5 sets a value, strokes.scale= takes it out, regions+=(…) adds to a list, regions[0]+=(…) before its first item.
+    /// What is written: strokes.scale=1.5 sets a value, strokes.scale= takes it out, regions+=(…) adds to a list,
+    /// regions[0]+=(…) before its first item.
     #[arg(value_name = "PATH=VALUE")]
     pub(crate) values: Vec<String>,
     /// Print the scene as JSON, as it then is.

@@ -14,8 +14,8 @@ pub(crate) struct PictureArguments {
     /// Also write an EXR file beside each PNG file: linear colour of 16 bits, and what --aov names.
     #[arg(long)]
     pub(crate) exr: bool,
-    /// What EXR files hold beside the colour: all, none, scene, stroke, paint, crypto, or names, with commas between; --help lists
-    /// them. The scene's own `aovs` when left out.
+    /// What EXR files hold beside the colour: all, none, scene, stroke, paint, crypto, or names, with commas between;
+    /// --help lists them. The scene's own `aovs` when left out.
     #[arg(long = "aov", value_name = "NAMES", value_delimiter = ',', long_help = aov_help())]
     pub(crate) aovs: Vec<String>,
     /// Bits of each channel of PNG files.

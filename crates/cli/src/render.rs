@@ -73,7 +73,7 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
     if arguments.turntable {
         loaded = impasto_measure::turntable(&loaded);
     }
-    // A scene that is in this style already keeps its settings.
+    // If the scene has this style already, its settings of the style stay.
     if let Some(style) = arguments.style.as_deref().and_then(Style::named)
         && style.info() != loaded.scene.style.info()
     {

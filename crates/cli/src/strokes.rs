@@ -235,8 +235,8 @@ fn hex(color: [f32; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// The outline of a stroke that lies along +X with its centre at the origin: blunt at its start, narrow and round at its
-/// end, bowed, then tapered and bent.
+/// The outline of a stroke that lies along +X with its centre at the origin: blunt at its start, narrow and round at
+/// its end, bowed, then tapered and bent.
 fn outline(row: &Row<'_>) -> String {
     let (l, w) = (row.length_px * 0.5, row.width_px * 0.5);
     // This is how the shader shifts the mark. The stroke's left is up, which is negative in SVG.

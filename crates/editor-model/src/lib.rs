@@ -5,7 +5,7 @@
 //!                                 └─▶ Document::apply    (one entry of the history)
 //! ```
 //!
-//! A script of commands in a test can do whatever a user can do in the window.
+//! A test can change the document by commands in every way in which a user can.
 
 pub mod camera_rig;
 mod change;

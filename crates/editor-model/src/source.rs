@@ -13,8 +13,8 @@ use impasto_scene::problem::Problem;
 
 use crate::stamp::hash;
 
-/// The text that a scene was read from, and what could not be read of it. `losses` may be empty: the text is then stored
-/// because the user was editing it when the window was killed.
+/// The text that a scene was read from, and what could not be read of it. `losses` may be empty: the text is then
+/// stored because the user was editing it when the window was killed.
 #[derive(Clone, Debug)]
 pub struct Source {
     /// The text.

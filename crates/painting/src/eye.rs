@@ -97,7 +97,8 @@ impl Eye {
         !self.planes.iter().any(is_beyond)
     }
 
-    /// Whether a place on a triangle with these corners may face the eye, if its normal is a sum of some of these vectors.
+    /// Whether a place on a triangle with these corners may face the eye, if its normal is a sum of some of these
+    /// vectors.
     pub(crate) fn may_face(&self, corners: [DVec3; 3], mut normals: impl Iterator<Item = Vec3>) -> bool {
         let is_before = |corner: &DVec3| self.map.row_w.dot(corner.extend(1.0)) > self.near;
         if self.most_offset > 0.0 || self.row_w_length > 0.0 && !corners.iter().all(is_before) {
@@ -111,8 +112,8 @@ impl Eye {
         normals.any(|normal| to_eye.iter().any(|to_eye| !(normal.as_dvec3().dot(*to_eye) <= 0.0)))
     }
 
-    /// An upper bound on the pixels that a unit of surface fills anywhere in a ball, whichever way it faces, divided by the
-    /// fade of strokes near an outline.
+    /// An upper bound on the pixels that a unit of surface fills anywhere in a ball, whichever way it faces, divided by
+    /// the fade of strokes near an outline.
     pub(crate) fn most_in_ball(&self, center: DVec3, radius: f64) -> f64 {
         let nearest = self.nearest(center, radius + self.most_offset);
         nearest.map_or(f64::INFINITY, |Nearest { px_per_area, nearer, .. }| {

@@ -32,9 +32,9 @@ const MOST_ON_WHOLE: f64 = 1e12;
 /// At most this many pairs of a cell and a view are tested. Where there are more pairs, particles lie everywhere.
 const MOST_PAIRS: usize = 12_000_000;
 
-/// In each view, the vertices of a body that bends are moved, and its triangles are looked at. All these together are at
-/// most `MOST_PAIRS`, and at most this many for each particle that might be left out: more could take longer than making
-/// the particle.
+/// In each view, the vertices of a body that bends are moved, and its triangles are looked at. All these together are
+/// at most `MOST_PAIRS`, and at most this many for each particle that might be left out: more could take longer than
+/// making the particle.
 const PAIRS_PER_PARTICLE: usize = 2;
 
 /// A cell that needs fewer particles than `FEW` is not cut. A first cell and its parts are cut at most `MOST_DEPTH`
@@ -43,8 +43,8 @@ const FEW: f64 = 4.0;
 const MOST_DEPTH: u32 = 12;
 
 /// An object whose faces cover its part of the picture at least `HEAP` times over is a heap: surface that the object
-/// itself hides needs no particles. Groups of one mesh that are objects of their own share this number, but that of each
-/// is at least `LEAST_HEAP`. A heap's layer gets a longer order than on its whole surface only while at most
+/// itself hides needs no particles. Groups of one mesh that are objects of their own share this number, but that of
+/// each is at least `LEAST_HEAP`. A heap's layer gets a longer order than on its whole surface only while at most
 /// `MOST_MADE_OF_HEAP` of its particles are made. When its cells are cut, needs count only up to an order of
 /// `MOST_OF_HEAP` particles.
 const HEAP: f64 = 12.0;
@@ -226,8 +226,8 @@ impl NeededInputs {
     }
 }
 
-/// An upper bound on the pixels that a unit of surface at rest fills on a moved piece, divided by the fade of strokes near
-/// an outline; 0 where the view does not see it. `gradients` are F at the corners of the mesh's triangle.
+/// An upper bound on the pixels that a unit of surface at rest fills on a moved piece, divided by the fade of strokes
+/// near an outline; 0 where the view does not see it. `gradients` are F at the corners of the mesh's triangle.
 fn most_on_piece(eye: &Eye, piece: &CellPiece, gradients: [Mat3; 3]) -> f64 {
     let CellPiece { corners, normals, .. } = *piece;
     if !eye.may_see(corners)

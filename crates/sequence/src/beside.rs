@@ -16,8 +16,8 @@ pub(crate) struct Steps<W, F> {
     pub(crate) most_beside: usize,
 }
 
-/// Works on `jobs`, and calls `take_in` on this thread with each finished result. When `take_in` fails, no more jobs are
-/// begun.
+/// Works on `jobs`, and calls `take_in` on this thread with each finished result. When `take_in` fails, no more jobs
+/// are begun.
 pub(crate) fn finished_beside<J: Copy, U: Send, T: Send, E>(
     jobs: impl Iterator<Item = J>,
     mut steps: Steps<impl FnMut(J) -> U, impl Fn(U) -> T + Sync>,

@@ -6,8 +6,8 @@
 //!                                           └─▶ on the calling thread: each frame in its turn ─▶ caller, or its file
 //! ```
 //!
-//! A graphics card draws frames one after the other anyway, so there one painter draws, and other threads encode what it
-//! has drawn (`finished_beside` in place of `in_order`). The bytes do not depend on how many threads there are.
+//! A graphics card draws frames one after the other anyway, so there one painter draws, and other threads encode what
+//! it has drawn (`finished_beside` in place of `in_order`). The bytes do not depend on how many threads there are.
 
 mod beside;
 mod exr;

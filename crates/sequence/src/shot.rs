@@ -56,7 +56,8 @@ pub struct Sequence {
     pub scene_name: String,
     /// A hash of all that the frames are made from ([`crate::state`]), noted in each file; empty to note nothing.
     pub state: String,
-    /// The driver that each further painter opens, on its own thread. The first painter draws with the caller's renderer.
+    /// The driver that each further painter opens, on its own thread. The first painter draws with the caller's
+    /// renderer.
     pub driver: Driver,
     /// Shaders that stand in for the program's own; empty to use those.
     pub shaders: ShaderTexts,

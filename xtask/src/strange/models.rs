@@ -1,5 +1,5 @@
-//! Strange OBJ and MTL files: soups, fans, slivers, spikes, piles of the same triangle, far and tiny bodies, with normals
-//! and texture coordinates of every kind.
+//! Strange OBJ and MTL files: soups, fans, slivers, spikes, piles of the same triangle, far and tiny bodies, with
+//! normals and texture coordinates of every kind.
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;

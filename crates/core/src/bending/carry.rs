@@ -192,8 +192,8 @@ impl Carrier {
     }
 }
 
-/// Vectors such that the carried normal at any place of a triangle is a sum of them with weights of 0 or more. `gradients`
-/// are F at its corners. The unit normal at rest must be such a sum of `normals`.
+/// Vectors such that the carried normal at any place of a triangle is a sum of them with weights of 0 or more.
+/// `gradients` are F at its corners. The unit normal at rest must be such a sum of `normals`.
 pub fn normals_around(gradients: [Mat3; 3], normals: [Vec3; 4]) -> impl Iterator<Item = Vec3> {
     let [a, b, c] = gradients;
     // Cofactors are quadratic in F: of u F + v G they are u² cof F + v² cof G + u v (cof(F + G) − cof F − cof G).

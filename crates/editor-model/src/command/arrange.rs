@@ -116,8 +116,8 @@ pub enum Arrange {
     /// Sets the lens of the shot. Also removes the fields of view from the camera's keys, unless only the near and
     /// far depths change.
     SetLens(Lens),
-    /// Gives the shot's camera this pose at a frame, by shifting all its keys; an orthographic one also the height of the
-    /// pose's lens.
+    /// Gives the shot's camera this pose at a frame, by shifting all its keys; an orthographic one also the height of
+    /// the pose's lens.
     SetCamera {
         /// The frame.
         frame: f64,

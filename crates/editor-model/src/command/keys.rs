@@ -75,8 +75,8 @@ impl KeyedValue {
         }
     }
 
-    /// Keys the value at a frame. A light's new key also states everything that the light's other keys state, so that
-    /// those values stay as they were.
+    /// Keys the value at a frame. If another key of the light states a value that the new one leaves out, the new key
+    /// states it as it is at this frame: otherwise the value of the key before would hold on.
     pub(super) fn put(&self, scene: &mut Scene, frame: f64) -> Result<(), Refusal> {
         match self {
             Self::Light(name, key) => {

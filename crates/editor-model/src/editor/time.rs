@@ -15,9 +15,9 @@ impl Editor {
         &self.time
     }
 
-    /// Advances playback to `now_secs`, which is on the same clock as the pointer's events. Drops the loose poses if the
-    /// current frame is no longer theirs, or the mode is no longer Animate. Must be called first in each pass of the
-    /// window.
+    /// Advances playback to `now_secs`, which is on the same clock as the pointer's events. Drops the loose poses if
+    /// the current frame is no longer theirs, or the mode is no longer Animate. Must be called first in each pass of
+    /// the window.
     pub fn tick(&mut self, now_secs: f64) {
         self.at_secs = now_secs;
         let (frame, mode) = (self.session.frame, self.session.mode);

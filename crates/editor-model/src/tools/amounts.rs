@@ -9,7 +9,8 @@ use crate::session::ToolOptions;
 pub(super) const DAB_SHARE: f64 = 0.5;
 
 /// The falloffs (1 − r²)² of all dabs of a long drag, [`DAB_SHARE`] apart, summed at one of its dabs: `1 + 2 (1 − ¼)²`.
-/// A dab multiplies by 1 + (factor − 1) · falloff, about factor^falloff, so a drag multiplies by about factor^`OVERLAP`.
+/// A dab multiplies by 1 + (factor − 1) · falloff, about factor^falloff, so a drag multiplies by about
+/// factor^`OVERLAP`.
 const OVERLAP: f64 = 2.125;
 
 /// The factor of one dab. Together, the dabs of a drag that raises give 1 + strength. Those of a drag that lowers give

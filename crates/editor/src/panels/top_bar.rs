@@ -27,7 +27,7 @@ pub fn top_bar(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     Panel::top("top bar").exact_size(measure::TOP_BAR).resizable(false).frame(frame).show(ui, |ui| {
         let whole = ui.max_rect();
         let room = whole.width() - SWITCH_WIDTH - RIGHT;
-        let most = room.clamp(LEFT, SWITCH_LEFT);
+        let most = if room < LEFT { SWITCH_LEFT } else { room.min(SWITCH_LEFT) };
         let switch = whole.left() + most.max((whole.width() - SWITCH_WIDTH) / 2.0);
         let part = |left: f32, right: f32| egui::Rect::from_x_y_ranges(left..=right, whole.y_range());
         let end = switch + SWITCH_WIDTH + measure::GAP;

@@ -2,7 +2,7 @@
 
 use egui::{Context, Id};
 
-/// Lets a control that is dragged or clicked in this pass keep the focus, for its arrow keys.
+/// Lets a control that is dragged or clicked in this pass keep the focus, for its arrow keys or for typing.
 pub fn keep_focus(ctx: &Context, control: Id) {
     ctx.data_mut(|data| data.insert_temp(kept_id(), Some(control)));
 }

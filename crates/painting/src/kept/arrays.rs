@@ -8,7 +8,7 @@
 //! | 32 | the key |
 //! | 8 | how many arrays there are |
 //! | 8 | how many bytes there are in all |
-//! | 4 | CRC-32 of the header so far and of the table |
+//! | 4 | CRC-32 of the header, with this field as 0, and of the table |
 //! | 4 | zero |
 //! | 16 for each array | its length in bytes, its CRC-32, the size of its numbers |
 //! | | the arrays, one after the other |
@@ -79,7 +79,8 @@ impl<'a> ArraysToWrite<'a> {
         self.0.push((Cow::Borrowed(bytemuck::cast_slice(array)), size_of::<T>() as u32));
     }
 
-    /// Adds a copy of an array that was made only to be written.
+    /// Adds a copy of an array. It is for arrays that were made only to be written, and do not live as long as this
+    /// list.
     pub(super) fn push_made<T: NoUninit>(&mut self, array: &[T]) {
         self.0.push((Cow::Owned(bytemuck::cast_slice(array).to_vec()), size_of::<T>() as u32));
     }

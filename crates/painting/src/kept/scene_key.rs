@@ -1,8 +1,9 @@
 //! The key of a scene: a hash of all inputs of the heavy steps of preparing the scene. The inputs are hashed as they
-//! are in memory, so it does not matter where files lie, or whether a file changes after it was read.
+//! are in memory, so it does not matter where the scene's folder lies, or whether a file changes after it was read.
 //!
-//! What goes in is destructured field by field, without `..`: when a field is added, this file does not compile until
-//! it says whether the field counts.
+//! Settings are hashed whole, by their `Debug` text. Structs of this crate are destructured here field by field,
+//! without
+//! `..`: when a field is added, this file does not compile until it says whether the field counts.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -48,9 +49,9 @@ impl SceneKey<'_> {
         let mut key = KeyHasher::default();
         key.words(concat!(env!("CARGO_PKG_VERSION"), " ", env!("IMPASTO_SOURCES")));
         key.numbers(&[FORMAT]);
-        // The stage is left out: what a shot brings is in the objects, and in the views, references and shapes that are
-        // hashed below. Touches are left out too, except their brushes: they are laid again, and only the brushes are
-        // kept.
+        // The stage, which holds the shot, is left out: what a shot brings is in the objects, and in the views,
+        // references and shapes that are hashed below. Touches are left out too, because they are laid anew each time.
+        // But the brushes of touches are stored with the kept painting, so the names of these brushes are hashed.
         key.value(&Scene { stage: Stage::default(), touches: Vec::new(), ..Scene::clone(scene) });
         scene.touches.iter().for_each(|touch| key.value(&touch.brush));
         rules.iter().for_each(|rule| key.value(rule));
@@ -60,7 +61,8 @@ impl SceneKey<'_> {
             poses.iter().for_each(|pose| key.numbers(&pose.to_cols_array()));
         };
         views.iter().for_each(&mut feed);
-        // All other views follow from the scene, except those that a shot or the caller brings.
+        // `views` is a sample of all views. The others need to be hashed only if a shot or the caller brings them: if
+        // not, they follow from the scene.
         let further = if seen.follows_from_scene() { None } else { Some(seen.views()) };
         further.flatten().into_iter().flatten().for_each(&mut feed);
         key.value(&(further.map(|views| views.is_some()), seen.margin()));
@@ -85,7 +87,8 @@ impl SceneKey<'_> {
                 key.numbers(&of_surface[&address(surface)]);
                 of_object(object, &mut key);
                 shapes.iter().for_each(|shapes| of_shape(&shapes[object.index], surface, &mut key));
-                // Without a shot or further views, the shapes in all views follow from the scene.
+                // Particles may depend on the shapes in all views. A body with a point cache has its particles
+                // everywhere.
                 if further.is_some() && surface.bends() && !surface.has_cache() {
                     let shapes = seen.shapes_of(object.index);
                     shapes.iter().flatten().for_each(|shape| of_pose(shape.pose.as_deref(), &mut key));
@@ -136,7 +139,8 @@ fn of_surface(surface: &BodySurface, textures: &Digests, key: &mut KeyHasher) {
         key.value(&(name, albedo, sampler, cutoff, unlit, gloss));
         key.numbers(texture.as_ref().map_or(&[][..], |texture| &textures[&address(texture)]));
     }
-    // The gradients follow from the other fields; a fault shows in the positions of the vertices.
+    // The gradients follow from the other fields. A fault says that the point cache could not be read; then the body
+    // stays at rest, as its positions, hashed in `of_shape`, show.
     let BodyBend { bend, cache, rest, gradients: _, fault: _ } = bending;
     if let Some(bend) = bend {
         of_bend(bend, key);
@@ -211,7 +215,8 @@ fn of_shape(shape: &BodyShape, surface: &BodySurface, key: &mut KeyHasher) {
 }
 
 fn of_object(object: &ObjectInputs<'_>, key: &mut KeyHasher) {
-    // The finished surface is hashed, not its inputs; the amounts are in the scene, which is hashed.
+    // The finished surface is hashed, not its inputs. The groups and the amounts follow from the scene, which is
+    // hashed.
     let ObjectInputs { index, groups: _, surface: _, regions, used, guides, amounts: _, references, caps } =
         *object;
     key.numbers(&[index as u64]);

@@ -10,14 +10,15 @@ use super::style_settings::{CanvasFollows, Preparation, SettingRule, StyleInfo, 
 usual_fields! {
     /// Ink on paper: a dark silhouette over an interior of four tones.
     pub struct SumiE {
-        /// Whose rule it is drawn by.
+        /// The rule that ink follows: `Painter` is ours, `Source` that of the source.
         pub rule: InkRule = InkRule::Painter; saved always,
         /// What is drawn.
         pub drawing: InkDrawing = InkDrawing::Both,
         /// Where the light on the interior stands.
         pub light: InkLight = InkLight::Scene,
-        /// Direction to the light in the eye's space (X right, Y up, Z to the eye), for `light: Eye`. The default is
-        /// the source's light with Z negated, because the source is left-handed.
+        /// Direction to the light in the eye's space (X right, Y up, Z to the eye), for `light: Eye` and `rule:
+        /// Source`; in the world where `light: Scene` finds no sun. The default is the source's light with Z negated,
+        /// because the source is left-handed.
         pub to_light: [f64; 3] = [0.96, 0.64, 1.08],
         /// The four tones, from the darkest ink to the thinnest; 0 black, 1 the paper.
         pub tones: [f64; 4] = [0.07, 0.36, 0.68, 0.96],
@@ -25,8 +26,8 @@ usual_fields! {
         pub density: f64 = 1.0; within 0.0..=2.0,
         /// How dark the silhouette is.
         pub silhouette: f64 = 0.7; within 0.0..=1.0,
-        /// The silhouette is black where the cosine between the surface's normal and the direction to the eye is below
-        /// this number.
+        /// The silhouette is at its darkest where the cosine between the surface's normal and the direction to the eye
+        /// is below this number.
         pub silhouette_from: f64 = 0.3; within 0.0..=1.0,
         /// There is no silhouette where the cosine between the surface's normal and the direction to the eye is above
         /// this number.
@@ -45,7 +46,8 @@ usual_fields! {
         pub dryness: f64 = 0.35; within 0.0..=1.0,
         /// How much of the paper's fibres is seen.
         pub fibres: f64 = 1.0; within 0.0..=3.0,
-        /// How much of what has the seal's hue stays red.
+        /// How far saturated colours of the seal's hue are painted in the seal's colour instead of ink: 0 not at all, 1
+        /// wholly.
         pub accent: f64 = 1.0; within 0.0..=1.0,
         /// The paper.
         pub paper: Color = Color::from_bytes([0xf1, 0xe9, 0xd8]),
@@ -64,7 +66,7 @@ pub enum InkRule {
     /// Ours: an ink that bleeds, dries and lies on a paper with fibres.
     #[default]
     Painter,
-    /// The source's five passes, pixel for pixel.
+    /// The source's five passes.
     Source,
 }
 
@@ -83,7 +85,7 @@ pub enum InkDrawing {
 /// Where the light on the interior stands.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 pub enum InkLight {
-    /// The scene's first sun.
+    /// The scene's first sun; `to_light` if it has none.
     #[default]
     Scene,
     /// Fixed to the eye, as in the source.

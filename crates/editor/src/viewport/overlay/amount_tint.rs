@@ -18,8 +18,8 @@ const FILL: f32 = 0.72;
 /// The tint of the visible surfaces, in cells of a grid.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AmountTint {
-    /// Runs of neighbouring cells with the same tint: its strength, from −1 (fullest cool) to 1 (fullest warm), then the
-    /// row, the first column, and the column after the last. Cells without a tint are in no run.
+    /// Runs of neighbouring cells with the same tint: its strength, from −1 (fullest cool) to 1 (fullest warm), then
+    /// the row, the first column, and the column after the last. Cells without a tint are in no run.
     runs: Vec<(f32, [usize; 3])>,
     cells_per_point: f64,
 }

@@ -29,7 +29,8 @@ pub enum Amount {
     Length,
     /// How many strokes lie over each other: a factor from 0, which leaves only the underpainting, to 4.
     Density,
-    /// How flat strokes lie on the picture: a factor from 0 to 4. The result is never more than quite flat.
+    /// How flat strokes lie on the picture: a factor from 0 to 4 on how flat they lie otherwise. From 1 on they lie
+    /// wholly flat.
     Flatness,
 }
 
