@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use glam::{DAffine3, DVec3, Mat3, Vec3};
+use glam::{DAffine3, DVec3};
 use impasto_core::TriangleMesh;
 use impasto_core::sampling::{Needed, Surface};
 use impasto_scene::document::Solver;
@@ -142,16 +142,13 @@ impl CountInputs {
         self.unneeded
     }
 
-    /// The vertices in a shape, and the deformation gradient F at each; no gradients at rest.
-    pub(crate) fn moved_to(&self, shape: &BodyShape) -> (Vec<Vec3>, Option<Vec<Mat3>>) {
-        let positions = self.surface.positions_at(shape);
-        let gradients = (!self.surface.is_at_rest(shape)).then(|| self.surface.gradients().at(&positions));
-        (positions, gradients)
+    /// Whether it is one of several groups of its mesh that are objects.
+    pub(crate) fn is_group(&self) -> bool {
+        self.groups > 1
     }
 
-    /// Of how many objects its mesh consists, at least 1.
-    pub(crate) fn groups(&self) -> usize {
-        self.groups.max(1)
+    pub(crate) fn surface(&self) -> &BodySurface {
+        &self.surface
     }
 
     /// Whether nothing shows through a triangle: no texture cuts holes into it.

@@ -32,7 +32,7 @@ const MOST_ON_WHOLE: f64 = 1e12;
 /// At most this many pairs of a cell and a view are tested. Where there are more pairs, particles lie everywhere.
 const MOST_PAIRS: usize = 12_000_000;
 
-/// In each view, the vertices of a body that bends are moved, and its triangles are looked at. All these together are
+/// In each view, the vertices of a body that bends are moved, and the pieces of its cells are looked at. All these together are
 /// at most `MOST_PAIRS`, and at most this many for each particle that might be left out: more could take longer than
 /// making the particle.
 const PAIRS_PER_PARTICLE: usize = 2;
@@ -43,12 +43,11 @@ const FEW: f64 = 4.0;
 const MOST_DEPTH: u32 = 12;
 
 /// An object whose faces cover its part of the picture at least `HEAP` times over is a heap: surface that the object
-/// itself hides needs no particles. Groups of one mesh that are objects of their own share this number, but that of
-/// each is at least `LEAST_HEAP`. A heap's layer gets a longer order than on its whole surface only while at most
-/// `MOST_MADE_OF_HEAP` of its particles are made. When its cells are cut, needs count only up to an order of
-/// `MOST_OF_HEAP` particles.
+/// itself hides needs no particles. If other groups of its mesh are objects too, `HEAP_OF_GROUP` times are enough. A
+/// heap's layer gets a longer order than on its whole surface only while at most `MOST_MADE_OF_HEAP` of its particles
+/// are made. When its cells are cut, needs count only up to an order of `MOST_OF_HEAP` particles.
 const HEAP: f64 = 12.0;
-const LEAST_HEAP: f64 = 6.0;
+const HEAP_OF_GROUP: f64 = 6.0;
 const MOST_MADE_OF_HEAP: f64 = 20_000.0;
 const MOST_OF_HEAP: f64 = 400_000.0;
 
@@ -83,7 +82,7 @@ impl NeededInputs {
         let (sightings, most_offset) = match counted.unneeded() {
             Unneeded::None => (None, offset),
             Unneeded::AtRest => (context.seen.sightings(object.index), offset),
-            Unneeded::OfMoving { noise } => (context.seen.bent_sightings(object.index), offset + noise),
+            Unneeded::OfMoving { noise } => (context.seen.sightings_moving(object.index), offset + noise),
         };
         let reach = Reach { margin: context.seen.margin(), reach_px: counted.most_reach_px(), most_offset };
         Self { counted: Arc::clone(counted), sightings, reach }
@@ -116,7 +115,7 @@ impl NeededInputs {
             Unneeded::None => None,
             Unneeded::AtRest if cells.all().len() * sightings.len() > MOST_PAIRS => None,
             Unneeded::AtRest => {
-                let heap = (HEAP / self.counted.groups() as f64).max(LEAST_HEAP);
+                let heap = if self.counted.is_group() { HEAP_OF_GROUP } else { HEAP };
                 let own = (counted.deepness >= heap).then(|| {
                     let is_solid = |triangle: usize| self.counted.is_solid(triangle);
                     OwnDepths::of_all(surface, sightings, is_solid, self.reach)
@@ -128,19 +127,12 @@ impl NeededInputs {
             Unneeded::OfMoving { noise } => {
                 let may_be_left_out = counted.counts.iter().zip(counted.may_depend_on_views);
                 let particles: usize = may_be_left_out.filter(|(_, may)| *may).map(|(count, _)| count).sum();
-                let pairs = sightings.len() * (surface.mesh().positions.len() + surface.faces().count());
+                let pieces = surface.faces().count().max(cells.all().len());
+                let pairs = sightings.len() * (surface.mesh().positions.len() + pieces);
                 (pairs <= MOST_PAIRS.min(PAIRS_PER_PARTICLE * particles))
                     .then(|| self.seen_moving(surface, &cells, noise > 0.0, needed_per_px))
             }
         };
-        eprintln!(
-            "heap {is_heap} deep {} counts {:?} may {:?} pairs {} seen {}",
-            counted.deepness,
-            counted.counts,
-            counted.may_depend_on_views,
-            cells.all().len() * sightings.len(),
-            seen.is_some()
-        );
         let Some(seen) = seen else { return counts };
         let tree = SeenTree::new(seen);
         for (kind, count) in counts.iter_mut().enumerate() {
@@ -200,9 +192,17 @@ impl NeededInputs {
         // The bits of the most pixels that a unit of a cell's surface may fill: positive numbers are in the order of
         // their bits.
         let most: Vec<AtomicU64> = cells.all().iter().map(|_| AtomicU64::new(0)).collect();
+        let body = self.counted.surface();
+        // What the gradients of all shapes share is made here, so that no two threads make it at once.
+        let mut shapes = self.sightings.iter().flatten().map(|sighting| &sighting.shape);
+        if !has_noise && shapes.any(|shape| !body.is_at_rest(shape)) {
+            body.gradients();
+        }
         let look = |sighting: &Sighting| {
             let eye = Eye::new(sighting, self.reach);
-            let (positions, gradients) = self.counted.moved_to(&sighting.shape);
+            let positions = body.positions_at(&sighting.shape);
+            let is_bent = !has_noise && !body.is_at_rest(&sighting.shape);
+            let gradients = is_bent.then(|| body.gradients().at(&positions));
             for (cell, most) in cells.all().iter().zip(&most) {
                 for piece in cell.pieces_at(surface, &positions) {
                     let of_corner = |vertex: u32| gradients.as_ref().map(|all| all[vertex as usize]);
@@ -230,13 +230,18 @@ impl NeededInputs {
 /// near an outline; 0 where the view does not see it. `gradients` are F at the corners of the mesh's triangle.
 fn most_on_piece(eye: &Eye, piece: &CellPiece, gradients: [Mat3; 3]) -> f64 {
     let CellPiece { corners, normals, .. } = *piece;
-    if !eye.may_see(corners)
-        || !eye.may_face(corners, normals_around(gradients, normals.map(|of| of.as_vec3())))
-    {
+    if !eye.may_see(corners) {
         return 0.0;
     }
-    // With F = [a b n], an area grows |a × b| times, which is at most (|a|² + |b|²)/2. This also holds for F blended
-    // between vertices, because the root of this bound is convex.
+    // Where smooth normals lie on both sides of the face, a particle's normal may point anywhere.
+    let is_even = normals.iter().all(|normal| normal.dot(normals[0]) > 0.0);
+    let normals = normals.map(|normal| normal.as_vec3());
+    if is_even && !eye.may_face(corners, normals_around(gradients, normals)) {
+        return 0.0;
+    }
+    // With a and b the columns of F along the surface, an area grows |a × b| times, at most (|a|² + |b|²)/2. This also
+    // holds for F blended between vertices, because the bound is convex. At F = 1 it is 1, elsewhere at most half the
+    // sum of the squares of all entries.
     let grown =
         |gradient: Mat3| 0.5 * gradient.to_cols_array().iter().map(|entry| entry * entry).sum::<f32>();
     let grown = gradients.map(|gradient| if gradient == Mat3::IDENTITY { 1.0 } else { grown(gradient) });
@@ -371,7 +376,6 @@ impl SeenTree {
             smallest().map(|((share, needed), _)| share * needed[kind].min(count_on_whole)).sum()
         };
         let most = self.most_in_picture[kind].min(MOST_ON_WHOLE);
-        eprintln!("  kind {kind} everywhere {everywhere} made {}", made(everywhere));
         let enough = MOST_SHARE * everywhere;
         if made(everywhere) > enough {
             return None;

@@ -164,7 +164,6 @@ fn the_camera_takes_how_much_an_orthographic_view_shows() {
     let perspective = Lens::Perspective { fov_y_deg: 35.0, near, far };
     assert_eq!(place(&mut document, perspective), lens(1.25), "the projection stays");
     document.undo();
-    document.undo();
     assert_eq!(document.scene().camera.lens, lens(3.0));
 }
 

@@ -35,6 +35,7 @@ pub fn thumbnail(ctx: &Context, name: &str, loaded: &LoadedScene) -> Option<Text
     };
     let handle = ctx.load_texture(format!("brush {name}"), image(&mark), TextureOptions::LINEAR);
     let mut known = (*known).clone();
+    known.retain(|name, (of, _)| of.is_none() || loaded.brushes.contains_key(name));
     known.insert(name.to_owned(), (picture.cloned(), handle.clone()));
     ctx.data_mut(|data| data.insert_temp(key(), Arc::new(known)));
     Some(handle)

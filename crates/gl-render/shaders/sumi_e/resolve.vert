@@ -114,9 +114,10 @@ vec3 pigment_of(float red) {
     return count > 0 ? mix(bare, pigment.rgb, pigment.w) : ink;
 }
 
-const int SHARES_ROW = 1024;
-
-ivec2 texel_of_body(int id) { return ivec2((id - 1) % SHARES_ROW, (id - 1) / SHARES_ROW); }
+ivec2 texel_of_body(int id) {
+    int row = textureSize(shares, 0).x;
+    return ivec2((id - 1) % row, (id - 1) / row);
+}
 
 void main() {
     vec2 along = vec2(cos(place.w), sin(place.w));

@@ -29,9 +29,10 @@ float ends(ivec2 at, vec2 here, float facing) {
     return sum;
 }
 
-const int SHARES_ROW = 1024;
-
-ivec2 texel_of_body(int id) { return ivec2((id - 1) % SHARES_ROW, (id - 1) / SHARES_ROW); }
+ivec2 texel_of_body(int id) {
+    int row = textureSize(shares, 0).x;
+    return ivec2((id - 1) % row, (id - 1) / row);
+}
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);

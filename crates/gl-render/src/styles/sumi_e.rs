@@ -293,8 +293,7 @@ fn silhouette_range(settings: &Settings) -> Vec2 {
     Vec2::new(from, (settings.silhouette_to as f32).max(from + 1e-4))
 }
 
-/// A texture with a texel for each body, row by row, that says how much ink it gets: a backdrop gets none. The shaders
-/// know the length of a row as `SHARES_ROW`.
+/// A texture with a texel for each body, row by row, that says how much ink it gets: a backdrop gets none.
 fn shares(gpu: &Gpu, frame: &Frame) -> Result<Texture, GlError> {
     const ROW: usize = 1024;
     let rows = frame.bodies.len().div_ceil(ROW).max(1);

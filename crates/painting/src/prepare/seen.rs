@@ -56,7 +56,8 @@ impl SeenFrom<'_> {
 const MOST_FRAMES: usize = 4096;
 const MOST_POSES: usize = 200_000;
 
-/// With more joints and targets than this, counted at all frames, bodies that they move may have any shape.
+/// With more joints and targets than this, counted at all frames, bodies that they move may have any shape: for all
+/// objects that the shot moves together, and for each object.
 const MOST_JOINTS: usize = 500_000;
 
 /// A view, with the poses of all objects.
@@ -66,56 +67,69 @@ type View = (PictureView, Vec<DAffine3>);
 pub(crate) struct Seen<'a> {
     loaded: &'a LoadedScene,
     from: SeenFrom<'a>,
+    cameras: OnceLock<Option<Vec<(CameraPose, f64)>>>,
     views: OnceLock<Option<Vec<View>>>,
     shapes: OnceLock<Option<Vec<BodyShapes>>>,
 }
 
 impl<'a> Seen<'a> {
     pub(crate) fn new(loaded: &'a LoadedScene, from: SeenFrom<'a>) -> Self {
-        Self { loaded, from, views: OnceLock::new(), shapes: OnceLock::new() }
+        Self { loaded, from, cameras: OnceLock::new(), views: OnceLock::new(), shapes: OnceLock::new() }
     }
 
     /// The views; `None` if there may be others.
     pub(crate) fn views(&self) -> Option<&[View]> {
         let scene = &self.loaded.scene;
         let size_px = [scene.size.0, scene.size.1];
-        let view = |(pose, frame): (CameraPose, f64)| {
-            (PictureView { pose, size_px }, motion::poses_at(scene, frame))
+        let view = |(pose, frame): &(CameraPose, f64)| {
+            (PictureView { pose: pose.clone(), size_px }, motion::poses_at(scene, *frame))
         };
-        self.views.get_or_init(|| Some(self.cameras()?.into_iter().map(view).collect())).as_deref()
+        self.views.get_or_init(|| Some(self.cameras()?.iter().map(view).collect())).as_deref()
     }
 
     /// The camera of each view, with its frame; `None` if there may be others.
-    fn cameras(&self) -> Option<Vec<(CameraPose, f64)>> {
-        let also: &[(CameraPose, f64)] = match self.from {
-            SeenFrom::Shot { also, .. } => also,
-            SeenFrom::AsBefore => &[],
-            SeenFrom::Anywhere => return None,
+    fn cameras(&self) -> Option<&[(CameraPose, f64)]> {
+        let find = || {
+            let also = self.also()?;
+            let scene = &self.loaded.scene;
+            let [first, last] = frames(scene);
+            let steps = usize::try_from(last.checked_sub(first)?).ok()?;
+            if steps >= MOST_FRAMES || steps.saturating_mul(scene.objects.len()) > MOST_POSES {
+                return None;
+            }
+            let along = (0..=steps).map(|step| {
+                let frame = first as f64 + step as f64;
+                (motion::camera_at(scene, frame), frame)
+            });
+            let reference = motion::referred_to(scene, &scene.reference);
+            Some(std::iter::once(reference).chain(also.iter().cloned()).chain(along).collect())
         };
-        let scene = &self.loaded.scene;
-        let [first, last] = frames(scene);
-        let steps = usize::try_from(last.checked_sub(first)?).ok()?;
-        if steps >= MOST_FRAMES || steps.saturating_mul(scene.objects.len()) > MOST_POSES {
-            return None;
-        }
-        let along = (0..=steps).map(|step| {
-            let frame = first as f64 + step as f64;
-            (motion::camera_at(scene, frame), frame)
-        });
-        let reference = motion::referred_to(scene, &scene.reference);
-        Some(std::iter::once(reference).chain(also.iter().cloned()).chain(along).collect())
+        self.cameras.get_or_init(find).as_deref()
     }
 
-    /// The shapes of all bodies in each of the views; `None` if there may be others.
-    fn shapes(&self) -> Option<&[BodyShapes]> {
+    /// The cameras besides that of the scene; `None` if it may be seen from anywhere.
+    fn also(&self) -> Option<&'a [(CameraPose, f64)]> {
+        match self.from {
+            SeenFrom::Shot { also, .. } => Some(also),
+            SeenFrom::AsBefore => Some(&[]),
+            SeenFrom::Anywhere => None,
+        }
+    }
+
+    /// The shape of an object in each of the views, without noise; `None` if there may be others.
+    pub(crate) fn shapes_of(&self, object: usize) -> Option<Vec<BodyShape>> {
         let find = || {
-            let cameras = self.cameras()?;
-            let numbers = |shapes: &BodyShapes| shapes.numbers().saturating_mul(cameras.len());
-            let first = BodyShapes::at(&self.loaded.scene, cameras.first()?.1);
-            let few = numbers(&first) <= MOST_JOINTS;
-            few.then(|| cameras.iter().map(|(_, frame)| BodyShapes::at(&self.loaded.scene, *frame)).collect())
+            let frames = self.cameras()?.iter().map(|(_, frame)| *frame);
+            let at = |frame: f64| BodyShapes::at(&self.loaded.scene, frame);
+            let first = frames.clone().next().map(at)?;
+            let is_much = first.numbers().saturating_mul(frames.len()) > MOST_JOINTS;
+            (!is_much).then(|| frames.map(at).collect())
         };
-        self.shapes.get_or_init(find).as_deref()
+        let shapes: &[BodyShapes] = self.shapes.get_or_init(find).as_deref()?;
+        let first = shapes.first()?.of(self.loaded, object);
+        let numbers = first.pose.map_or(0, |pose| pose.joints.len() + pose.weights.len());
+        let is_much = numbers.saturating_mul(shapes.len()) > MOST_JOINTS;
+        (!is_much).then(|| shapes.iter().map(|shapes| shapes.of(self.loaded, object)).collect())
     }
 
     /// How far from the middle of the picture there are particles, in half sizes of the picture.
@@ -150,13 +164,12 @@ impl<'a> Seen<'a> {
         Some(sightings)
     }
 
-    /// The shape of an object in each of the views, without noise; `None` if there may be others.
-    pub(crate) fn shapes_of(&self, object: usize) -> Option<Vec<BodyShape>> {
-        Some(self.shapes()?.iter().map(|shapes| shapes.of(self.loaded, object)).collect())
-    }
-
-    /// Every view of an object that bends, equal ones in a row once; `None` if there may be others.
-    pub(crate) fn bent_sightings(&self, object: usize) -> Option<Vec<Sighting>> {
+    /// Every view of an object whose vertices move, equal ones in a row once. `None` if there may be others: an editor's
+    /// free camera may stay where it is while the frames change.
+    pub(crate) fn sightings_moving(&self, object: usize) -> Option<Vec<Sighting>> {
+        if !self.also()?.is_empty() {
+            return None;
+        }
         let shapes = self.shapes_of(object)?;
         let views = self.views()?.iter().zip(shapes);
         let of_view = |((view, poses), shape): (&View, BodyShape)| Sighting {

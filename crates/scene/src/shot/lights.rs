@@ -185,7 +185,7 @@ impl Shot {
         if light.position == rest.position || light.position.is_none() {
             lit.position = now.position;
         }
-        if light.cone_deg == rest.cone_deg || light.cone_deg.is_none() {
+        if light.cone_deg == rest.cone_deg {
             lit.cone_deg = now.cone_deg;
         }
         lit

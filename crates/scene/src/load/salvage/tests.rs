@@ -188,11 +188,11 @@ fn an_invalid_value_is_removed_with_as_little_else_as_possible() {
 fn a_field_with_several_errors_is_removed_alone() {
     let folder = Folder::new();
     let object = r#"    (name: "a", mesh: "meshes/apple.obj", keys: [(frame: 0), (frame: 5, translation: (0, 2, 0), rotation_deg: (1e300, 1e300, 1e300))]),"#;
-    let salvaged = folder.read(&scene(object, "  timeline: (first: 5, last: -99999999999),"));
+    let salvaged = folder.read(&scene(object, "  timeline: (first: -5, last: -99999999999),"));
     let keys = &salvaged.loaded.scene.objects[0].keys;
     assert_eq!(keys.len(), 2, "{:?}", said(&salvaged));
     assert_eq!((keys[1].translation, keys[1].rotation_deg), ([0.0, 2.0, 0.0], [0.0; 3]));
-    assert_eq!(salvaged.loaded.scene.timeline.first, 5);
+    assert_eq!(salvaged.loaded.scene.timeline.first, -5);
     assert!(said(&salvaged).len() >= 4, "each error is told: {:?}", said(&salvaged));
 }
 
