@@ -21,17 +21,51 @@ const CELLS: usize = 32;
 /// A cell that would have more tries than this in a level is split.
 const MOST_TRIES: f64 = 48.0;
 
+/// Where faces lie on each other, most tries are in vain: the room for particles is that of one face. A cell gets at
+/// least this many tries for each particle that fits into it.
+const TRIES_THAT_FIT: f64 = 4.0 * TRIES as f64;
+
+/// But even there at least this share of all tries is made: so room that opens up is found.
+const LEAST_TRIED: f64 = 1.0 / 64.0;
+
 /// The cells in which the present level is thrown.
 pub(super) struct ActiveCells<'a> {
-    /// Each with its index in `needed`.
-    cells: Vec<(Cell, u32)>,
+    cells: Vec<ActiveCell>,
     needed: Option<&'a Needed>,
+    /// How many particles all levels were meant to add in the cells, and how many they added.
+    filled: Filled,
+}
+
+/// A cell in which particles are thrown.
+struct ActiveCell {
+    cell: Cell,
+    /// Its index in `needed`.
+    index: u32,
+    filled: Filled,
+}
+
+/// How many particles a level was meant to add, and how many it added.
+#[derive(Clone, Copy, Default)]
+struct Filled {
+    meant: f64,
+    added: f64,
+}
+
+impl Filled {
+    /// The share of a level's tries that a cell needs; `of_all` is what all cells have seen.
+    fn tried(self, of_all: Self) -> f64 {
+        let usual = (of_all.added + 1.0) / (of_all.meant + 1.0);
+        let fits = (self.added + usual) / (self.meant + 1.0);
+        (fits * TRIES_THAT_FIT / TRIES as f64).clamp(LEAST_TRIED, 1.0)
+    }
 }
 
 impl<'a> ActiveCells<'a> {
     /// The first cells of a surface.
     pub(super) fn new(surface: &Surface<'_>, needed: Option<&'a Needed>) -> Self {
-        Self { cells: Cells::new(surface).into_iter().zip(0..).collect(), needed }
+        let active = |(cell, index)| ActiveCell { cell, index, filled: Filled::default() };
+        let cells = Cells::new(surface).into_iter().zip(0..).map(active).collect();
+        Self { cells, needed, filled: Filled::default() }
     }
 
     /// Drops the cells that need no particle from this ordinal on, and splits those that have many tries.
@@ -44,23 +78,39 @@ impl<'a> ActiveCells<'a> {
         let is_needed = |index: u32| needed.is_none_or(|needed| needed.of_cell[index as usize] > ordinal);
         let (few, mut many): (Vec<_>, Vec<_>) = std::mem::take(&mut self.cells)
             .into_iter()
-            .filter(|(_, index)| is_needed(*index))
-            .partition(|(cell, index)| is_whole(cell, *index));
+            .filter(|active| is_needed(active.index))
+            .partition(|active| is_whole(&active.cell, active.index));
         self.cells = few;
-        while let Some((cell, index)) = many.pop() {
-            let parts = cell.split(surface);
+        while let Some(active) = many.pop() {
+            let parts = active.cell.split(surface);
             if parts.is_empty() {
-                self.cells.push((cell, index));
+                self.cells.push(active);
                 continue;
             }
             for (part, number) in parts.into_iter().zip(0..) {
-                let index = needed.map_or(0, |needed| needed.part(index, number));
-                match is_whole(&part, index) {
+                let index = needed.map_or(0, |needed| needed.part(active.index, number));
+                let share = part.share / active.cell.share;
+                let Filled { meant, added } = active.filled;
+                let filled = Filled { meant: share * meant, added: share * added };
+                let part = ActiveCell { cell: part, index, filled };
+                match is_whole(&part.cell, index) {
                     _ if !is_needed(index) => {}
-                    true => self.cells.push((part, index)),
-                    false => many.push((part, index)),
+                    true => self.cells.push(part),
+                    false => many.push(part),
                 }
             }
+        }
+    }
+
+    /// Notes how many particles a level was meant to add, and the cells in which it added some.
+    fn note(&mut self, meant: f64, added: impl Iterator<Item = u32>) {
+        for active in &mut self.cells {
+            active.filled.meant += meant * active.cell.share;
+            self.filled.meant += meant * active.cell.share;
+        }
+        for cell in added {
+            self.cells[cell as usize].filled.added += 1.0;
+            self.filled.added += 1.0;
         }
     }
 }
@@ -87,6 +137,8 @@ pub(super) struct Added {
 struct Thrown {
     turn: u32,
     bits: u32,
+    /// Index among the active cells.
+    cell: u32,
     face: u32,
     weights: [f32; 2],
     position: Vec3,
@@ -103,11 +155,13 @@ impl CellLevel {
     ) -> Added {
         let tries = self.tries();
         active.refine(surface, (tries, self.ordinal(0.0)));
-        let of_cells = |cells: &[(Cell, u32)]| {
+        let saves_tries = self.state.is_crowded() || active.needed.is_some_and(|needed| needed.is_strict);
+        let of_cells = |(cells, first): (&[ActiveCell], usize)| {
             let mut clear = Vec::new();
-            for (cell, index) in cells {
+            for (ActiveCell { cell, index, filled }, number) in cells.iter().zip(first as u32..) {
                 let most = active.needed.map_or(f32::INFINITY, |needed| needed.of_cell[*index as usize]);
-                self.throw(surface, cell, |thrown| {
+                let tried = if saves_tries { filled.tried(active.filled) } else { 1.0 };
+                self.throw(surface, (cell, number), tried, |thrown| {
                     let dart = Dart { position: thrown.position, face: thrown.face, number: 0 };
                     let normal = || surface.particle(thrown.face as usize, thrown.weights).normal;
                     if self.ordinal(turn_share(thrown.turn)) < most && field.is_clear(accepted, &dart, normal)
@@ -118,7 +172,9 @@ impl CellLevel {
             }
             clear
         };
-        let found: Vec<Vec<Thrown>> = active.cells.par_chunks(CELLS).map(of_cells).collect();
+        let chunks =
+            active.cells.par_chunks(CELLS).zip((0..active.cells.len()).into_par_iter().step_by(CELLS));
+        let found: Vec<Vec<Thrown>> = chunks.map(of_cells).collect();
         let mut clear = found.concat();
         clear.par_sort_unstable_by_key(|thrown| {
             (thrown.turn, thrown.bits, thrown.face, thrown.weights.map(f32::to_bits))
@@ -132,6 +188,10 @@ impl CellLevel {
         };
         let kept =
             field.thinned(&(0..darts.len() as u32), &darts, self.radius, |number| particle(number).normal);
+        if saves_tries {
+            let meant = (self.ends[1] - self.ends[0]) as f64;
+            active.note(meant, kept.iter().map(|dart| clear[dart.number as usize].cell));
+        }
         Added {
             particles: kept.par_iter().with_min_len(64).map(|dart| particle(dart.number)).collect(),
             ordinals: kept
@@ -146,10 +206,16 @@ impl CellLevel {
         (self.ends[1] - self.ends[0]) as f64 * TRIES as f64
     }
 
-    /// Throws the level's candidates in a cell, whether they are needed or not.
-    fn throw(&self, surface: &Surface<'_>, cell: &Cell, mut take: impl FnMut(Thrown)) {
+    /// Throws the level's candidates in a cell, with its index, or a share of them, whether they are needed or not.
+    fn throw(
+        &self,
+        surface: &Surface<'_>,
+        (cell, index): (&Cell, u32),
+        tried: f64,
+        mut take: impl FnMut(Thrown),
+    ) {
         let seed = hash::combine(hash::combine(self.seed, cell.bits), self.ends[0] as u32);
-        let tries = self.tries() * cell.share;
+        let tries = self.tries() * cell.share * tried;
         // The cell's share of the level's tries. Chance decides whether the fraction that is left makes one more.
         let count = (tries + f64::from(hash::unit(seed))) as u32;
         for number in 0..count {
@@ -157,7 +223,8 @@ impl CellLevel {
             let random = |which: u32| hash::unit(hash::combine(bits, which));
             let (face, weights) = cell.place(surface, [random(1), random(2), random(3)]);
             let position = surface.position(face, weights);
-            take(Thrown { turn: hash::combine(bits, 0), bits, face: face as u32, weights, position });
+            let turn = hash::combine(bits, 0);
+            take(Thrown { turn, bits, cell: index, face: face as u32, weights, position });
         }
     }
 

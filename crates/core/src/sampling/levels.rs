@@ -71,6 +71,13 @@ impl ProgressiveState {
         self.counted[0]
     }
 
+    /// Whether the counted levels found room for hardly more than half of what they were meant to add, as where faces lie
+    /// on each other. Elsewhere they find room for all.
+    pub(super) fn is_crowded(self) -> bool {
+        let [count, level_end] = self.counted.map(|number| number as f64);
+        count < 0.6 * level_end
+    }
+
     /// The ordinal of a particle that is added when the order is meant to have `meant` particles.
     pub(super) fn ordinal_at(self, meant: f64) -> f64 {
         let [count, level_end] = self.counted.map(|number| number as f64);

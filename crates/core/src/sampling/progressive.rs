@@ -41,7 +41,7 @@ pub fn progressive(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Partic
 }
 
 /// Particles in progressive order, and the state from which the order is continued. Continuing takes the time for the
-/// added particles, and for one pass over those that are there.
+/// added particles, and for one pass over those that are there. Only where faces lie on each other, it begins anew.
 #[derive(Clone, Debug, Default)]
 pub struct ProgressiveOrder {
     /// The particles.
@@ -60,6 +60,10 @@ impl ProgressiveOrder {
         if surface.faces.is_empty() || self.particles.len() >= count {
             return;
         }
+        // In a crowded order, tries depend on what earlier levels found in each cell, which is not remembered.
+        if self.state.is_crowded() {
+            *self = Self::default();
+        }
         let mut levels = Levels::new(self, surface, seed, None);
         // Memory grows as particles are found. It is not reserved for the count asked for.
         while levels.order.particles.len() < count {
@@ -69,7 +73,7 @@ impl ProgressiveOrder {
 
     /// A new order. The particles whose ordinals are their indices lie on the whole surface, all others where they are
     /// needed. Except near the borders of what is needed, particles and ordinals are those of the whole order, unless
-    /// `needed` is strict.
+    /// `needed` is strict or faces lie on each other.
     pub fn where_needed(surface: &Surface<'_>, seed: u32, needed: &Needed) -> Self {
         let mut order = Self::default();
         order.grow(surface, seed, LEAST_COUNTED);
