@@ -109,7 +109,12 @@ impl Eye {
             along_x.cross(along_y)
         });
         // Towards one eye, the cosine's sign on the triangle follows from its corners: it is that of a linear function.
-        normals.any(|normal| to_eye.iter().any(|to_eye| !(normal.as_dvec3().dot(*to_eye) <= 0.0)))
+        normals.any(|normal| {
+            to_eye
+                .iter()
+                .map(|to_eye| normal.as_dvec3().dot(*to_eye))
+                .any(|facing| facing > 0.0 || facing.is_nan())
+        })
     }
 
     /// An upper bound on the pixels that a unit of surface fills anywhere in a ball, whichever way it faces, divided by
