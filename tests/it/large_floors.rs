@@ -9,7 +9,7 @@ use impasto_core::presence;
 use impasto_gl_render::context::Driver;
 use impasto_painting::{FrameOptions, Painting, PrepareOptions, Preparer, SeenFrom, prepare};
 use impasto_scene::document::{Color, Lens, Light, LightKind, MaterialOverride, ObjectKey, Scene, Style};
-use impasto_scene::motion::CameraPose;
+use impasto_scene::motion::{self, CameraPose};
 use impasto_tests::pictures::renderer;
 use impasto_tests::shapes;
 
@@ -112,7 +112,7 @@ fn every_frame_of_a_whip_pan_is_painted() {
     assert!(whole.is_partial());
     for frame in [0.0, 99.0, 100.0, 101.0, 102.0] {
         let mut alone = scene.clone();
-        let pose = impasto_scene::motion::camera_at(&scene, frame);
+        let pose = motion::camera_at(&scene, frame);
         alone.camera.keys = vec![shapes::camera_key(0.0, pose.eye.to_array(), pose.target.to_array())];
         alone.timeline.last = 0;
         let alone = prepare(shapes::loaded(alone, [floor(300.0, 1)])).unwrap();
@@ -172,10 +172,10 @@ fn a_floor_that_bends_has_the_same_strokes_with_fewer_particles() {
     };
     let flat = floor(36.0, 54);
     let target = shapes::moved(&flat, hilly);
-    // Strokes that are lifted off the floor show longer when it turns away.
+    // Strokes that lie below the floor show longer when it turns away.
     for (lens, offset) in [
         (scene.camera.lens.clone(), None),
-        (scene.camera.lens.clone(), Some(0.3)),
+        (scene.camera.lens.clone(), Some(-0.3)),
         (Lens::Orthographic { height: 4.0, near: 0.05, far: 500.0 }, None),
     ] {
         let mut scene = scene.clone();
@@ -185,7 +185,10 @@ fn a_floor_that_bends_has_the_same_strokes_with_fewer_particles() {
             let options = PrepareOptions { seen_from, ..PrepareOptions::default() };
             Preparer::default().prepare_with(Arc::clone(&loaded), &options).unwrap()
         };
-        let [shot, anywhere] = [SeenFrom::SHOT, SeenFrom::Anywhere].map(painting);
+        let free = [(motion::camera_at(&loaded.scene, 4.0), 4.0)];
+        let also = SeenFrom::Shot { also: &free, margin: SeenFrom::MARGIN };
+        let [shot, anywhere, free] = [SeenFrom::SHOT, SeenFrom::Anywhere, also].map(painting);
+        assert!(!free.is_partial(), "a free camera may see the floor at any frame");
         let totals = [&shot, &anywhere].map(Painting::particle_total);
         assert!(shot.is_partial() && !anywhere.is_partial() && 2 * totals[0] < totals[1], "{totals:?}");
         for frame in [0.0, 3.0, 6.5, 10.0] {

@@ -70,6 +70,17 @@ impl BodySurface {
         Some(Arc::new(Bent { surface: Arc::clone(self), vertices, carrier }))
     }
 
+    /// Positions of the vertices of the surface in this shape, and the deformation gradient F at each; no gradients at
+    /// rest.
+    pub(crate) fn moved_to(&self, shape: &BodyShape) -> (Vec<Vec3>, Option<Vec<Mat3>>) {
+        if self.is_at_rest(shape) {
+            return (self.mesh.positions.clone(), None);
+        }
+        let Strained { vertices, gradients } = self.strained(shape);
+        let gradients = gradients.unwrap_or_else(|| self.gradients().at(&vertices.positions));
+        (vertices.positions, Some(gradients))
+    }
+
     /// Positions of the vertices of the surface in this shape.
     pub fn positions_at(&self, shape: &BodyShape) -> Vec<Vec3> {
         if self.is_at_rest(shape) { self.mesh.positions.clone() } else { self.vertices_at(shape).positions }

@@ -32,9 +32,9 @@ const MOST_ON_WHOLE: f64 = 1e12;
 /// At most this many pairs of a cell and a view are tested. Where there are more pairs, particles lie everywhere.
 const MOST_PAIRS: usize = 12_000_000;
 
-/// In each view, the vertices of a body that bends are moved, and the pieces of its cells are looked at. All these together are
-/// at most `MOST_PAIRS`, and at most this many for each particle that might be left out: more could take longer than
-/// making the particle.
+/// In each view, the vertices of a body that bends are moved, and the pieces of its cells are looked at. Vertices and
+/// pieces of all views are at most `MOST_PAIRS`, and at most this many for each particle that might be left out: more
+/// could take longer than making the particle.
 const PAIRS_PER_PARTICLE: usize = 2;
 
 /// A cell that needs fewer particles than `FEW` is not cut. A first cell and its parts are cut at most `MOST_DEPTH`
@@ -127,7 +127,7 @@ impl NeededInputs {
             Unneeded::OfMoving { noise } => {
                 let may_be_left_out = counted.counts.iter().zip(counted.may_depend_on_views);
                 let particles: usize = may_be_left_out.filter(|(_, may)| *may).map(|(count, _)| count).sum();
-                let pieces = surface.faces().count().max(cells.all().len());
+                let pieces: usize = cells.all().iter().map(|cell| cell.triangles(surface).count()).sum();
                 let pairs = sightings.len() * (surface.mesh().positions.len() + pieces);
                 (pairs <= MOST_PAIRS.min(PAIRS_PER_PARTICLE * particles))
                     .then(|| self.seen_moving(surface, &cells, noise > 0.0, needed_per_px))
@@ -193,16 +193,9 @@ impl NeededInputs {
         // their bits.
         let most: Vec<AtomicU64> = cells.all().iter().map(|_| AtomicU64::new(0)).collect();
         let body = self.counted.surface();
-        // What the gradients of all shapes share is made here, so that no two threads make it at once.
-        let mut shapes = self.sightings.iter().flatten().map(|sighting| &sighting.shape);
-        if !has_noise && shapes.any(|shape| !body.is_at_rest(shape)) {
-            body.gradients();
-        }
         let look = |sighting: &Sighting| {
             let eye = Eye::new(sighting, self.reach);
-            let positions = body.positions_at(&sighting.shape);
-            let is_bent = !has_noise && !body.is_at_rest(&sighting.shape);
-            let gradients = is_bent.then(|| body.gradients().at(&positions));
+            let (positions, gradients) = body.moved_to(&sighting.shape);
             for (cell, most) in cells.all().iter().zip(&most) {
                 for piece in cell.pieces_at(surface, &positions) {
                     let of_corner = |vertex: u32| gradients.as_ref().map(|all| all[vertex as usize]);
@@ -216,6 +209,11 @@ impl NeededInputs {
                 }
             }
         };
+        let mut shapes = self.sightings.iter().flatten().map(|sighting| &sighting.shape);
+        if shapes.any(|shape| !body.is_at_rest(shape)) {
+            // The threads share it: without this, each would make it.
+            body.gradients();
+        }
         self.sightings.par_iter().flatten().for_each(look);
         let seen = |(cell, most): (&Cell, AtomicU64)| {
             let px_per_area = f64::from_bits(most.into_inner());

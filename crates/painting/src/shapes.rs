@@ -40,6 +40,12 @@ impl BodyShapes {
         self
     }
 
+    /// How many joints and targets the shape of an object may have.
+    pub(crate) fn most_numbers(loaded: &LoadedScene, object: usize) -> usize {
+        let rest = file_bend(loaded, &loaded.scene.objects[object]).map(|bend| &bend.rest);
+        1 + rest.map_or(0, |rest| rest.joints.len() + rest.weights.len())
+    }
+
     /// How many joints and targets the shot states at this frame.
     pub(crate) fn numbers(&self) -> usize {
         self.bends.iter().flatten().map(|bend| bend.joints.len() + bend.weights.len()).sum()

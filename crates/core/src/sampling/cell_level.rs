@@ -21,19 +21,22 @@ const CELLS: usize = 32;
 /// A cell that would have more tries than this in a level is split.
 const MOST_TRIES: f64 = 48.0;
 
-/// Where faces lie on each other, most tries are in vain: the room for particles is that of one face. A cell gets at
-/// least this many tries for each particle that fits into it.
-const TRIES_THAT_FIT: f64 = 4.0 * TRIES as f64;
+/// Where faces lie on each other, most tries are in vain: the room for particles is that of one face. So a cell in
+/// which few particles were found gets fewer tries, but this many times as many for each that was found as other cells
+/// get.
+const SPARE: f64 = 8.0;
 
-/// But even there at least this share of all tries is made: so room that opens up is found.
-const LEAST_TRIED: f64 = 1.0 / 64.0;
+/// The least share of its tries that a cell gets: so room that opens up is found, and a cell in which a small part lies
+/// open does not starve.
+const LEAST_TRIED: f64 = 1.0 / 32.0;
+
+/// A cell gets all its tries until this many particles were meant for it: only then it is known how many find room.
+const UNKNOWN: f64 = 3.0;
 
 /// The cells in which the present level is thrown.
 pub(super) struct ActiveCells<'a> {
     cells: Vec<ActiveCell>,
     needed: Option<&'a Needed>,
-    /// How many particles all levels were meant to add in the cells, and how many they added.
-    filled: Filled,
 }
 
 /// A cell in which particles are thrown.
@@ -44,7 +47,7 @@ struct ActiveCell {
     filled: Filled,
 }
 
-/// How many particles a level was meant to add, and how many it added.
+/// How many particles all levels so far were meant to add in a cell, and how many they added.
 #[derive(Clone, Copy, Default)]
 struct Filled {
     meant: f64,
@@ -52,11 +55,9 @@ struct Filled {
 }
 
 impl Filled {
-    /// The share of a level's tries that a cell needs; `of_all` is what all cells have seen.
-    fn tried(self, of_all: Self) -> f64 {
-        let usual = (of_all.added + 1.0) / (of_all.meant + 1.0);
-        let fits = (self.added + usual) / (self.meant + 1.0);
-        (fits * TRIES_THAT_FIT / TRIES as f64).clamp(LEAST_TRIED, 1.0)
+    /// The share of its tries that the cell gets in the next level.
+    fn tried(self) -> f64 {
+        if self.meant < UNKNOWN { 1.0 } else { (SPARE * self.added / self.meant).clamp(LEAST_TRIED, 1.0) }
     }
 }
 
@@ -65,7 +66,7 @@ impl<'a> ActiveCells<'a> {
     pub(super) fn new(surface: &Surface<'_>, needed: Option<&'a Needed>) -> Self {
         let active = |(cell, index)| ActiveCell { cell, index, filled: Filled::default() };
         let cells = Cells::new(surface).into_iter().zip(0..).map(active).collect();
-        Self { cells, needed, filled: Filled::default() }
+        Self { cells, needed }
     }
 
     /// Drops the cells that need no particle from this ordinal on, and splits those that have many tries.
@@ -106,11 +107,9 @@ impl<'a> ActiveCells<'a> {
     fn note(&mut self, meant: f64, added: impl Iterator<Item = u32>) {
         for active in &mut self.cells {
             active.filled.meant += meant * active.cell.share;
-            self.filled.meant += meant * active.cell.share;
         }
         for cell in added {
             self.cells[cell as usize].filled.added += 1.0;
-            self.filled.added += 1.0;
         }
     }
 }
@@ -155,12 +154,13 @@ impl CellLevel {
     ) -> Added {
         let tries = self.tries();
         active.refine(surface, (tries, self.ordinal(0.0)));
+        // A heap hides much of itself, so its particles depend on the views anyway; many heaps are crowded in parts.
         let saves_tries = self.state.is_crowded() || active.needed.is_some_and(|needed| needed.is_strict);
-        let of_cells = |(cells, first): (&[ActiveCell], usize)| {
+        let of_cells = |(chunk, cells): (usize, &[ActiveCell])| {
             let mut clear = Vec::new();
-            for (ActiveCell { cell, index, filled }, number) in cells.iter().zip(first as u32..) {
+            for (ActiveCell { cell, index, filled }, number) in cells.iter().zip((chunk * CELLS) as u32..) {
                 let most = active.needed.map_or(f32::INFINITY, |needed| needed.of_cell[*index as usize]);
-                let tried = if saves_tries { filled.tried(active.filled) } else { 1.0 };
+                let tried = if saves_tries { filled.tried() } else { 1.0 };
                 self.throw(surface, (cell, number), tried, |thrown| {
                     let dart = Dart { position: thrown.position, face: thrown.face, number: 0 };
                     let normal = || surface.particle(thrown.face as usize, thrown.weights).normal;
@@ -172,9 +172,7 @@ impl CellLevel {
             }
             clear
         };
-        let chunks =
-            active.cells.par_chunks(CELLS).zip((0..active.cells.len()).into_par_iter().step_by(CELLS));
-        let found: Vec<Vec<Thrown>> = chunks.map(of_cells).collect();
+        let found: Vec<Vec<Thrown>> = active.cells.par_chunks(CELLS).enumerate().map(of_cells).collect();
         let mut clear = found.concat();
         clear.par_sort_unstable_by_key(|thrown| {
             (thrown.turn, thrown.bits, thrown.face, thrown.weights.map(f32::to_bits))
@@ -206,7 +204,8 @@ impl CellLevel {
         (self.ends[1] - self.ends[0]) as f64 * TRIES as f64
     }
 
-    /// Throws the level's candidates in a cell, with its index, or a share of them, whether they are needed or not.
+    /// Throws the share `tried` of a level's candidates in a cell, whether they are needed or not. The cell comes with
+    /// its index among the active ones.
     fn throw(
         &self,
         surface: &Surface<'_>,

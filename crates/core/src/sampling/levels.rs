@@ -26,7 +26,8 @@ pub(super) const LEAST_CHUNK: usize = 1024;
 /// The first levels, up to at least 8,192 particles, are always thrown on the whole surface, and a particle's ordinal
 /// is its index. Later levels may be thrown on a part of the surface only. Then the particles that come before one
 /// cannot be counted, so its ordinal is computed from its turn among the tries of its level. In this way neither a
-/// particle nor its ordinal depends on what is far away.
+/// particle nor its ordinal depends on what is far away. Only in a crowded order ([`ProgressiveState::is_crowded`]),
+/// how many tries a cell gets depends on what earlier levels found there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProgressiveState {
     /// Candidates thrown so far.
@@ -71,11 +72,11 @@ impl ProgressiveState {
         self.counted[0]
     }
 
-    /// Whether the counted levels found room for hardly more than half of what they were meant to add, as where faces lie
-    /// on each other. Elsewhere they find room for all.
-    pub(super) fn is_crowded(self) -> bool {
+    /// Whether levels find room for no more than half of the particles that they are meant to add, as where three faces
+    /// or more lie on each other. Such an order is not continued but made anew.
+    pub fn is_crowded(self) -> bool {
         let [count, level_end] = self.counted.map(|number| number as f64);
-        count < 0.6 * level_end
+        count < 0.55 * level_end
     }
 
     /// The ordinal of a particle that is added when the order is meant to have `meant` particles.

@@ -41,7 +41,7 @@ pub fn progressive(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Partic
 }
 
 /// Particles in progressive order, and the state from which the order is continued. Continuing takes the time for the
-/// added particles, and for one pass over those that are there. Only where faces lie on each other, it begins anew.
+/// added particles, and for one pass over those that are there. A crowded order begins anew.
 #[derive(Clone, Debug, Default)]
 pub struct ProgressiveOrder {
     /// The particles.
@@ -60,7 +60,7 @@ impl ProgressiveOrder {
         if surface.faces.is_empty() || self.particles.len() >= count {
             return;
         }
-        // In a crowded order, tries depend on what earlier levels found in each cell, which is not remembered.
+        // Tries then depend on what earlier levels found in each cell, which is not remembered.
         if self.state.is_crowded() {
             *self = Self::default();
         }

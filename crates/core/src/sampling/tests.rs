@@ -99,7 +99,7 @@ fn the_order_has_never_changed() {
         (
             "squares on each other",
             squares_on_each_other(),
-            [0x518c_f667_54eb_7b9a, 0xa7fe_060d_dd86_8cf8, 0x8bd0_dda9_8b92_dc7a],
+            [0x518c_f667_54eb_7b9a, 0xa7fe_060d_dd86_8cf8, 0xa085_409f_fedd_2973],
         ),
         (
             "rod and speck",
@@ -147,23 +147,32 @@ fn an_ordinal_counts_the_particles_before_it() {
     }
 }
 
-/// A pile of squares has little room. A sheet beside it still gets its share, a ninth.
+/// A pile of squares has little room. A sheet beside it still gets its share: of the squares of one size, or of a pile
+/// that is a hundred times as large.
 #[test]
 fn a_sheet_beside_a_pile_keeps_its_share() {
     let square = |x: f32, y: f32| (Vec3::new(x, y, 0.0), Vec3::Z);
-    let beside = |x: f32, y: f32| (Vec3::new(x + 5.0, y, 0.0), Vec3::Z);
-    let mesh = patches(1, &[&square, &square, &square, &square, &square, &square, &square, &square, &beside]);
-    let surface = Surface::new(&mesh, |_| true);
-    let of_cell = vec![200_000.0; Cells::new(&surface).all().len()];
-    let first_part = Arc::new(vec![0; of_cell.len()]);
-    let needed = Needed { of_cell, first_part, is_strict: false };
-    let order = ProgressiveOrder::where_needed(&surface, 5, &needed);
-    let on_sheet_before = |ordinal: f32| {
-        let all = order.particles.iter().zip(&order.ordinals);
-        all.filter(|&(particle, &of)| of < ordinal && particle.position.x > 2.0).count() as f64
-    };
-    let share = 9.0 * (on_sheet_before(150_000.0) - on_sheet_before(30_000.0)) / 120_000.0;
-    assert!((share - 1.0).abs() < 0.02, "{share} of its share");
+    for (side, least) in [(1.0f32, 0.98), (0.28, 0.9)] {
+        let beside = move |x: f32, y: f32| (Vec3::new(side * x + 5.0, side * y, 0.0), Vec3::Z);
+        let pile: [&dyn Fn(f32, f32) -> (Vec3, Vec3); 8] = [&square; 8];
+        let mesh = patches(1, &[&pile[..], &[&beside]].concat());
+        let surface = Surface::new(&mesh, |_| true);
+        let of_cell = vec![200_000.0; Cells::new(&surface).all().len()];
+        let first_part = Arc::new(vec![0; of_cell.len()]);
+        let needed = Needed { of_cell, first_part, is_strict: false };
+        let order = ProgressiveOrder::where_needed(&surface, 5, &needed);
+        assert!(order.state.is_crowded());
+        let on_sheet_before = |ordinal: f32| {
+            let all = order.particles.iter().zip(&order.ordinals);
+            all.filter(|&(particle, &of)| of < ordinal && particle.position.x > 2.0).count() as f64
+        };
+        let of_area = f64::from(side * side / (8.0 + side * side));
+        for ([from, to], least) in [([10_000.0f32, 30_000.0], 0.85), ([30_000.0, 150_000.0], least)] {
+            let found = on_sheet_before(to) - on_sheet_before(from);
+            let share = found / f64::from(to - from) / of_area;
+            assert!(share > least && share < 1.2, "{side}, {from} to {to}: {share} of its share");
+        }
+    }
 }
 
 #[test]

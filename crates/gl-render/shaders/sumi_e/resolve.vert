@@ -1,5 +1,6 @@
 // One stroke per vertex: finds its ink, its presence, and where it lies on its body.
 #include "shared/lens.glsl"
+#include "sumi_e/shares.glsl"
 layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
 layout(location = 1) in vec4 size;           // length and width in px, facing fade, supply_ln (see `Stroke`)
 layout(location = 2) in uvec4 marks;         // random bits, body id, albedo, mark
@@ -9,7 +10,6 @@ layout(location = 5) in vec4 reach;          // overrun in px, slow noise of hue
 
 uniform mat4 view_from_world;
 uniform sampler2D depth_and_id;
-uniform sampler2D shares;        // of each body: 0 for a backdrop, which gets no ink, else 1
 uniform sampler2D soft;          // silhouette, interior, seal red, body
 uniform sampler2D pigments;      // a row per palette: display values; w: how far strokes keep to them, 0 past the last
 uniform vec3 ink;
@@ -114,11 +114,6 @@ vec3 pigment_of(float red) {
     return count > 0 ? mix(bare, pigment.rgb, pigment.w) : ink;
 }
 
-ivec2 texel_of_body(int id) {
-    int row = textureSize(shares, 0).x;
-    return ivec2((id - 1) % row, (id - 1) / row);
-}
-
 void main() {
     vec2 along = vec2(cos(place.w), sin(place.w));
     mat2 turn = mat2(along, vec2(-along.y, along.x));
@@ -128,7 +123,7 @@ void main() {
     float there = presence(size.w);
     // Unlit surfaces have no strokes: only the wash shows them.
     if (there <= LEAST || (marks.z >> 24) == 0u) return;
-    if (texelFetch(shares, texel_of_body(int(marks.y)), 0).r == 0.0) return;
+    if (!gets_ink(int(marks.y))) return;
 
     vec3 found = ink_round(along);
     float rim = found.r, tone = found.g, red = clamp(found.b, 0.0, 1.0);

@@ -2,7 +2,7 @@
 #include "shared/lens.glsl"
 #include "shared/oklab.glsl"
 #include "sumi_e/ramp.glsl"
-uniform sampler2D shares;        // of each body: 0 for a backdrop, which gets no ink, else 1
+#include "sumi_e/shares.glsl"
 uniform sampler2D normal;        // world space
 uniform sampler2D depth_and_id;
 uniform sampler2D albedo_and_lit;
@@ -29,16 +29,11 @@ float ends(ivec2 at, vec2 here, float facing) {
     return sum;
 }
 
-ivec2 texel_of_body(int id) {
-    int row = textureSize(shares, 0).x;
-    return ivec2((id - 1) % row, (id - 1) / row);
-}
-
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec2 here = texelFetch(depth_and_id, at, 0).xy;
     wash = vec4(0.0);
-    if (here.y == 0.0 || texelFetch(shares, texel_of_body(int(here.y)), 0).r == 0.0) return;
+    if (here.y == 0.0 || !gets_ink(int(here.y))) return;
     vec3 towards = towards_eye_from_px(gl_FragCoord.xy);
     vec3 n = texelFetch(normal, at, 0).xyz;
     float size = length(n);

@@ -1,8 +1,7 @@
 //! The key of a scene: a hash of all inputs of the heavy steps of preparing the scene. The inputs are hashed as they
 //! are in memory, so it does not matter where the scene's folder lies, or whether a file changes after it was read.
 //!
-//! Settings are hashed whole, by their `Debug` text. Structs of this crate are destructured here field by field,
-//! without
+//! Settings are hashed whole, by their `Debug` text. Other structs are destructured here field by field, without
 //! `..`: when a field is added, this file does not compile until it says whether the field counts.
 
 use std::collections::HashMap;

@@ -56,8 +56,8 @@ impl SeenFrom<'_> {
 const MOST_FRAMES: usize = 4096;
 const MOST_POSES: usize = 200_000;
 
-/// With more joints and targets than this, counted at all frames, bodies that they move may have any shape: for all
-/// objects that the shot moves together, and for each object.
+/// The most joints and targets, counted at all frames: of all objects that the shot bends, and of any one object. With
+/// more, a body that they bend counts as one that may have any shape.
 const MOST_JOINTS: usize = 500_000;
 
 /// A view, with the poses of all objects.
@@ -126,8 +126,7 @@ impl<'a> Seen<'a> {
             (!is_much).then(|| frames.map(at).collect())
         };
         let shapes: &[BodyShapes] = self.shapes.get_or_init(find).as_deref()?;
-        let first = shapes.first()?.of(self.loaded, object);
-        let numbers = first.pose.map_or(0, |pose| pose.joints.len() + pose.weights.len());
+        let numbers = BodyShapes::most_numbers(self.loaded, object);
         let is_much = numbers.saturating_mul(shapes.len()) > MOST_JOINTS;
         (!is_much).then(|| shapes.iter().map(|shapes| shapes.of(self.loaded, object)).collect())
     }
@@ -164,8 +163,8 @@ impl<'a> Seen<'a> {
         Some(sightings)
     }
 
-    /// Every view of an object whose vertices move, equal ones in a row once. `None` if there may be others: an editor's
-    /// free camera may stay where it is while the frames change.
+    /// Every view of an object whose vertices move, equal ones in a row once. `None` if there may be others: an
+    /// editor's free camera may stay where it is while the frames change.
     pub(crate) fn sightings_moving(&self, object: usize) -> Option<Vec<Sighting>> {
         if !self.also()?.is_empty() {
             return None;
