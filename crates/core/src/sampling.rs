@@ -141,7 +141,7 @@ impl<'mesh> Surface<'mesh> {
     }
 
     /// Position of a point of a face. It is the one that [`Surface::particle`] gives, at a third of the cost.
-    #[inline]
+    #[inline(always)]
     fn position(&self, face: usize, [v, w]: [f32; 2]) -> Vec3 {
         let [a, b, c] = self.mesh.corners(self.faces[face].triangle as usize);
         a * (1.0 - v - w) + b * v + c * w
@@ -172,6 +172,7 @@ fn triangle_area(mesh: &TriangleMesh, triangle: usize) -> f64 {
 }
 
 /// Spreads two numbers in 0..1 evenly over a triangle, as weights of its second and third corner.
+#[inline(always)]
 fn barycentric(first: f32, second: f32) -> [f32; 2] {
     let root = first.sqrt();
     [root * (1.0 - second), root * second]

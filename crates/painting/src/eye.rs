@@ -1,6 +1,6 @@
 //! A view of a body. Gives upper bounds on how densely it sees the parts of the surface.
 
-use glam::{DVec2, DVec3, DVec4, Vec3};
+use glam::{DAffine3, DVec2, DVec3, DVec4};
 use impasto_core::ScreenMap;
 use impasto_core::sampling::Cell;
 
@@ -50,6 +50,11 @@ pub(crate) struct Eye {
     half_px: DVec2,
     near: f64,
     row_w_length: f64,
+    /// Takes a point to the direction from it to the eye, with a length of w³ times the pixels that a unit of surface
+    /// fills there if it faces the eye; w is the point's `row_w` product.
+    to_eye: DAffine3,
+    /// How much `to_eye` changes at most for each unit that the point moves.
+    to_eye_change: f64,
     most_offset: f64,
     /// The body's own depths, which tell what it hides of itself; `None` unless it is a heap.
     pub(crate) own: Option<OwnDepths>,
@@ -72,7 +77,16 @@ impl Eye {
             ];
             sides.map(|plane| (plane, plane.truncate().length()))
         };
+        let to_eye = to_eye(map);
         Self {
+            to_eye_change: to_eye
+                .matrix3
+                .to_cols_array()
+                .iter()
+                .map(|entry| entry * entry)
+                .sum::<f64>()
+                .sqrt(),
+            to_eye,
             planes: planes(margin, 2.0 * reach_px),
             picture: planes(1.0, 0.0),
             half_px: sighting.half_size_px,
@@ -97,33 +111,40 @@ impl Eye {
         !self.planes.iter().any(is_beyond)
     }
 
-    /// Whether a place on a triangle with these corners may face the eye, if its normal is a sum of some of these
-    /// vectors.
-    pub(crate) fn may_face(&self, corners: [DVec3; 3], mut normals: impl Iterator<Item = Vec3>) -> bool {
-        let is_before = |corner: &DVec3| self.map.row_w.dot(corner.extend(1.0)) > self.near;
-        if self.most_offset > 0.0 || self.row_w_length > 0.0 && !corners.iter().all(is_before) {
-            return true;
+    /// An upper bound on the pixels that a unit of surface at rest fills anywhere on a triangle with these corners,
+    /// divided by the fade of strokes near an outline; 0 where it faces away. The normal there, times the factor by
+    /// which the area has grown since rest, must be a weighted mean of `area_normals`.
+    pub(crate) fn most_on_triangle(
+        &self,
+        corners: [DVec3; 3],
+        area_normals: impl Iterator<Item = DVec3>,
+    ) -> f64 {
+        let least_w = corners.map(|corner| self.map.row_w.dot(corner.extend(1.0)));
+        let least_w =
+            least_w.into_iter().fold(f64::INFINITY, f64::min) - self.row_w_length * self.most_offset;
+        let least_w = if self.row_w_length > 0.0 { least_w.max(self.near) } else { least_w };
+        let to_eye = corners.map(|corner| self.to_eye.transform_point3(corner));
+        // How much `to_eye` may differ at a stroke that is lifted off the triangle.
+        let lifted = self.to_eye_change * self.most_offset;
+        let mut facing = f64::NEG_INFINITY;
+        let mut whole = 0.0f64;
+        for normal in area_normals {
+            let length = normal.length();
+            // The cosine times lengths is linear along the triangle and in the normal, so it is greatest at a corner,
+            // with one of the normals.
+            for to_eye in to_eye {
+                facing = facing.max(normal.dot(to_eye) + length * lifted);
+                whole = whole.max(length * (to_eye.length() + lifted));
+            }
+            if !length.is_finite() {
+                return f64::INFINITY;
+            }
         }
-        let to_eye = corners.map(|corner| {
-            let [along_x, along_y] = self.map.jacobian(corner);
-            along_x.cross(along_y)
-        });
-        // Towards one eye, the cosine's sign on the triangle follows from its corners: it is that of a linear function.
-        normals.any(|normal| {
-            to_eye
-                .iter()
-                .map(|to_eye| normal.as_dvec3().dot(*to_eye))
-                .any(|facing| facing > 0.0 || facing.is_nan())
-        })
-    }
-
-    /// An upper bound on the pixels that a unit of surface fills anywhere in a ball, whichever way it faces, divided by
-    /// the fade of strokes near an outline.
-    pub(crate) fn most_in_ball(&self, center: DVec3, radius: f64) -> f64 {
-        let nearest = self.nearest(center, radius + self.most_offset);
-        nearest.map_or(f64::INFINITY, |Nearest { px_per_area, nearer, .. }| {
-            px_per_area * nearer * most_over_fade(1.0, self.map.uneven.is_some())
-        })
+        if facing <= 0.0 {
+            return 0.0;
+        }
+        let most = most_over_fade(facing / whole, self.map.uneven.is_some()) * whole / least_w.powi(3);
+        if most.is_nan() { f64::INFINITY } else { most }
     }
 
     /// How a ball is seen; `None` where it reaches the eye.
@@ -174,6 +195,21 @@ impl Eye {
     }
 }
 
+/// w³ times the cross product of the rows of the Jacobian, which is linear in the point: with x, y and w the products
+/// of the point and the map's rows X, Y and W, it is w X × Y − y X × W − x W × Y.
+fn to_eye(map: &ScreenMap) -> DAffine3 {
+    let [x, y, w] = [map.row_x, map.row_y, map.row_w];
+    let cross = |a: DVec4, b: DVec4| a.truncate().cross(b.truncate());
+    let (of_w, of_y, of_x) = (cross(x, y), cross(x, w), cross(w, y));
+    let column = |w: f64, y: f64, x: f64| of_w * w - of_y * y - of_x * x;
+    DAffine3::from_cols(
+        column(w.x, y.x, x.x),
+        column(w.y, y.y, x.y),
+        column(w.z, y.z, x.z),
+        column(w.w, y.w, x.w),
+    )
+}
+
 /// The greatest `f / fade(f)` for `f` up to this facing. Where strokes face the eye less, there are more of them, to
 /// make up for those that fade.
 fn most_over_fade(facing: f64, uneven: bool) -> f64 {
@@ -193,7 +229,7 @@ const MOST_GRAZING: f64 = 0.243;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::{DAffine3, Vec3};
+    use glam::Vec3;
     use impasto_core::sampling::{self, Cells, Surface};
     use impasto_core::screen_map::{PixelLens, area_px};
     use impasto_core::{TriangleMesh, presence};

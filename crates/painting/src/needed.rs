@@ -21,10 +21,13 @@ use crate::parts::BodyParts;
 const LAYERS: usize = LayerKind::ALL.len();
 
 /// Particles are left out of a coat only if it needs at most this share of those that it would have on its whole
-/// surface. Then the nearest spots may get more particles than they would have had, until this share of particles is
-/// made or, if that is more, `MOST_MADE`.
+/// surface: on a body at rest, and on one whose vertices move.
 const MOST_SHARE: f64 = 0.5;
-const MOST_MADE: f64 = 50_000.0;
+const MOST_SHARE_MOVING: f64 = 0.8;
+
+/// Where particles are left out, the nearest spots may get more particles than they would have had, until half of the
+/// whole surface's number is made, but at least and at most these.
+const MOST_MADE: [f64; 2] = [50_000.0, 100_000.0];
 
 /// The longest order, in particles: enough for a floor of some ten kilometres.
 const MOST_ON_WHOLE: f64 = 1e12;
@@ -54,6 +57,10 @@ const MOST_OF_HEAP: f64 = 400_000.0;
 /// Of sheets with two visible sides, half of the surface is never seen. If more than this share of a heap is not seen,
 /// its cells are split from the first level on ([`Needed::is_strict`]).
 const MUCH_UNSEEN: f64 = 0.6;
+
+/// Where the smooth normals at the corners of a triangle differ so much that their mean may be shorter than this, the
+/// normal of a particle between them may point anywhere.
+const LEAST_BLENDED: f64 = 0.1;
 
 /// About how many cuts all cells together may have, and how many each cell that is to be cut may have at least.
 const MOST_CUTS: usize = 65_536;
@@ -110,7 +117,7 @@ impl NeededInputs {
             let still_present = (-f64::from(presence::ABSENT_LN)).exp();
             wanted.map(|wanted| f64::from(wanted) * surface.area() * still_present * counted.more_wanted)
         };
-        let mut is_heap = false;
+        let mut kind_of_body = KindOfBody::AtRest;
         let seen = match self.counted.unneeded() {
             Unneeded::None => None,
             Unneeded::AtRest if cells.all().len() * sightings.len() > MOST_PAIRS => None,
@@ -121,10 +128,13 @@ impl NeededInputs {
                     OwnDepths::of_all(surface, sightings, is_solid, self.reach)
                 });
                 let own = own.flatten();
-                is_heap = own.is_some();
+                if own.is_some() {
+                    kind_of_body = KindOfBody::Heap;
+                }
                 Some(self.seen_at_rest(surface, &cells, own, needed_per_px))
             }
             Unneeded::OfMoving { noise } => {
+                kind_of_body = KindOfBody::Moving;
                 let may_be_left_out = counted.counts.iter().zip(counted.may_depend_on_views);
                 let particles: usize = may_be_left_out.filter(|(_, may)| *may).map(|(count, _)| count).sum();
                 let pieces: usize = cells.all().iter().map(|cell| cell.triangles(surface).count()).sum();
@@ -137,7 +147,7 @@ impl NeededInputs {
         let tree = SeenTree::new(seen);
         for (kind, count) in counts.iter_mut().enumerate() {
             if counted.may_depend_on_views[kind]
-                && let Some(needed) = tree.count(kind, counted.counts[kind] as f64, is_heap)
+                && let Some(needed) = tree.count(kind, counted.counts[kind] as f64, kind_of_body)
             {
                 *count = needed;
             }
@@ -231,23 +241,15 @@ fn most_on_piece(eye: &Eye, piece: &CellPiece, gradients: [Mat3; 3]) -> f64 {
     if !eye.may_see(corners) {
         return 0.0;
     }
-    // Where smooth normals lie on both sides of the face, a particle's normal may point anywhere.
-    let is_even = normals.iter().all(|normal| normal.dot(normals[0]) > 0.0);
-    let normals = normals.map(|normal| normal.as_vec3());
-    if is_even && !eye.may_face(corners, normals_around(gradients, normals)) {
-        return 0.0;
+    // A particle's normal is a mean of the smooth ones, made longer to have the length 1.
+    let [_, smooth @ ..] = normals;
+    let mean = smooth.iter().sum::<DVec3>().normalize_or_zero();
+    let shortest = smooth.map(|normal| normal.dot(mean)).into_iter().fold(1.0, f64::min);
+    if shortest < LEAST_BLENDED {
+        return f64::INFINITY;
     }
-    // With a and b the columns of F along the surface, an area grows |a × b| times, at most (|a|² + |b|²)/2. This also
-    // holds for F blended between vertices, because the bound is convex. At F = 1 it is 1, elsewhere at most half the
-    // sum of the squares of all entries.
-    let grown =
-        |gradient: Mat3| 0.5 * gradient.to_cols_array().iter().map(|entry| entry * entry).sum::<f32>();
-    let grown = gradients.map(|gradient| if gradient == Mat3::IDENTITY { 1.0 } else { grown(gradient) });
-    let center = corners.iter().sum::<DVec3>() / 3.0;
-    let radius = corners.iter().map(|corner| corner.distance(center)).fold(0.0, f64::max);
-    let px_per_area = f64::from(grown.into_iter().fold(0.0, f32::max)) * eye.most_in_ball(center, radius);
-    let is_sure = px_per_area.is_finite() && grown.iter().all(|grown| grown.is_finite());
-    if is_sure { px_per_area } else { f64::INFINITY }
+    let around = normals_around(gradients, normals.map(|normal| normal.as_vec3()));
+    eye.most_on_triangle(corners, around.map(Vec3::as_dvec3)) / shortest
 }
 
 /// The most particles that any layer needs for each pixel that a unit of surface fills.
@@ -334,6 +336,15 @@ impl SeenCell {
     }
 }
 
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum KindOfBody {
+    AtRest,
+    /// At rest, and a heap.
+    Heap,
+    /// Its vertices move.
+    Moving,
+}
+
 /// All cells, in the order of [`Needed`].
 struct SeenTree {
     /// For each cell, its share of the surface and, for each layer, the ordinal below which it needs particles.
@@ -368,17 +379,20 @@ impl SeenTree {
 
     /// The count of a layer that has this many particles if they lie everywhere; `None` where it does not pay to leave
     /// some out.
-    fn count(&self, kind: usize, everywhere: f64, is_heap: bool) -> Option<CoatCount> {
+    fn count(&self, kind: usize, everywhere: f64, kind_of_body: KindOfBody) -> Option<CoatCount> {
         let smallest = || self.cells.iter().zip(&*self.first_part).filter(|(_, first)| **first == 0);
         let made = |count_on_whole: f64| -> f64 {
             smallest().map(|((share, needed), _)| share * needed[kind].min(count_on_whole)).sum()
         };
         let most = self.most_in_picture[kind].min(MOST_ON_WHOLE);
-        let enough = MOST_SHARE * everywhere;
-        if made(everywhere) > enough {
+        let (most_share, most_made) = match kind_of_body {
+            KindOfBody::AtRest => (MOST_SHARE, (MOST_SHARE * everywhere).clamp(MOST_MADE[0], MOST_MADE[1])),
+            KindOfBody::Heap => (MOST_SHARE, MOST_MADE_OF_HEAP),
+            KindOfBody::Moving => (MOST_SHARE_MOVING, 0.0),
+        };
+        if made(everywhere) > most_share * everywhere {
             return None;
         }
-        let most_made = if is_heap { MOST_MADE_OF_HEAP } else { enough.max(MOST_MADE) };
         let count_on_whole = longest([everywhere, most], most_made, made);
         if count_on_whole <= LEAST_ON_WHOLE {
             return None;
@@ -394,7 +408,7 @@ impl SeenTree {
                     .map(|(_, needed)| needed[kind].min(count_on_whole) as f32)
                     .collect(),
                 first_part: Arc::clone(&self.first_part),
-                is_strict: is_heap && unseen > MUCH_UNSEEN,
+                is_strict: kind_of_body == KindOfBody::Heap && unseen > MUCH_UNSEEN,
             })),
             made: (made(count_on_whole) + LEAST_ON_WHOLE).ceil() as usize,
         })
@@ -421,14 +435,4 @@ fn longest([shortest, longest]: [f64; 2], most_made: f64, made: impl Fn(f64) -> 
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_longest_order_makes_at_most_so_many() {
-        assert_eq!(longest([1e3, 5e6], 1e5, |length| length * 0.01), 5e6);
-        let length = longest([1e3, 5e6], 1e5, |length| length * 0.5);
-        assert!((length - 2e5).abs() < 1.0, "{length}");
-        assert_eq!(longest([3e5, 2e5], 2e5, |length| length * 0.5), 3e5);
-    }
-}
+mod tests;

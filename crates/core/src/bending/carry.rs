@@ -192,13 +192,14 @@ impl Carrier {
     }
 }
 
-/// Vectors such that the carried normal at any place of a triangle is a sum of them with weights of 0 or more.
-/// `gradients` are F at its corners. The unit normal at rest must be such a sum of `normals`.
+/// Vectors such that the carried normal at any place of a triangle is a weighted mean of them. `gradients` are F at its
+/// corners. The normal at rest must be such a mean of `normals`.
 pub fn normals_around(gradients: [Mat3; 3], normals: [Vec3; 4]) -> impl Iterator<Item = Vec3> {
     let [a, b, c] = gradients;
-    // Cofactors are quadratic in F: of u F + v G they are u² cof F + v² cof G + u v (cof(F + G) − cof F − cof G).
+    // Cofactors are quadratic in F: of u F + v G they are u² cof F + v² cof G + 2 u v (cof(F + G) − cof F − cof G)/2.
     let corners = gradients.map(cofactors_f32);
-    let mixed = |(f, cof_f): (Mat3, Mat3), (g, cof_g): (Mat3, Mat3)| cofactors_f32(f + g) - cof_f - cof_g;
+    let mixed =
+        |(f, cof_f): (Mat3, Mat3), (g, cof_g): (Mat3, Mat3)| (cofactors_f32(f + g) - cof_f - cof_g) * 0.5;
     let [of_a, of_b, of_c] = [(a, corners[0]), (b, corners[1]), (c, corners[2])];
     let between = [mixed(of_a, of_b), mixed(of_b, of_c), mixed(of_c, of_a)];
     corners.into_iter().chain(between).flat_map(move |cofactors| normals.map(|normal| cofactors * normal))

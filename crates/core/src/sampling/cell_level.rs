@@ -8,8 +8,9 @@ use super::cells::{Cell, Cells, Needed};
 use super::dart_field::{Accepted, DartField};
 use super::dart_grid::Dart;
 use super::levels::{ProgressiveState, TRIES};
-use super::{Particle, Surface};
+use super::{Particle, Surface, barycentric};
 use crate::hash;
+use crate::wide::{Wide, widest};
 
 /// The first tries of a level are accepted a little more often than the last: after the share t of its tries, t +
 /// `FRONT_LOAD` t (1 − t) of its particles are there.
@@ -124,6 +125,82 @@ pub(super) struct CellLevel {
     pub(super) radius: f32,
 }
 
+/// How many candidates get their random numbers together.
+const LANES: usize = 8;
+
+/// The random numbers of some candidates of a cell.
+struct Randoms {
+    bits: [u32; LANES],
+    /// See [`Thrown::turn`].
+    turns: [u32; LANES],
+    /// Numbers in 0..1, which choose the face.
+    which: [f32; LANES],
+    /// Weights of the second and third corner, spread evenly over a triangle.
+    on_triangle: [[f32; LANES]; 2],
+}
+
+impl Randoms {
+    #[inline(always)]
+    fn new(seed: u32, first: u32) -> Self {
+        let mut randoms =
+            Self { bits: [0; LANES], turns: [0; LANES], which: [0.0; LANES], on_triangle: [[0.0; LANES]; 2] };
+        for lane in 0..LANES {
+            let bits = hash::combine(seed, first.wrapping_add(lane as u32));
+            let [which, first, second] = [1, 2, 3].map(|which| hash::unit(hash::combine(bits, which)));
+            let [v, w] = barycentric(first, second);
+            randoms.bits[lane] = bits;
+            randoms.turns[lane] = hash::combine(bits, 0);
+            randoms.which[lane] = which;
+            randoms.on_triangle[0][lane] = v;
+            randoms.on_triangle[1][lane] = w;
+        }
+        randoms
+    }
+}
+
+/// Throws a level's candidates in some cells.
+struct Throwing<'a> {
+    level: &'a CellLevel,
+    surface: &'a Surface<'a>,
+    cells: &'a [ActiveCell],
+    /// The index of the first of these cells among the active ones.
+    first: u32,
+    needed: Option<&'a Needed>,
+    field: &'a DartField,
+    accepted: &'a Accepted<'a>,
+    saves_tries: bool,
+}
+
+impl Wide for Throwing<'_> {
+    /// Those that are needed and that no accepted particle crowds.
+    type Output = Vec<Thrown>;
+
+    #[inline(always)]
+    fn run(self) -> Vec<Thrown> {
+        let Self { level, surface, cells, first, needed, field, accepted, saves_tries } = self;
+        let mut clear = Vec::new();
+        for (ActiveCell { cell, index, filled }, number) in cells.iter().zip(first..) {
+            let most = needed.map_or(f32::INFINITY, |needed| needed.of_cell[*index as usize]);
+            let tried = if saves_tries { filled.tried() } else { 1.0 };
+            let (seed, count) = level.thrown(cell, tried);
+            for first in (0..count).step_by(LANES) {
+                let Randoms { bits, turns, which, on_triangle: [v, w] } = Randoms::new(seed, first);
+                for lane in 0..LANES.min((count - first) as usize) {
+                    let (face, weights) = cell.place(surface, which[lane], [v[lane], w[lane]]);
+                    let position = surface.position(face, weights);
+                    let dart = Dart { position, face: face as u32, number: 0 };
+                    let normal = || surface.particle(face, weights).normal;
+                    let (turn, bits) = (turns[lane], bits[lane]);
+                    if level.ordinal(turn_share(turn)) < most && field.is_clear(accepted, &dart, normal) {
+                        clear.push(Thrown { turn, bits, cell: number, face: face as u32, weights, position });
+                    }
+                }
+            }
+        }
+        clear
+    }
+}
+
 /// The particles that a level adds, in its order.
 #[derive(Default)]
 pub(super) struct Added {
@@ -157,20 +234,17 @@ impl CellLevel {
         // A heap hides much of itself, so its particles depend on the views anyway; many heaps are crowded in parts.
         let saves_tries = self.state.is_crowded() || active.needed.is_some_and(|needed| needed.is_strict);
         let of_cells = |(chunk, cells): (usize, &[ActiveCell])| {
-            let mut clear = Vec::new();
-            for (ActiveCell { cell, index, filled }, number) in cells.iter().zip((chunk * CELLS) as u32..) {
-                let most = active.needed.map_or(f32::INFINITY, |needed| needed.of_cell[*index as usize]);
-                let tried = if saves_tries { filled.tried() } else { 1.0 };
-                self.throw(surface, (cell, number), tried, |thrown| {
-                    let dart = Dart { position: thrown.position, face: thrown.face, number: 0 };
-                    let normal = || surface.particle(thrown.face as usize, thrown.weights).normal;
-                    if self.ordinal(turn_share(thrown.turn)) < most && field.is_clear(accepted, &dart, normal)
-                    {
-                        clear.push(thrown);
-                    }
-                });
-            }
-            clear
+            let first = (chunk * CELLS) as u32;
+            widest(Throwing {
+                level: self,
+                surface,
+                cells,
+                first,
+                needed: active.needed,
+                field,
+                accepted,
+                saves_tries,
+            })
         };
         let found: Vec<Vec<Thrown>> = active.cells.par_chunks(CELLS).enumerate().map(of_cells).collect();
         let mut clear = found.concat();
@@ -204,30 +278,17 @@ impl CellLevel {
         (self.ends[1] - self.ends[0]) as f64 * TRIES as f64
     }
 
-    /// Throws the share `tried` of a level's candidates in a cell, whether they are needed or not. The cell comes with
-    /// its index among the active ones.
-    fn throw(
-        &self,
-        surface: &Surface<'_>,
-        (cell, index): (&Cell, u32),
-        tried: f64,
-        mut take: impl FnMut(Thrown),
-    ) {
+    /// The random bits and the number of the candidates that are thrown in a cell: the share `tried` of the level's,
+    /// whether they are needed or not.
+    fn thrown(&self, cell: &Cell, tried: f64) -> (u32, u32) {
         let seed = hash::combine(hash::combine(self.seed, cell.bits), self.ends[0] as u32);
         let tries = self.tries() * cell.share * tried;
         // The cell's share of the level's tries. Chance decides whether the fraction that is left makes one more.
-        let count = (tries + f64::from(hash::unit(seed))) as u32;
-        for number in 0..count {
-            let bits = hash::combine(seed, number);
-            let random = |which: u32| hash::unit(hash::combine(bits, which));
-            let (face, weights) = cell.place(surface, [random(1), random(2), random(3)]);
-            let position = surface.position(face, weights);
-            let turn = hash::combine(bits, 0);
-            take(Thrown { turn, bits, cell: index, face: face as u32, weights, position });
-        }
+        (seed, (tries + f64::from(hash::unit(seed))) as u32)
     }
 
     /// The ordinal of a particle that was tried after this share of the level's tries.
+    #[inline(always)]
     pub(super) fn ordinal(&self, share: f64) -> f32 {
         let [begin, end] = self.ends.map(|end| end as f64);
         let filled = share + FRONT_LOAD * share * (1.0 - share);
@@ -235,6 +296,7 @@ impl CellLevel {
     }
 }
 
+#[inline(always)]
 fn turn_share(turn: u32) -> f64 {
     f64::from(turn) / 4_294_967_296.0
 }

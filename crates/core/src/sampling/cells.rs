@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
-use super::{Face, Surface, barycentric};
+use super::{Face, Surface};
 use crate::hash;
 use crate::mesh::of_corners;
 
@@ -252,11 +252,15 @@ impl Cell {
         })
     }
 
-    /// A point of the cell, from three numbers in 0..1 that are spread evenly: its face, and the weights of the face's
-    /// second and third corner.
-    #[inline]
-    pub(super) fn place(&self, surface: &Surface<'_>, [which, first, second]: [f32; 3]) -> (usize, [f32; 2]) {
-        let on_triangle = barycentric(first, second);
+    /// A point of the cell, from a number in 0..1 that is spread evenly, and weights that are spread evenly over a
+    /// triangle: the point's face, and the weights of the face's second and third corner.
+    #[inline(always)]
+    pub(super) fn place(
+        &self,
+        surface: &Surface<'_>,
+        which: f32,
+        on_triangle: [f32; 2],
+    ) -> (usize, [f32; 2]) {
         match &self.extent {
             Extent::Faces { faces, side } => {
                 let [from, to] = [faces.start as usize, faces.end as usize];
@@ -286,7 +290,7 @@ impl Extent {
     }
 
     /// Weights on the face, from those on the part itself.
-    #[inline]
+    #[inline(always)]
     fn weights(&self, [v, w]: [f32; 2]) -> [f32; 2] {
         let &Self::Part { cuts, row, column, second, .. } = self else { return [v, w] };
         let [v, w] = if second { [1.0 - v, 1.0 - w] } else { [v, w] };

@@ -5,7 +5,7 @@ use std::ops::Range;
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::dart_grid::{Dart, DartGrid};
+use super::dart_grid::{Dart, DartGrid, Test};
 use super::face_cones::FaceCones;
 use super::levels::LEAST_CHUNK;
 use super::{Particle, Surface};
@@ -32,21 +32,15 @@ impl DartField {
     }
 
     /// Whether no accepted particle crowds a candidate, whose normal `own_normal` finds.
-    #[inline]
+    #[inline(always)]
     pub(super) fn is_clear(
         &self,
         accepted: &Accepted<'_>,
         dart: &Dart,
         own_normal: impl Fn() -> Vec3,
     ) -> bool {
-        let mut normal = None;
-        let crowds = |other: &Dart| {
-            self.cones.same_side(dart.face, other.face).unwrap_or_else(|| {
-                let normal = *normal.get_or_insert_with(&own_normal);
-                accepted.particles[other.number as usize].normal.dot(normal) > 0.0
-            })
-        };
-        !accepted.grid.any_near(dart.position, accepted.radius, crowds)
+        let mut crowds = Crowds { cones: &self.cones, accepted, dart, own_normal, normal: None };
+        !accepted.grid.any_near(dart.position, accepted.radius, &mut crowds)
     }
 
     /// Goes through the darts of a level in order of their numbers, and drops each dart that is crowded by an earlier
@@ -61,19 +55,15 @@ impl DartField {
     ) -> Vec<Dart> {
         let grid = DartGrid::new(darts, radius);
         let rivals = |dart: &Dart| {
-            let mut rivals = Vec::new();
-            grid.any_near(dart.position, radius, |other| {
-                let crowded = other.number < dart.number
-                    && self
-                        .cones
-                        .same_side(dart.face, other.face)
-                        .unwrap_or_else(|| normal_of(other.number).dot(normal_of(dart.number)) > 0.0);
-                if crowded {
-                    rivals.push((dart.number - level.start, other.number - level.start));
-                }
-                false
-            });
-            rivals
+            let mut rivals = Rivals {
+                cones: &self.cones,
+                dart,
+                normal_of: &normal_of,
+                first: level.start,
+                found: Vec::new(),
+            };
+            grid.any_near(dart.position, radius, &mut rivals);
+            rivals.found
         };
         let sorted = grid.darts();
         let mut pairs: Vec<(u32, u32)> = if sorted.len() <= LEAST_CHUNK {
@@ -94,5 +84,55 @@ impl DartField {
             }
         }
         stays.into_iter().filter(|&index| index != NONE).map(|index| darts[index as usize]).collect()
+    }
+}
+
+/// Whether an accepted particle is on a candidate's side of the surface.
+struct Crowds<'a, F> {
+    cones: &'a FaceCones,
+    accepted: &'a Accepted<'a>,
+    dart: &'a Dart,
+    own_normal: F,
+    /// The candidate's normal, found when it is first needed.
+    normal: Option<Vec3>,
+}
+
+impl<F: Fn() -> Vec3> Test for Crowds<'_, F> {
+    #[inline(always)]
+    fn holds(&mut self, face: u32, number: u32) -> bool {
+        match self.cones.same_side(self.dart.face, face) {
+            Some(same) => same,
+            None => {
+                let normal = *self.normal.get_or_insert_with(&self.own_normal);
+                self.accepted.particles[number as usize].normal.dot(normal) > 0.0
+            }
+        }
+    }
+}
+
+/// Notes which earlier darts crowd a dart.
+struct Rivals<'a, F> {
+    cones: &'a FaceCones,
+    dart: &'a Dart,
+    normal_of: &'a F,
+    /// The first number of the level.
+    first: u32,
+    /// Pairs of the dart and a rival, counted from `first`.
+    found: Vec<(u32, u32)>,
+}
+
+impl<F: Fn(u32) -> Vec3> Test for Rivals<'_, F> {
+    #[inline(always)]
+    fn holds(&mut self, face: u32, number: u32) -> bool {
+        let Self { dart, normal_of, .. } = self;
+        let is_crowded = number < dart.number
+            && self
+                .cones
+                .same_side(dart.face, face)
+                .unwrap_or_else(|| normal_of(number).dot(normal_of(dart.number)) > 0.0);
+        if is_crowded {
+            self.found.push((dart.number - self.first, number - self.first));
+        }
+        false
     }
 }

@@ -16,6 +16,19 @@ pub(super) struct Dart {
     pub(super) number: u32,
 }
 
+/// A test of a dart, from its face and its number.
+pub(super) trait Test {
+    fn holds(&mut self, face: u32, number: u32) -> bool;
+}
+
+/// Where a search looks.
+struct Near {
+    position: Vec3,
+    radius_sq: f32,
+    /// Whether the first of the two buckets of a row is that of the position's own x.
+    is_first: bool,
+}
+
 /// How many darts are tested together.
 const LANES: usize = 8;
 
@@ -89,7 +102,7 @@ impl DartGrid {
         self.numbers[at] = dart.number;
     }
 
-    #[inline]
+    #[inline(always)]
     fn dart(&self, at: usize) -> Dart {
         let [x, y, z] = &self.axes;
         Dart { position: Vec3::new(x[at], y[at], z[at]), face: self.faces[at], number: self.numbers[at] }
@@ -164,79 +177,66 @@ impl DartGrid {
         }
     }
 
-    /// Whether `found` holds for any of the darts nearer than `radius` to a position. `found` may be called more than
-    /// once for a dart.
-    #[inline]
-    pub(super) fn any_near(&self, position: Vec3, radius: f32, mut found: impl FnMut(&Dart) -> bool) -> bool {
+    /// Whether a test holds for any of the darts nearer than `radius` to a position. A dart may be tested more than once.
+    #[inline(always)]
+    pub(super) fn any_near(&self, position: Vec3, radius: f32, test: &mut impl Test) -> bool {
         let scaled = position * self.cells_per_unit;
         let [x, y, z] = [floor(scaled.x), floor(scaled.y), floor(scaled.z)];
         let first_x = x.wrapping_sub(i32::from(scaled.x - (x as f32) < 0.5));
-        let is_first = x == first_x;
-        let mut in_row = |y: i32, z: i32| {
-            let bucket = self.bucket_of([first_x, y, z]) as usize;
-            self.any_in_row((bucket, is_first), position, radius * radius, &mut found)
-        };
+        let near = Near { position, radius_sq: radius * radius, is_first: x == first_x };
+        let dy = beside(scaled.y - y as f32);
+        let dz = beside(scaled.z - z as f32);
         // The position's own row comes first, because most of the near darts are there.
-        if in_row(y, z) {
-            return true;
-        }
-        let beside = |within: f32| if within < 0.25 { -1 } else { i32::from(within > 0.75) };
-        let (dy, dz) = (beside(scaled.y - y as f32), beside(scaled.z - z as f32));
-        let (beside_y, beside_z) = (y.wrapping_add(dy), z.wrapping_add(dz));
-        dy != 0 && in_row(beside_y, z)
-            || dz != 0 && (in_row(y, beside_z) || dy != 0 && in_row(beside_y, beside_z))
-    }
-
-    /// Searches two neighbouring buckets; `is_first` tells whether the first one is that of the position's own x.
-    #[inline]
-    fn any_in_row(
-        &self,
-        (bucket, is_first): (usize, bool),
-        position: Vec3,
-        radius_sq: f32,
-        found: &mut impl FnMut(&Dart) -> bool,
-    ) -> bool {
-        let last = self.mask as usize;
-        let run = self.starts[bucket] as usize..self.starts[(bucket + 2).min(last + 1)] as usize;
-        if run.len() > CROWDED && !is_first {
-            // The second bucket holds the position's own x, so it is searched before the whole run: where faces lie on
-            // each other, the first bucket may hold half of all darts, none of them near.
-            let middle = self.starts[bucket + 1] as usize;
-            if self.any_in_run(middle..run.end, position, radius_sq, found) {
+        for row in 0..4 {
+            let (has_dy, has_dz) = (row & 1 != 0, row & 2 != 0);
+            if has_dy && dy == 0 || has_dz && dz == 0 {
+                continue;
+            }
+            let [y, z] =
+                [y.wrapping_add(if has_dy { dy } else { 0 }), z.wrapping_add(if has_dz { dz } else { 0 })];
+            if self.any_in_row(self.bucket_of([first_x, y, z]) as usize, &near, test) {
                 return true;
             }
         }
-        if self.any_in_run(run, position, radius_sq, found) {
-            return true;
-        }
-        bucket == last && self.any_in_run(0..self.starts[1] as usize, position, radius_sq, found)
+        false
     }
 
-    #[inline]
-    fn any_in_run(
-        &self,
-        run: Range<usize>,
-        position: Vec3,
-        radius_sq: f32,
-        found: &mut impl FnMut(&Dart) -> bool,
-    ) -> bool {
+    /// Searches two neighbouring buckets.
+    #[inline(always)]
+    fn any_in_row(&self, bucket: usize, near: &Near, test: &mut impl Test) -> bool {
+        let last = self.mask as usize;
+        let run = self.starts[bucket] as usize..self.starts[(bucket + 2).min(last + 1)] as usize;
+        if run.len() > CROWDED && !near.is_first {
+            // The second bucket holds the position's own x, so it is searched before the whole run: where faces lie on
+            // each other, the first bucket may hold half of all darts, none of them near.
+            let middle = self.starts[bucket + 1] as usize;
+            if self.any_in_run(middle..run.end, near, test) {
+                return true;
+            }
+        }
+        self.any_in_run(run, near, test)
+            || bucket == last && self.any_in_run(0..self.starts[1] as usize, near, test)
+    }
+
+    #[inline(always)]
+    fn any_in_run(&self, run: Range<usize>, near: &Near, test: &mut impl Test) -> bool {
         let [xs, ys, zs] = &self.axes;
         let mut from = run.start;
         loop {
             // Tests whole blocks. The last one may reach past the run's end: darts there are tested like all others.
             let (x, y, z) = (&xs[from..][..LANES], &ys[from..][..LANES], &zs[from..][..LANES]);
             let mut distances_sq = [0.0; LANES];
-            let mut any = 0;
+            let mut is_any_near = 0;
             for lane in 0..LANES {
-                let off = [x[lane] - position.x, y[lane] - position.y, z[lane] - position.z];
-                let distance_sq = off[0] * off[0] + off[1] * off[1] + off[2] * off[2];
-                distances_sq[lane] = distance_sq;
-                any |= u32::from(distance_sq < radius_sq);
+                let off = [x[lane] - near.position.x, y[lane] - near.position.y, z[lane] - near.position.z];
+                distances_sq[lane] = off[0] * off[0] + off[1] * off[1] + off[2] * off[2];
+                is_any_near |= u32::from(distances_sq[lane] < near.radius_sq);
             }
-            if any != 0 {
-                let mut lanes = distances_sq.iter().zip(from..);
-                if lanes.any(|(&distance_sq, at)| distance_sq < radius_sq && found(&self.dart(at))) {
-                    return true;
+            if is_any_near != 0 {
+                for (distance_sq, at) in distances_sq.into_iter().zip(from..) {
+                    if distance_sq < near.radius_sq && test.holds(self.faces[at], self.numbers[at]) {
+                        return true;
+                    }
                 }
             }
             from += LANES;
@@ -247,13 +247,13 @@ impl DartGrid {
     }
 
     /// The bucket of the cell that holds a position.
-    #[inline]
+    #[inline(always)]
     fn bucket(&self, position: Vec3) -> u32 {
         let scaled = position * self.cells_per_unit;
         self.bucket_of([floor(scaled.x), floor(scaled.y), floor(scaled.z)])
     }
 
-    #[inline]
+    #[inline(always)]
     fn bucket_of(&self, [x, y, z]: [i32; 3]) -> u32 {
         let row = (y as u32).wrapping_mul(self.row_stride).wrapping_add((z as u32).wrapping_mul(0x9e37_79b1));
         (x as u32).wrapping_add(row) & self.mask
@@ -261,8 +261,15 @@ impl DartGrid {
 }
 
 /// The floor of a number; `f32::floor` is a function call on x86-64 without SSE4.1, which is the default target.
-#[inline]
+#[inline(always)]
 fn floor(value: f32) -> i32 {
     let toward_zero = value as i32;
     toward_zero.wrapping_sub(i32::from(toward_zero as f32 > value))
+}
+
+/// The step to the next row of cells that a search reaches, if any, from how far inside its own row a position is,
+/// 0..1.
+#[inline(always)]
+fn beside(inside: f32) -> i32 {
+    if inside < 0.25 { -1 } else { i32::from(inside > 0.75) }
 }

@@ -29,7 +29,7 @@ impl FaceCones {
 
     /// The sign of the dot product of a normal of the first face and a normal of the second: `true` if it is always
     /// positive, `false` if it is always negative. `None` if it may depend on the points.
-    #[inline]
+    #[inline(always)]
     pub(super) fn same_side(&self, first: u32, second: u32) -> Option<bool> {
         let alike = first == second;
         let first = &self.cones[first as usize];

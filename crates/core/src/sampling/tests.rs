@@ -7,7 +7,7 @@ use glam::Vec3;
 
 use super::candidates::Candidates;
 use super::levels::spacing;
-use super::{Cell, Cells, Needed, Particle, ProgressiveOrder, Surface, progressive, scattered};
+use super::{Cell, Cells, Needed, Particle, ProgressiveOrder, Surface, barycentric, progressive, scattered};
 use crate::{TriangleMesh, hash};
 
 /// Square grids of triangles; each patch maps a point of the square −1..1 to a position and a normal.
@@ -263,7 +263,7 @@ fn every_point_of_a_cell_lies_in_its_sphere_and_faces_within_its_spread() {
                 assert!(cell.share <= 1.0 / 4096.0 * 1.001, "{name}: {}", cell.share);
                 for sample in 0..8 {
                     let random = |which: u32| hash::unit(hash::combine(number as u32 * 8 + sample, which));
-                    let (face, weights) = cell.place(&surface, [random(1), random(2), random(3)]);
+                    let (face, weights) = cell.place(&surface, random(1), barycentric(random(2), random(3)));
                     let particle = surface.particle(face, weights);
                     let distance = particle.position.as_dvec3().distance(cell.center);
                     assert!(distance <= cell.radius * 1.001 + 1e-4, "{name}: cell {number}");
