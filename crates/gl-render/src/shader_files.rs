@@ -90,7 +90,7 @@ pub(crate) const ROTATING_STROKES: &[ShaderFile] = shader_files![
 /// Ink on paper.
 pub(crate) const SUMI_E: &[ShaderFile] = shader_files![
     "sumi_e/ramp.glsl",
-    "sumi_e/shares.glsl",
+    "sumi_e/inked.glsl",
     "sumi_e/paper.glsl",
     "sumi_e/surface.vert",
     "sumi_e/silhouette.frag",

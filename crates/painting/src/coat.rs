@@ -167,9 +167,9 @@ impl SampleInputs {
     }
 
     /// The first `count` particles of a body. If `before` has that many, they are taken from it. If not, further ones
-    /// are sampled and appended to those of `before`; with the paper's rule, where particles are not needed
-    /// everywhere, and where faces lie on each other, all are sampled anew. `before` must come from equal inputs. `surface` is called only if particles
-    /// are sampled.
+    /// are sampled and appended to those of `before`; with the paper's rule, where particles are not needed everywhere,
+    /// and in a crowded order ([`ProgressiveOrder::grow`]), all are sampled anew. `before` must come from equal inputs.
+    /// `surface` is called only if particles are sampled.
     pub(crate) fn sample<'a, 'mesh: 'a>(
         &self,
         before: Option<Arc<Sampled>>,
@@ -222,9 +222,6 @@ impl SampleInputs {
         }
         let mut order = before.as_ref().map_or_else(ProgressiveOrder::default, |before| {
             let SampledPlaces { places, ordinals, state } = before.particles.sampled();
-            if state.is_crowded() {
-                return ProgressiveOrder::default();
-            }
             let particles = places.iter().map(|place| place.on(&body.mesh)).collect();
             ProgressiveOrder { particles, ordinals: ordinals.clone(), state: *state }
         });

@@ -29,17 +29,6 @@ fn is_beyond(planes: &Planes, center: DVec3, radius: f64) -> bool {
     planes.iter().any(|(plane, length)| plane.dot(center.extend(1.0)) > length * radius)
 }
 
-/// How a view sees a ball.
-struct Nearest {
-    /// The direction from the ball's centre to the eye, of the length `px_per_area`.
-    to_eye: DVec3,
-    radius_per_depth: f64,
-    /// The pixels that a unit of surface fills at the centre if it faces the eye.
-    px_per_area: f64,
-    /// Points that are nearer than the centre, and seen in another direction, may fill up to this many times as many.
-    nearer: f64,
-}
-
 /// A view of a body, ready to ask how densely it sees a cell.
 pub(crate) struct Eye {
     map: ScreenMap,
@@ -52,9 +41,9 @@ pub(crate) struct Eye {
     row_w_length: f64,
     /// Takes a point to the direction from it to the eye, with a length of w³ times the pixels that a unit of surface
     /// fills there if it faces the eye; w is the point's `row_w` product.
-    to_eye: DAffine3,
-    /// How much `to_eye` changes at most for each unit that the point moves.
-    to_eye_change: f64,
+    w3_to_eye: DAffine3,
+    /// How much `w3_to_eye` changes at most for each unit that the point moves.
+    w3_to_eye_change: f64,
     most_offset: f64,
     /// The body's own depths, which tell what it hides of itself; `None` unless it is a heap.
     pub(crate) own: Option<OwnDepths>,
@@ -77,16 +66,16 @@ impl Eye {
             ];
             sides.map(|plane| (plane, plane.truncate().length()))
         };
-        let to_eye = to_eye(map);
+        let w3_to_eye = w3_to_eye(map);
         Self {
-            to_eye_change: to_eye
+            w3_to_eye_change: w3_to_eye
                 .matrix3
                 .to_cols_array()
                 .iter()
                 .map(|entry| entry * entry)
                 .sum::<f64>()
                 .sqrt(),
-            to_eye,
+            w3_to_eye,
             planes: planes(margin, 2.0 * reach_px),
             picture: planes(1.0, 0.0),
             half_px: sighting.half_size_px,
@@ -119,25 +108,26 @@ impl Eye {
         corners: [DVec3; 3],
         area_normals: impl Iterator<Item = DVec3>,
     ) -> f64 {
-        let least_w = corners.map(|corner| self.map.row_w.dot(corner.extend(1.0)));
-        let least_w =
-            least_w.into_iter().fold(f64::INFINITY, f64::min) - self.row_w_length * self.most_offset;
-        let least_w = if self.row_w_length > 0.0 { least_w.max(self.near) } else { least_w };
-        let to_eye = corners.map(|corner| self.to_eye.transform_point3(corner));
-        // How much `to_eye` may differ at a stroke that is lifted off the triangle.
-        let lifted = self.to_eye_change * self.most_offset;
+        let mut least_w =
+            corners.iter().map(|corner| self.map.row_w.dot(corner.extend(1.0))).fold(f64::MAX, f64::min);
+        if self.row_w_length > 0.0 {
+            least_w = (least_w - self.row_w_length * self.most_offset).max(self.near);
+        }
+        let towards_eye = corners.map(|corner| self.w3_to_eye.transform_point3(corner));
+        // How much that may differ at a stroke that is lifted off the triangle.
+        let lifted = self.w3_to_eye_change * self.most_offset;
         let mut facing = f64::NEG_INFINITY;
         let mut whole = 0.0f64;
         for normal in area_normals {
             let length = normal.length();
-            // The cosine times lengths is linear along the triangle and in the normal, so it is greatest at a corner,
-            // with one of the normals.
-            for to_eye in to_eye {
-                facing = facing.max(normal.dot(to_eye) + length * lifted);
-                whole = whole.max(length * (to_eye.length() + lifted));
-            }
-            if !length.is_finite() {
+            if !length.is_finite() || !towards_eye.iter().all(|towards| towards.is_finite()) {
                 return f64::INFINITY;
+            }
+            // Cosine times lengths is linear along the triangle, and in the normal. So it is greatest at a corner, with
+            // one of the normals.
+            for towards in towards_eye {
+                facing = facing.max(normal.dot(towards) + length * lifted);
+                whole = whole.max(length * (towards.length() + lifted));
             }
         }
         if facing <= 0.0 {
@@ -145,24 +135,6 @@ impl Eye {
         }
         let most = most_over_fade(facing / whole, self.map.uneven.is_some()) * whole / least_w.powi(3);
         if most.is_nan() { f64::INFINITY } else { most }
-    }
-
-    /// How a ball is seen; `None` where it reaches the eye.
-    fn nearest(&self, center: DVec3, radius: f64) -> Option<Nearest> {
-        let map = &self.map;
-        let w = map.row_w.dot(center.extend(1.0));
-        if self.row_w_length > 0.0 && w - self.row_w_length * radius <= self.near {
-            return None;
-        }
-        let [along_x, along_y] = map.jacobian(center);
-        let to_eye = along_x.cross(along_y);
-        let radius_per_depth = self.row_w_length * radius / w;
-        Some(Nearest {
-            px_per_area: to_eye.length(),
-            nearer: (1.0 + radius_per_depth) / (1.0 - radius_per_depth).powi(3),
-            to_eye,
-            radius_per_depth,
-        })
     }
 
     /// First, an upper bound on the pixels that a unit of a cell's surface fills in this view, divided by the fade of
@@ -173,11 +145,17 @@ impl Eye {
         if is_beyond(&self.planes, cell.center, radius) {
             return (0.0, false);
         }
-        let Some(Nearest { to_eye, radius_per_depth, px_per_area, nearer }) =
-            self.nearest(cell.center, radius)
-        else {
+        let w = self.map.row_w.dot(cell.center.extend(1.0));
+        if self.row_w_length > 0.0 && w - self.row_w_length * radius <= self.near {
             return (f64::INFINITY, true);
-        };
+        }
+        let [along_x, along_y] = self.map.jacobian(cell.center);
+        let to_eye = along_x.cross(along_y);
+        // The pixels that a unit of surface fills at the centre if it faces the eye.
+        let px_per_area = to_eye.length();
+        let radius_per_depth = self.row_w_length * radius / w;
+        // Points that are nearer than the centre, and seen in another direction, may fill up to this many times as many.
+        let nearer = (1.0 + radius_per_depth) / (1.0 - radius_per_depth).powi(3);
         let thickness = (cell.thickness + self.most_offset) / cell.radius * radius_per_depth;
         // The cosine between the normal and the direction to the eye, at most: the eye's distance from the cell's
         // plane, over its least or greatest distance from a point of the cell.
@@ -197,7 +175,7 @@ impl Eye {
 
 /// w³ times the cross product of the rows of the Jacobian, which is linear in the point: with x, y and w the products
 /// of the point and the map's rows X, Y and W, it is w X × Y − y X × W − x W × Y.
-fn to_eye(map: &ScreenMap) -> DAffine3 {
+fn w3_to_eye(map: &ScreenMap) -> DAffine3 {
     let [x, y, w] = [map.row_x, map.row_y, map.row_w];
     let cross = |a: DVec4, b: DVec4| a.truncate().cross(b.truncate());
     let (of_w, of_y, of_x) = (cross(x, y), cross(x, w), cross(w, y));

@@ -25,9 +25,10 @@ const LAYERS: usize = LayerKind::ALL.len();
 const MOST_SHARE: f64 = 0.5;
 const MOST_SHARE_MOVING: f64 = 0.8;
 
-/// Where particles are left out, the nearest spots may get more particles than they would have had, until half of the
-/// whole surface's number is made, but at least and at most these.
-const MOST_MADE: [f64; 2] = [50_000.0, 100_000.0];
+/// Where particles are left out of a body at rest, its nearest spots may get more than they would have had, until half
+/// of the whole surface's number is made, or `LEAST_OF_MOST` where that is more, or `MOST_MADE` where it is less.
+const LEAST_OF_MOST: f64 = 50_000.0;
+const MOST_MADE: f64 = 100_000.0;
 
 /// The longest order, in particles: enough for a floor of some ten kilometres.
 const MOST_ON_WHOLE: f64 = 1e12;
@@ -117,7 +118,6 @@ impl NeededInputs {
             let still_present = (-f64::from(presence::ABSENT_LN)).exp();
             wanted.map(|wanted| f64::from(wanted) * surface.area() * still_present * counted.more_wanted)
         };
-        let mut kind_of_body = KindOfBody::AtRest;
         let seen = match self.counted.unneeded() {
             Unneeded::None => None,
             Unneeded::AtRest if cells.all().len() * sightings.len() > MOST_PAIRS => None,
@@ -128,22 +128,20 @@ impl NeededInputs {
                     OwnDepths::of_all(surface, sightings, is_solid, self.reach)
                 });
                 let own = own.flatten();
-                if own.is_some() {
-                    kind_of_body = KindOfBody::Heap;
-                }
-                Some(self.seen_at_rest(surface, &cells, own, needed_per_px))
+                let kind_of_body = if own.is_some() { KindOfBody::Heap } else { KindOfBody::AtRest };
+                Some((self.seen_at_rest(surface, &cells, own, needed_per_px), kind_of_body))
             }
             Unneeded::OfMoving { noise } => {
-                kind_of_body = KindOfBody::Moving;
                 let may_be_left_out = counted.counts.iter().zip(counted.may_depend_on_views);
                 let particles: usize = may_be_left_out.filter(|(_, may)| *may).map(|(count, _)| count).sum();
                 let pieces: usize = cells.all().iter().map(|cell| cell.triangles(surface).count()).sum();
                 let pairs = sightings.len() * (surface.mesh().positions.len() + pieces);
+                let seen = || self.seen_moving(surface, &cells, noise > 0.0, needed_per_px);
                 (pairs <= MOST_PAIRS.min(PAIRS_PER_PARTICLE * particles))
-                    .then(|| self.seen_moving(surface, &cells, noise > 0.0, needed_per_px))
+                    .then(|| (seen(), KindOfBody::Moving))
             }
         };
-        let Some(seen) = seen else { return counts };
+        let Some((seen, kind_of_body)) = seen else { return counts };
         let tree = SeenTree::new(seen);
         for (kind, count) in counts.iter_mut().enumerate() {
             if counted.may_depend_on_views[kind]
@@ -205,7 +203,9 @@ impl NeededInputs {
         let body = self.counted.surface();
         let look = |sighting: &Sighting| {
             let eye = Eye::new(sighting, self.reach);
-            let (positions, gradients) = body.moved_to(&sighting.shape);
+            let shape = &sighting.shape;
+            let (positions, gradients) =
+                if has_noise { (body.positions_at(shape), None) } else { body.moved_to(shape) };
             for (cell, most) in cells.all().iter().zip(&most) {
                 for piece in cell.pieces_at(surface, &positions) {
                     let of_corner = |vertex: u32| gradients.as_ref().map(|all| all[vertex as usize]);
@@ -220,8 +220,8 @@ impl NeededInputs {
             }
         };
         let mut shapes = self.sightings.iter().flatten().map(|sighting| &sighting.shape);
-        if shapes.any(|shape| !body.is_at_rest(shape)) {
-            // The threads share it: without this, each would make it.
+        if !has_noise && shapes.any(|shape| !body.is_at_rest(shape)) {
+            // Made here once: the threads below would each make them.
             body.gradients();
         }
         self.sightings.par_iter().flatten().for_each(look);
@@ -237,18 +237,18 @@ impl NeededInputs {
 /// An upper bound on the pixels that a unit of surface at rest fills on a moved piece, divided by the fade of strokes
 /// near an outline; 0 where the view does not see it. `gradients` are F at the corners of the mesh's triangle.
 fn most_on_piece(eye: &Eye, piece: &CellPiece, gradients: [Mat3; 3]) -> f64 {
-    let CellPiece { corners, normals, .. } = *piece;
+    let corners = piece.corners;
     if !eye.may_see(corners) {
         return 0.0;
     }
-    // A particle's normal is a mean of the smooth ones, made longer to have the length 1.
-    let [_, smooth @ ..] = normals;
+    // A particle's normal is a weighted mean of the smooth ones, made longer to have the length 1.
+    let Some(smooth) = piece.smooth else { return f64::INFINITY };
     let mean = smooth.iter().sum::<DVec3>().normalize_or_zero();
     let shortest = smooth.map(|normal| normal.dot(mean)).into_iter().fold(1.0, f64::min);
     if shortest < LEAST_BLENDED {
         return f64::INFINITY;
     }
-    let around = normals_around(gradients, normals.map(|normal| normal.as_vec3()));
+    let around = normals_around(gradients, smooth.map(|normal| normal.as_vec3()));
     eye.most_on_triangle(corners, around.map(Vec3::as_dvec3)) / shortest
 }
 
@@ -386,9 +386,10 @@ impl SeenTree {
         };
         let most = self.most_in_picture[kind].min(MOST_ON_WHOLE);
         let (most_share, most_made) = match kind_of_body {
-            KindOfBody::AtRest => (MOST_SHARE, (MOST_SHARE * everywhere).clamp(MOST_MADE[0], MOST_MADE[1])),
+            KindOfBody::AtRest => (MOST_SHARE, (0.5 * everywhere).clamp(LEAST_OF_MOST, MOST_MADE)),
             KindOfBody::Heap => (MOST_SHARE, MOST_MADE_OF_HEAP),
-            KindOfBody::Moving => (MOST_SHARE_MOVING, 0.0),
+            // No spot gets more than it would have had.
+            KindOfBody::Moving => (MOST_SHARE_MOVING, made(everywhere)),
         };
         if made(everywhere) > most_share * everywhere {
             return None;

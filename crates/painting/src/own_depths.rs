@@ -150,7 +150,7 @@ impl OwnDepths {
         if pieces.all(|piece| piece == first) { first } else { Covered::InPart }
     }
 
-    fn covers_piece(&self, CellPiece { corners, normals, .. }: &CellPiece) -> Covered {
+    fn covers_piece(&self, CellPiece { corners, flat, smooth, .. }: &CellPiece) -> Covered {
         let Sighting { map, near, .. } = &self.sighting;
         let depths = corners.map(|corner| map.depth(corner));
         let nearest = depths.into_iter().fold(f64::INFINITY, f64::min);
@@ -158,6 +158,9 @@ impl OwnDepths {
         if nearest <= *near || !px.iter().all(|px| px.is_finite()) {
             return Covered::Nowhere;
         }
+        // Where a particle's normal may point anywhere, one of these faces the eye.
+        let [a, b, c] = smooth.unwrap_or([-*flat; 3]);
+        let normals = [*flat, a, b, c];
         let facings = corners.map(|corner| {
             let jacobian = map.jacobian(corner);
             normals.map(|normal| map.facing(jacobian, normal))

@@ -40,10 +40,15 @@ impl BodyShapes {
         self
     }
 
-    /// How many joints and targets the shape of an object may have.
-    pub(crate) fn most_numbers(loaded: &LoadedScene, object: usize) -> usize {
-        let rest = file_bend(loaded, &loaded.scene.objects[object]).map(|bend| &bend.rest);
-        1 + rest.map_or(0, |rest| rest.joints.len() + rest.weights.len())
+    /// How many joints and targets the shape of an object has; 0 where it is as in its file.
+    pub(crate) fn numbers_of(&self, loaded: &LoadedScene, object: usize) -> usize {
+        let numbers = |pose: &BendPose| pose.joints.len() + pose.weights.len();
+        let in_file = || file_bend(loaded, &loaded.scene.objects[object]).map(|bend| &bend.rest);
+        match (&self.bends[object], self.morphs[object] == 0.0) {
+            (None, true) => 0,
+            (None, false) => 1 + in_file().map_or(0, numbers),
+            (Some(pose), _) => 1 + numbers(pose),
+        }
     }
 
     /// How many joints and targets the shot states at this frame.

@@ -194,7 +194,7 @@ impl Carrier {
 
 /// Vectors such that the carried normal at any place of a triangle is a weighted mean of them. `gradients` are F at its
 /// corners. The normal at rest must be such a mean of `normals`.
-pub fn normals_around(gradients: [Mat3; 3], normals: [Vec3; 4]) -> impl Iterator<Item = Vec3> {
+pub fn normals_around(gradients: [Mat3; 3], normals: [Vec3; 3]) -> impl Iterator<Item = Vec3> {
     let [a, b, c] = gradients;
     // Cofactors are quadratic in F: of u F + v G they are u² cof F + v² cof G + 2 u v (cof(F + G) − cof F − cof G)/2.
     let corners = gradients.map(cofactors_f32);

@@ -23,12 +23,10 @@ const CELLS: usize = 32;
 const MOST_TRIES: f64 = 48.0;
 
 /// Where faces lie on each other, most tries are in vain: the room for particles is that of one face. So a cell in
-/// which few particles were found gets fewer tries, but this many times as many for each that was found as other cells
-/// get.
+/// which only the share s of the particles was found that were meant for it gets the share `SPARE` s of its tries.
 const SPARE: f64 = 8.0;
 
-/// The least share of its tries that a cell gets: so room that opens up is found, and a cell in which a small part lies
-/// open does not starve.
+/// The least share of its tries that a cell gets: so room that opens up is found.
 const LEAST_TRIED: f64 = 1.0 / 32.0;
 
 /// A cell gets all its tries until this many particles were meant for it: only then it is known how many find room.
@@ -48,7 +46,7 @@ struct ActiveCell {
     filled: Filled,
 }
 
-/// How many particles all levels so far were meant to add in a cell, and how many they added.
+/// How many particles the levels were meant to add in a cell, and how many they added, since they are thrown by cells.
 #[derive(Clone, Copy, Default)]
 struct Filled {
     meant: f64,
@@ -57,6 +55,7 @@ struct Filled {
 
 impl Filled {
     /// The share of its tries that the cell gets in the next level.
+    #[inline(always)]
     fn tried(self) -> f64 {
         if self.meant < UNKNOWN { 1.0 } else { (SPARE * self.added / self.meant).clamp(LEAST_TRIED, 1.0) }
     }
@@ -158,13 +157,13 @@ impl Randoms {
     }
 }
 
-/// Throws a level's candidates in some cells.
+/// Throws a level's candidates in some cells. Only what is seldom called is not inlined.
 struct Throwing<'a> {
     level: &'a CellLevel,
     surface: &'a Surface<'a>,
     cells: &'a [ActiveCell],
     /// The index of the first of these cells among the active ones.
-    first: u32,
+    first_cell: u32,
     needed: Option<&'a Needed>,
     field: &'a DartField,
     accepted: &'a Accepted<'a>,
@@ -177,9 +176,9 @@ impl Wide for Throwing<'_> {
 
     #[inline(always)]
     fn run(self) -> Vec<Thrown> {
-        let Self { level, surface, cells, first, needed, field, accepted, saves_tries } = self;
+        let Self { level, surface, cells, first_cell, needed, field, accepted, saves_tries } = self;
         let mut clear = Vec::new();
-        for (ActiveCell { cell, index, filled }, number) in cells.iter().zip(first..) {
+        for (ActiveCell { cell, index, filled }, number) in cells.iter().zip(first_cell..) {
             let most = needed.map_or(f32::INFINITY, |needed| needed.of_cell[*index as usize]);
             let tried = if saves_tries { filled.tried() } else { 1.0 };
             let (seed, count) = level.thrown(cell, tried);
@@ -234,12 +233,12 @@ impl CellLevel {
         // A heap hides much of itself, so its particles depend on the views anyway; many heaps are crowded in parts.
         let saves_tries = self.state.is_crowded() || active.needed.is_some_and(|needed| needed.is_strict);
         let of_cells = |(chunk, cells): (usize, &[ActiveCell])| {
-            let first = (chunk * CELLS) as u32;
+            let first_cell = (chunk * CELLS) as u32;
             widest(Throwing {
                 level: self,
                 surface,
                 cells,
-                first,
+                first_cell,
                 needed: active.needed,
                 field,
                 accepted,
@@ -280,6 +279,7 @@ impl CellLevel {
 
     /// The random bits and the number of the candidates that are thrown in a cell: the share `tried` of the level's,
     /// whether they are needed or not.
+    #[inline(always)]
     fn thrown(&self, cell: &Cell, tried: f64) -> (u32, u32) {
         let seed = hash::combine(hash::combine(self.seed, cell.bits), self.ends[0] as u32);
         let tries = self.tries() * cell.share * tried;

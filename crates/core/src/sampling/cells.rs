@@ -49,8 +49,11 @@ pub struct CellPiece {
     pub vertices: [u32; 3],
     /// Its corners, model units.
     pub corners: [DVec3; 3],
-    /// Unit normals of its visible side: the flat one, and the smooth ones at the corners of the mesh's triangle.
-    pub normals: [DVec3; 4],
+    /// The flat unit normal of its visible side.
+    pub flat: DVec3,
+    /// The smooth unit normals at the corners of the mesh's triangle, on this side. `None` where they lie on both sides
+    /// of the triangle: then a particle's normal may point anywhere.
+    pub smooth: Option<[DVec3; 3]>,
 }
 
 /// The faces, or the part of a face, that a cell consists of.
@@ -145,11 +148,10 @@ impl Cell {
             for corner in mesh.corners(face.triangle as usize).map(Vec3::as_dvec3) {
                 (low, high) = (low.min(corner), high.max(corner));
             }
-            let [flat, ..] = normals(surface, *face);
-            sum += flat;
+            sum += normals(surface, *face).0;
         }
         let normal = sum.normalize_or_zero();
-        let spread = spread(normal, faces_of.iter().flat_map(|&face| normals(surface, face)));
+        let spread = faces_of.iter().map(|&face| spread(normal, normals(surface, face))).fold(0.0, f64::max);
         let center = 0.5 * (low + high);
         let corners = faces_of.iter().flat_map(|face| mesh.corners(face.triangle as usize));
         let thickness =
@@ -217,12 +219,18 @@ impl Cell {
     }
 
     /// The triangles on which it lies.
-    pub fn triangles<'a>(&self, surface: &'a Surface<'_>) -> impl Iterator<Item = usize> + 'a {
-        let faces = match &self.extent {
-            Extent::Faces { faces, .. } => faces.clone(),
-            Extent::Part { face, .. } => *face..*face + 1,
+    pub fn triangles<'a>(&self, surface: &'a Surface<'_>) -> impl Iterator<Item = usize> + use<'a> {
+        self.faces(surface).map(|face| face.triangle as usize)
+    }
+
+    /// The faces on which it lies.
+    fn faces<'a>(&self, surface: &'a Surface<'_>) -> impl Iterator<Item = &'a Face> + use<'a> {
+        let (faces, side) = match &self.extent {
+            Extent::Faces { faces, side } => (faces.clone(), *side),
+            Extent::Part { face, .. } => (*face..*face + 1, None),
         };
-        faces.map(|face| surface.faces[face as usize].triangle as usize)
+        let faces = surface.faces[faces.start as usize..faces.end as usize].iter();
+        faces.filter(move |face| side.is_none_or(|side| face.flipped == side))
     }
 
     /// The triangles that it consists of, with the normals of their visible sides.
@@ -236,18 +244,15 @@ impl Cell {
         surface: &'a Surface<'_>,
         positions: &'a [Vec3],
     ) -> impl Iterator<Item = CellPiece> + 'a {
-        let (faces, side) = match &self.extent {
-            Extent::Faces { faces, side } => (faces.clone(), *side),
-            Extent::Part { face, .. } => (*face..*face + 1, None),
-        };
-        let faces = surface.faces[faces.start as usize..faces.end as usize].iter();
-        faces.filter(move |face| side.is_none_or(|side| face.flipped == side)).map(|&face| {
+        self.faces(surface).map(|&face| {
             let vertices = surface.mesh.triangles[face.triangle as usize];
             let corners = of_corners(positions, vertices).map(Vec3::as_dvec3);
+            let (flat, smooth) = normals(surface, face);
             CellPiece {
                 vertices,
                 corners: CORNERS.map(|weights| self.extent.at(corners, weights)),
-                normals: normals(surface, face),
+                flat,
+                smooth,
             }
         })
     }
@@ -322,26 +327,27 @@ fn per_triangle(side: Option<bool>) -> u32 {
     if side.is_some() { 2 } else { 1 }
 }
 
-/// The unit normals of a face's visible side: the flat one, and the smooth ones at its corners.
-fn normals(surface: &Surface<'_>, face: Face) -> [DVec3; 4] {
+/// The flat unit normal of a face's visible side, and the smooth ones at its corners: see [`CellPiece`].
+fn normals(surface: &Surface<'_>, face: Face) -> (DVec3, Option<[DVec3; 3]>) {
     let mesh = surface.mesh;
     let [a, b, c] = mesh.corners(face.triangle as usize).map(Vec3::as_dvec3);
     let across = (b - a).cross(c - a).normalize_or_zero();
     let flat = if face.flipped { -across } else { across };
     let smooth = of_corners(&mesh.normals, mesh.triangles[face.triangle as usize]).map(Vec3::as_dvec3);
-    let turned = smooth.map(|of| of.dot(flat) < 0.0);
-    // A particle's normal is turned as a whole: where not all corners turn, it may point anywhere.
-    match turned {
-        [false, false, false] => [flat, smooth[0], smooth[1], smooth[2]],
-        [true, true, true] => [flat, -smooth[0], -smooth[1], -smooth[2]],
-        _ => [flat, -flat, -flat, -flat],
-    }
+    // A particle's normal is turned as a whole.
+    let smooth = match smooth.map(|of| of.dot(flat) < 0.0) {
+        [false, false, false] => Some(smooth),
+        [true, true, true] => Some(smooth.map(|normal| -normal)),
+        _ => None,
+    };
+    (flat, smooth)
 }
 
-/// How far these unit normals, and normals interpolated between them, may be from the normal `from`: the length of the
-/// difference.
-fn spread(from: DVec3, normals: impl Iterator<Item = DVec3>) -> f64 {
-    let most = normals.map(|normal| normal.distance(from)).fold(0.0, f64::max);
+/// How far the unit normals of a face, and normals interpolated between them, may be from the normal `from`: the length
+/// of the difference.
+fn spread(from: DVec3, (flat, smooth): (DVec3, Option<[DVec3; 3]>)) -> f64 {
+    let Some(smooth) = smooth else { return 2.0 };
+    let most = smooth.map(|normal| normal.distance(from)).into_iter().fold(flat.distance(from), f64::max);
     // Where normals differ this much, one interpolated between them may point anywhere.
     if most > 1.0 { 2.0 } else { most }
 }

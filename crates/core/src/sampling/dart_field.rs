@@ -5,7 +5,7 @@ use std::ops::Range;
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::dart_grid::{Dart, DartGrid, Test};
+use super::dart_grid::{Dart, DartGrid, Visitor};
 use super::face_cones::FaceCones;
 use super::levels::LEAST_CHUNK;
 use super::{Particle, Surface};
@@ -40,7 +40,7 @@ impl DartField {
         own_normal: impl Fn() -> Vec3,
     ) -> bool {
         let mut crowds = Crowds { cones: &self.cones, accepted, dart, own_normal, normal: None };
-        !accepted.grid.any_near(dart.position, accepted.radius, &mut crowds)
+        !accepted.grid.visit_near(dart.position, accepted.radius, &mut crowds)
     }
 
     /// Goes through the darts of a level in order of their numbers, and drops each dart that is crowded by an earlier
@@ -62,7 +62,7 @@ impl DartField {
                 first: level.start,
                 found: Vec::new(),
             };
-            grid.any_near(dart.position, radius, &mut rivals);
+            grid.visit_near(dart.position, radius, &mut rivals);
             rivals.found
         };
         let sorted = grid.darts();
@@ -87,7 +87,7 @@ impl DartField {
     }
 }
 
-/// Whether an accepted particle is on a candidate's side of the surface.
+/// Ends at a particle that is on a candidate's side of the surface.
 struct Crowds<'a, F> {
     cones: &'a FaceCones,
     accepted: &'a Accepted<'a>,
@@ -97,9 +97,9 @@ struct Crowds<'a, F> {
     normal: Option<Vec3>,
 }
 
-impl<F: Fn() -> Vec3> Test for Crowds<'_, F> {
+impl<F: Fn() -> Vec3> Visitor for Crowds<'_, F> {
     #[inline(always)]
-    fn holds(&mut self, face: u32, number: u32) -> bool {
+    fn ends_at(&mut self, face: u32, number: u32) -> bool {
         match self.cones.same_side(self.dart.face, face) {
             Some(same) => same,
             None => {
@@ -121,9 +121,9 @@ struct Rivals<'a, F> {
     found: Vec<(u32, u32)>,
 }
 
-impl<F: Fn(u32) -> Vec3> Test for Rivals<'_, F> {
+impl<F: Fn(u32) -> Vec3> Visitor for Rivals<'_, F> {
     #[inline(always)]
-    fn holds(&mut self, face: u32, number: u32) -> bool {
+    fn ends_at(&mut self, face: u32, number: u32) -> bool {
         let Self { dart, normal_of, .. } = self;
         let is_crowded = number < dart.number
             && self

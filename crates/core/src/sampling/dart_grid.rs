@@ -16,9 +16,10 @@ pub(super) struct Dart {
     pub(super) number: u32,
 }
 
-/// A test of a dart, from its face and its number.
-pub(super) trait Test {
-    fn holds(&mut self, face: u32, number: u32) -> bool;
+/// What a search does with the darts that it finds.
+pub(super) trait Visitor {
+    /// Takes the face and the number of a dart. Returns whether the search ends here.
+    fn ends_at(&mut self, face: u32, number: u32) -> bool;
 }
 
 /// Where a search looks.
@@ -177,9 +178,10 @@ impl DartGrid {
         }
     }
 
-    /// Whether a test holds for any of the darts nearer than `radius` to a position. A dart may be tested more than once.
+    /// Visits the darts that are nearer than `radius` to a position, some of them more than once, until the visitor ends
+    /// the search. Returns whether it did.
     #[inline(always)]
-    pub(super) fn any_near(&self, position: Vec3, radius: f32, test: &mut impl Test) -> bool {
+    pub(super) fn visit_near(&self, position: Vec3, radius: f32, visitor: &mut impl Visitor) -> bool {
         let scaled = position * self.cells_per_unit;
         let [x, y, z] = [floor(scaled.x), floor(scaled.y), floor(scaled.z)];
         let first_x = x.wrapping_sub(i32::from(scaled.x - (x as f32) < 0.5));
@@ -194,7 +196,7 @@ impl DartGrid {
             }
             let [y, z] =
                 [y.wrapping_add(if has_dy { dy } else { 0 }), z.wrapping_add(if has_dz { dz } else { 0 })];
-            if self.any_in_row(self.bucket_of([first_x, y, z]) as usize, &near, test) {
+            if self.visit_row(self.bucket_of([first_x, y, z]) as usize, &near, visitor) {
                 return true;
             }
         }
@@ -203,23 +205,23 @@ impl DartGrid {
 
     /// Searches two neighbouring buckets.
     #[inline(always)]
-    fn any_in_row(&self, bucket: usize, near: &Near, test: &mut impl Test) -> bool {
+    fn visit_row(&self, bucket: usize, near: &Near, visitor: &mut impl Visitor) -> bool {
         let last = self.mask as usize;
         let run = self.starts[bucket] as usize..self.starts[(bucket + 2).min(last + 1)] as usize;
         if run.len() > CROWDED && !near.is_first {
             // The second bucket holds the position's own x, so it is searched before the whole run: where faces lie on
             // each other, the first bucket may hold half of all darts, none of them near.
             let middle = self.starts[bucket + 1] as usize;
-            if self.any_in_run(middle..run.end, near, test) {
+            if self.visit_run(middle..run.end, near, visitor) {
                 return true;
             }
         }
-        self.any_in_run(run, near, test)
-            || bucket == last && self.any_in_run(0..self.starts[1] as usize, near, test)
+        self.visit_run(run, near, visitor)
+            || bucket == last && self.visit_run(0..self.starts[1] as usize, near, visitor)
     }
 
     #[inline(always)]
-    fn any_in_run(&self, run: Range<usize>, near: &Near, test: &mut impl Test) -> bool {
+    fn visit_run(&self, run: Range<usize>, near: &Near, visitor: &mut impl Visitor) -> bool {
         let [xs, ys, zs] = &self.axes;
         let mut from = run.start;
         loop {
@@ -234,7 +236,7 @@ impl DartGrid {
             }
             if is_any_near != 0 {
                 for (distance_sq, at) in distances_sq.into_iter().zip(from..) {
-                    if distance_sq < near.radius_sq && test.holds(self.faces[at], self.numbers[at]) {
+                    if distance_sq < near.radius_sq && visitor.ends_at(self.faces[at], self.numbers[at]) {
                         return true;
                     }
                 }

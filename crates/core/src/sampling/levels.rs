@@ -18,6 +18,11 @@ const GROWTH: f64 = 1.08;
 /// number meant, and nothing stops the level at that number.
 const FILLED: f64 = 1.0433;
 
+/// Where there is too little room (faces on top of each other, the first few particles of a thin rod), a level is
+/// filled up to this share of the particles that it is meant to end with. Distances do not count then, so that the work
+/// stays proportional to the count.
+pub(super) const LEAST_FILLED: f64 = 0.5;
+
 /// The fewest darts that one task handles: fewer are not worth another thread.
 pub(super) const LEAST_CHUNK: usize = 1024;
 
@@ -26,8 +31,9 @@ pub(super) const LEAST_CHUNK: usize = 1024;
 /// The first levels, up to at least 8,192 particles, are always thrown on the whole surface, and a particle's ordinal
 /// is its index. Later levels may be thrown on a part of the surface only. Then the particles that come before one
 /// cannot be counted, so its ordinal is computed from its turn among the tries of its level. In this way neither a
-/// particle nor its ordinal depends on what is far away. Only in a crowded order ([`ProgressiveState::is_crowded`]),
-/// how many tries a cell gets depends on what earlier levels found there.
+/// particle nor its ordinal depends on what is far away. Only in a crowded order ([`ProgressiveState::is_crowded`])
+/// and in a strict one ([`super::Needed::is_strict`]), how many tries a cell gets depends on what earlier levels found
+/// there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProgressiveState {
     /// Candidates thrown so far.
@@ -72,14 +78,15 @@ impl ProgressiveState {
         self.counted[0]
     }
 
-    /// Whether levels find room for no more than half of the particles that they are meant to add, as where three faces
-    /// or more lie on each other. Such an order is not continued but made anew.
-    pub fn is_crowded(self) -> bool {
+    /// Whether the counted levels found room for hardly any more particles than the half that is always added, as where
+    /// several faces lie on each other. Such an order is not continued but made anew.
+    pub(super) fn is_crowded(self) -> bool {
         let [count, level_end] = self.counted.map(|number| number as f64);
-        count < 0.55 * level_end
+        count < 1.1 * LEAST_FILLED * level_end
     }
 
     /// The ordinal of a particle that is added when the order is meant to have `meant` particles.
+    #[inline(always)]
     pub(super) fn ordinal_at(self, meant: f64) -> f64 {
         let [count, level_end] = self.counted.map(|number| number as f64);
         count + FILLED * (meant - level_end)

@@ -9,13 +9,8 @@ use super::cell_level::{ActiveCells, CellLevel};
 use super::cells::Needed;
 use super::dart_field::{Accepted, DartField};
 use super::dart_grid::{Dart, DartGrid};
-use super::levels::{LEAST_CHUNK, ProgressiveState, TRIES, next_level_end, spacing};
+use super::levels::{LEAST_CHUNK, LEAST_FILLED, ProgressiveState, TRIES, next_level_end, spacing};
 use super::{Particle, Surface};
-
-/// Where there is too little room (faces on top of each other, the first few particles of a thin rod), a level is
-/// filled up to this share of the particles that it is meant to end with. Distances do not count then, so that the work
-/// stays proportional to the count.
-const LEAST_FILLED: f64 = 0.5;
 
 /// At least this many particles, if they are asked for, are always made on the whole surface: see [`ProgressiveState`].
 const LEAST_COUNTED: usize = 8192;

@@ -147,6 +147,29 @@ fn an_ordinal_counts_the_particles_before_it() {
     }
 }
 
+/// Fifty sheets on each other, and one apart, whose small faces follow each other in the mesh: so each cell has parts of
+/// all of them, and few tries. The one apart gets about four fifths of its share.
+#[test]
+fn an_open_sheet_among_piled_ones_is_hardly_thinner() {
+    let square = |x: f32, y: f32| (Vec3::new(x, y, 0.0), Vec3::Z);
+    let apart = |x: f32, y: f32| (Vec3::new(x + 5.0, y, 0.0), Vec3::Z);
+    let pile: [&dyn Fn(f32, f32) -> (Vec3, Vec3); 50] = [&square; 50];
+    let mut mesh = patches(20, &[&pile[..], &[&apart]].concat());
+    let of_patch = mesh.triangles.len() / 51;
+    let (triangles, number) = (mesh.triangles.clone(), |index: usize| index % 51 * of_patch + index / 51);
+    mesh.triangles = (0..triangles.len()).map(|index| triangles[number(index)]).collect();
+    let surface = Surface::new(&mesh, |_| true);
+    let of_cell = vec![400_000.0; Cells::new(&surface).all().len()];
+    let first_part = Arc::new(vec![0; of_cell.len()]);
+    let order =
+        ProgressiveOrder::where_needed(&surface, 5, &Needed { of_cell, first_part, is_strict: false });
+    assert!(order.state.is_crowded());
+    let all = order.particles.iter().zip(&order.ordinals);
+    let open = all.filter(|&(particle, &ordinal)| particle.position.x > 2.0 && ordinal > 50_000.0).count();
+    let share = open as f64 / (350_000.0 / 51.0);
+    assert!((0.75..1.1).contains(&share), "{share} of its share");
+}
+
 /// A pile of squares has little room. A sheet beside it still gets its share: of the squares of one size, or of a pile
 /// that is a hundred times as large.
 #[test]

@@ -1,6 +1,6 @@
 // One stroke per vertex: finds its ink, its presence, and where it lies on its body.
 #include "shared/lens.glsl"
-#include "sumi_e/shares.glsl"
+#include "sumi_e/inked.glsl"
 layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
 layout(location = 1) in vec4 size;           // length and width in px, facing fade, supply_ln (see `Stroke`)
 layout(location = 2) in uvec4 marks;         // random bits, body id, albedo, mark

@@ -2,7 +2,7 @@
 #include "shared/lens.glsl"
 #include "shared/oklab.glsl"
 #include "sumi_e/ramp.glsl"
-#include "sumi_e/shares.glsl"
+#include "sumi_e/inked.glsl"
 uniform sampler2D normal;        // world space
 uniform sampler2D depth_and_id;
 uniform sampler2D albedo_and_lit;

@@ -138,7 +138,7 @@ impl SumiE {
         });
         let gpu = &self.gpu;
         let tones = ramp(gpu, settings)?;
-        let shares = shares(gpu, frame)?;
+        let inked = inked(gpu, frame)?;
         let lens = LensSetup::new(&frame.view, frame.size_px);
         let [lightness, a, b] = impasto_core::color::oklab_from_linear(
             settings.seal.0.map(impasto_core::color::linear_from_srgb),
@@ -147,7 +147,7 @@ impl SumiE {
         let bound = lens
             .set(programs.wash.bind(), &RAY_UNIFORMS)
             .texture("tones", &tones)
-            .texture("shares", &shares)
+            .texture("inked", &inked)
             .texture("normal", &input.reference.normal)
             .texture("depth_and_id", &input.reference.depth_and_id)
             .texture("albedo_and_lit", &input.reference.unlit()?.albedo)
@@ -185,7 +185,7 @@ impl SumiE {
         }
         watch.passed("soften")?;
 
-        self.strokes.draw(input, settings, programs, targets, &shares, watch)?;
+        self.strokes.draw(input, settings, programs, targets, &inked, watch)?;
 
         gpu.begin_pass(output.pass()?, DrawState::default());
         let [of_wash, of_strokes] = match settings.drawing {
@@ -293,8 +293,8 @@ fn silhouette_range(settings: &Settings) -> Vec2 {
     Vec2::new(from, (settings.silhouette_to as f32).max(from + 1e-4))
 }
 
-/// A texture with a texel for each body, row by row, that says how much ink it gets: a backdrop gets none.
-fn shares(gpu: &Gpu, frame: &Frame) -> Result<Texture, GlError> {
+/// A texture with a texel for each body, row by row, that says whether it gets ink: a backdrop gets none.
+fn inked(gpu: &Gpu, frame: &Frame) -> Result<Texture, GlError> {
     const ROW: usize = 1024;
     let rows = frame.bodies.len().div_ceil(ROW).max(1);
     let mut texels: Vec<u8> =

@@ -56,8 +56,8 @@ impl SeenFrom<'_> {
 const MOST_FRAMES: usize = 4096;
 const MOST_POSES: usize = 200_000;
 
-/// The most joints and targets, counted at all frames: of all objects that the shot bends, and of any one object. With
-/// more, a body that they bend counts as one that may have any shape.
+/// The most joints and targets, counted at all frames. Where all objects that the shot bends have more together, each of
+/// them counts as one that may have any shape; where a single object has more, it alone does.
 const MOST_JOINTS: usize = 500_000;
 
 /// A view, with the poses of all objects.
@@ -126,9 +126,8 @@ impl<'a> Seen<'a> {
             (!is_much).then(|| frames.map(at).collect())
         };
         let shapes: &[BodyShapes] = self.shapes.get_or_init(find).as_deref()?;
-        let numbers = BodyShapes::most_numbers(self.loaded, object);
-        let is_much = numbers.saturating_mul(shapes.len()) > MOST_JOINTS;
-        (!is_much).then(|| shapes.iter().map(|shapes| shapes.of(self.loaded, object)).collect())
+        let numbers: usize = shapes.iter().map(|shapes| shapes.numbers_of(self.loaded, object)).sum();
+        (numbers <= MOST_JOINTS).then(|| shapes.iter().map(|shapes| shapes.of(self.loaded, object)).collect())
     }
 
     /// How far from the middle of the picture there are particles, in half sizes of the picture.

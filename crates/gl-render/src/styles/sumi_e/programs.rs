@@ -74,7 +74,7 @@ const WASH: ProgramSource<'static> = ProgramSource::screen(
         &RAY_UNIFORMS,
         &[
             "tones",
-            "shares",
+            "inked",
             "normal",
             "depth_and_id",
             "albedo_and_lit",
@@ -97,7 +97,7 @@ const RESOLVE: ProgramSource<'static> = ProgramSource {
         None,
         &[
             &VIEW_LENS_UNIFORMS,
-            &["view_from_world", "depth_and_id", "shares", "soft", "pigments", "ink", "seal", "kind"],
+            &["view_from_world", "depth_and_id", "inked", "soft", "pigments", "ink", "seal", "kind"],
         ],
     )
 };

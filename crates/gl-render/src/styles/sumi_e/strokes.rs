@@ -27,15 +27,15 @@ impl InkStrokes {
         Ok(Self { gpu: gpu.clone(), buffers: StrokeBuffers::new(gpu)? })
     }
 
-    /// Lays all strokes of the frame; without strokes the target stays empty. `shares` says how much ink each body
-    /// gets.
+    /// Lays all strokes of the frame; without strokes the target stays empty. `inked` says which bodies
+    /// get ink.
     pub(super) fn draw(
         &mut self,
         input: &StyleInput<'_>,
         settings: &Settings,
         programs: &PainterPrograms,
         targets: &PainterTargets,
-        shares: &Texture,
+        inked: &Texture,
         watch: &mut Watch<'_>,
     ) -> Result<(), Halt> {
         let frame = input.frame;
@@ -47,7 +47,7 @@ impl InkStrokes {
         }
         self.buffers.upload_marks(frame)?;
         self.buffers.upload(frame)?;
-        self.resolve(input, settings, programs, targets, shares)?;
+        self.resolve(input, settings, programs, targets, inked)?;
         watch.passed("resolve")?;
         for &layer in frame.layers.iter().filter(|layer| layer.count > 0) {
             let most = if watch.may_stop() { PIECE } else { u32::MAX };
@@ -68,7 +68,7 @@ impl InkStrokes {
         settings: &Settings,
         programs: &PainterPrograms,
         targets: &PainterTargets,
-        shares: &Texture,
+        inked: &Texture,
     ) -> Result<(), GlError> {
         let frame = input.frame;
         let pigments = palette_texture(&self.gpu, frame, |linear| linear.map(color::srgb_from_linear))?;
@@ -77,7 +77,7 @@ impl InkStrokes {
             let bound = lens
                 .set(programs.resolve.bind(), &VIEW_LENS_UNIFORMS)
                 .texture("depth_and_id", &input.reference.depth_and_id)
-                .texture("shares", shares)
+                .texture("inked", inked)
                 .texture("soft", &targets.soft)
                 .texture("pigments", &pigments)
                 .set("view_from_world", frame.view.view_from_world)

@@ -1,7 +1,0 @@
-// Which bodies get ink.
-uniform sampler2D shares;  // a texel for each body, row by row: 0 for a backdrop, which gets no ink, else 1
-
-bool gets_ink(int body_id) {
-    int row = textureSize(shares, 0).x;
-    return texelFetch(shares, ivec2((body_id - 1) % row, (body_id - 1) / row), 0).r != 0.0;
-}
