@@ -45,6 +45,19 @@ fn broken() -> String {
     scene("leaf.obj", "  strokes: (widht_px: 9),\n  seed: \"x\",\n")
 }
 
+#[test]
+fn an_empty_document_has_a_timeline_and_holds_meshes_that_were_read() {
+    let folder = Folder::with("");
+    let mut document = Document::empty(folder.0.path());
+    assert_eq!(document.scene().timeline.last, LAST_FRAME);
+    let path = folder.0.path().join("meshes/leaf.obj");
+    let read = || Arc::new(load::load_mesh(&path, &LoadOptions::default().folders).expect("it is good").0);
+    let [first, second] = [read(), read()];
+    document.hold_mesh("leaf.obj", Arc::clone(&first));
+    document.hold_mesh("leaf.obj", second);
+    assert!(Arc::ptr_eq(&document.loaded().meshes["leaf.obj"], &first));
+}
+
 fn seed(seed: u32) -> Command {
     Command::Scene(SceneEdit::SetSeed(seed))
 }

@@ -104,8 +104,12 @@ fn one_drag_is_previewed_and_becomes_one_entry() {
 }
 
 #[test]
-fn escape_and_a_lost_focus_cancel_without_a_trace() {
-    for by_escape in [true, false] {
+fn what_interrupts_a_drag_cancels_it_without_a_trace() {
+    let by_escape: fn(&mut Editor) = |editor| key(editor, Key::Escape);
+    let by_lost_focus: fn(&mut Editor) = |editor| editor.focus_lost(&view(editor));
+    let by_mode: fn(&mut Editor) = |editor| editor.set_mode(Mode::Arrange, &view(editor));
+    let by_comparing: fn(&mut Editor) = |editor| act(editor, Action::Compare);
+    for cancel in [by_escape, by_lost_focus, by_mode, by_comparing] {
         let mut editor = with_apple();
         act(&mut editor, Action::Paint);
         let at = middle_of_the_apple(&editor);
@@ -113,18 +117,39 @@ fn escape_and_a_lost_focus_cancel_without_a_trace() {
         event(&mut editor, PointerKind::Move, at, HERE);
         event(&mut editor, PointerKind::Press(Button::Left), at, HERE);
         event(&mut editor, PointerKind::Move, at + DVec2::new(60.0, 10.0), HERE);
-        if by_escape {
-            key(&mut editor, Key::Escape);
-        } else {
-            let view = view(&editor);
-            editor.focus_lost(&view);
-        }
+        cancel(&mut editor);
         assert_eq!(editor.shown().0.scene, first);
         event(&mut editor, PointerKind::Release(Button::Left), at + DVec2::new(60.0, 10.0), HERE);
         assert_eq!(*editor.document().scene(), first);
         assert_eq!(editor.document().undo_count(), 0);
         assert!(!editor.is_moving());
     }
+}
+
+#[test]
+fn a_click_with_a_brush_selects_the_region_under_it() {
+    let mut editor = with_apple();
+    act(&mut editor, Action::Paint);
+    editor.select(Selection::default());
+    let at = middle_of_the_apple(&editor);
+    for kind in [PointerKind::Move, PointerKind::Press(Button::Left), PointerKind::Release(Button::Left)] {
+        event(&mut editor, kind, at, HERE);
+    }
+    let active = editor.document().selection().active();
+    assert!(matches!(active, Some(Item::Region(_))), "{active:?}");
+    assert_eq!(editor.document().undo_count(), 0);
+}
+
+#[test]
+fn a_tool_that_is_taken_up_shows_its_ring_at_once() {
+    let mut editor = with_apple();
+    act(&mut editor, Action::Paint);
+    let at = middle_of_the_apple(&editor);
+    event(&mut editor, PointerKind::Move, at, HERE);
+    let view = view(&editor);
+    editor.take_up(Tool::Fill, &view);
+    editor.take_up(Tool::Comb, &view);
+    assert!(!editor.tool_output().rings.is_empty(), "no ring");
 }
 
 #[test]

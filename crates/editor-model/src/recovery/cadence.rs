@@ -51,8 +51,13 @@ mod tests {
         // The time counts from the next edit on.
         assert!(!cadence.is_due(Some(61), 1001.0, 10.0));
         assert!(cadence.is_due(Some(61), 1011.0, 10.0));
+        // An edit that is undone does not count.
+        assert!(!cadence.is_due(Some(62), 1011.5, 0.9));
+        assert!(!cadence.is_due(Some(61), 1011.6, 0.9));
+        assert!(!cadence.is_due(Some(62), 1011.7, 0.9));
+        assert!(!cadence.is_due(Some(62), 1012.5, 0.9));
         // The user saves in between.
-        assert!(!cadence.is_due(None, 1012.0, 10.0));
+        assert!(!cadence.is_due(None, 1012.55, 10.0));
         assert!(!cadence.is_due(Some(62), 1013.0, 10.0));
         // Edits after the save are copied, too.
         assert!(cadence.is_due(Some(63), 1023.0, 10.0));

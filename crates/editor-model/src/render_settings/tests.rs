@@ -103,6 +103,8 @@ fn a_command_is_offered_for_a_file_only_and_quoted_for_a_shell() {
     let plan = settings.plan(&document, 0.0).unwrap();
     let text = shell_words("impasto", &plan.command(&document).unwrap());
     assert!(text.starts_with("impasto render '/") && text.contains(r"it'\''s.ron' --frames="), "{text}");
+    let skips = |plan: &RenderPlan| plan.command(&document).unwrap().contains(&"--skip-existing".to_owned());
+    assert_eq!([skips(&plan), skips(&plan.clone().keeping())], [false, true]);
 }
 
 #[test]

@@ -224,6 +224,13 @@ fn scaling_by_the_distance_and_by_numbers() {
     assert_eq!(transform.delta(), TransformDelta::Scale(DVec3::new(1.0, 2.0, 1.0)));
     transform.take(TransformEvent::Plane(Axis::Y));
     assert_eq!(transform.delta(), TransformDelta::Scale(DVec3::new(2.0, 1.0, 2.0)));
+    // Freely to any factor, in steps of a tenth with Ctrl.
+    let mut transform = Transforming::new(Operation::Scale, start(pivot_px + DVec2::X * 50.0));
+    for (snap, factor) in [(Snap::Free, 1.23), (Snap::Steps, 1.2)] {
+        transform.take(TransformEvent::Move { at_px: pivot_px + DVec2::Y * 61.5, snap });
+        let TransformDelta::Scale(by) = transform.delta() else { panic!("{:?}", transform.delta()) };
+        assert!((by - DVec3::splat(factor)).length() < 1e-9, "{by}");
+    }
     for nothing in ["0", "-0."] {
         let mut transform = Transforming::new(Operation::Scale, start(pivot_px + DVec2::X * 50.0));
         let TransformDelta::Scale(by) = typed(&mut transform, nothing) else { panic!() };

@@ -3,6 +3,7 @@
 
 mod any_command;
 mod arrange;
+mod directions;
 mod history;
 mod hostile;
 mod killed;

@@ -250,6 +250,10 @@ fn space_plays_whole_frames_and_any_edit_ends_it() {
     assert!(editor.status().starts_with("Playing 0\u{2013}119, every frame, "), "{}", editor.status());
     act(&mut editor, Action::Undo);
     assert!(!editor.time().playback.is_playing());
+    key(&mut editor, Key::Space);
+    assert!(editor.time().playback.is_playing());
+    editor.stop_playing();
+    assert!(!editor.time().playback.is_playing());
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use impasto_scene::document::{CameraKey, Ease, LightKey, ObjectKey, Scene};
 use impasto_scene::motion;
 
-use super::super::lanes;
+use super::super::{keyed_frames, lanes};
 use super::*;
 use crate::command::{KeyedValue, StrokesOf};
 
@@ -38,6 +38,22 @@ fn time(command: Option<Command>) -> Option<Time> {
         Command::Time(time) => time,
         other => panic!("{other:?}"),
     })
+}
+
+#[test]
+fn frames_with_keys_come_in_order_and_once() {
+    assert_eq!(keyed_frames(&scene()), [0.0, 60.0, 96.0, 119.0]);
+}
+
+#[test]
+fn a_key_that_is_set_again_keeps_its_ease() {
+    let mut scene = scene();
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/apple.ron");
+    let loaded = impasto_scene::load::load(&path, &Default::default()).expect("a shipped scene");
+    let set = Command::Time(Time::SetKey(KeyOf::Object("apple".to_owned()), 96.0));
+    set.edit(&mut scene, &loaded).expect("it fits");
+    let eases: Vec<Ease> = scene.objects[0].keys.iter().map(|key| key.ease.clone()).collect();
+    assert_eq!(eases, [Ease::Smooth, Ease::Linear, Ease::Step]);
 }
 
 #[test]
