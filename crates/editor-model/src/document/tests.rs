@@ -58,6 +58,17 @@ fn an_empty_document_has_a_timeline_and_holds_meshes_that_were_read() {
     assert!(Arc::ptr_eq(&document.loaded().meshes["leaf.obj"], &first));
 }
 
+#[test]
+fn after_another_edit_nothing_is_left_to_redo() {
+    let folder = Folder::with(&scene("leaf.obj", ""));
+    let mut document = folder.open();
+    document.apply(&seed(1)).expect("it fits");
+    document.undo().expect("there is an entry");
+    document.apply(&seed(2)).expect("it fits");
+    assert!(document.redo().is_none());
+    assert_eq!(document.scene().seed, 2);
+}
+
 fn seed(seed: u32) -> Command {
     Command::Scene(SceneEdit::SetSeed(seed))
 }

@@ -153,6 +153,19 @@ fn a_tool_that_is_taken_up_shows_its_ring_at_once() {
 }
 
 #[test]
+fn a_click_ends_with_its_release() {
+    let mut editor = with_apple();
+    act(&mut editor, Action::Arrange);
+    let at = middle_of_the_apple(&editor);
+    for kind in [PointerKind::Move, PointerKind::Press(Button::Left), PointerKind::Release(Button::Left)] {
+        event(&mut editor, kind, at, HERE);
+    }
+    event(&mut editor, PointerKind::Move, at + DVec2::new(90.0, 20.0), HERE);
+    assert!(!editor.is_moving());
+    assert!(matches!(editor.document().selection().active(), Some(Item::Object(_))));
+}
+
+#[test]
 fn painting_on_a_locked_region_is_refused_with_a_message() {
     let mut editor = with_apple();
     let names: Vec<Item> =

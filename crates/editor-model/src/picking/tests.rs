@@ -217,6 +217,16 @@ fn the_nearest_point_of_a_surface() {
 }
 
 #[test]
+fn the_box_round_some_triangles_holds_no_others() {
+    let mut picker = Picker::default();
+    picker.update(&[surface(ball(64, 32))]);
+    let [low, high] = picker.bounds_where(0, |hit| hit.position_in_world.x > 0.5).expect("there are some");
+    assert!(low.x > 0.4 && (high.x - 1.0).abs() < 0.01, "{low} to {high}");
+    assert!((low.y + 0.87).abs() < 0.1 && (high.y - 0.87).abs() < 0.1, "{low} to {high}");
+    assert_eq!(picker.bounds_where(0, |_| false), None);
+}
+
+#[test]
 fn the_ray_of_a_pixel_projects_back_to_it() {
     let lenses = [
         Lens::Perspective { fov_y_deg: 50.0, near: 0.1, far: 50.0 },
