@@ -1,11 +1,11 @@
 //! Tests of selecting, dragging and copying keys.
 
-use impasto_scene::document::{CameraKey, Ease, LightKey, ObjectKey, Scene};
+use impasto_scene::document::{BackgroundKey, CameraKey, Color, Ease, LightKey, ObjectKey, Scene};
 use impasto_scene::motion;
 
 use super::super::{keyed_frames, lanes};
 use super::*;
-use crate::command::{KeyedValue, StrokesOf};
+use crate::command::{KeyedValue, Pose, StrokesOf};
 
 fn scene() -> Scene {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/apple.ron");
@@ -50,10 +50,16 @@ fn a_key_that_is_set_again_keeps_its_ease() {
     let mut scene = scene();
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/apple.ron");
     let loaded = impasto_scene::load::load(&path, &Default::default()).expect("a shipped scene");
-    let set = Command::Time(Time::SetKey(KeyOf::Object("apple".to_owned()), 96.0));
+    let pose = Pose::Object("apple".to_owned(), ObjectKey::at(0.0));
+    let set = Command::Time(Time::PoseAtFrame(pose, 96.0));
     set.edit(&mut scene, &loaded).expect("it fits");
-    let eases: Vec<Ease> = scene.objects[0].keys.iter().map(|key| key.ease.clone()).collect();
+    let eases: Vec<Ease> = scene.objects[0].keys.iter().map(|key| key.ease).collect();
     assert_eq!(eases, [Ease::Smooth, Ease::Linear, Ease::Step]);
+    let [one, other] = ["#102030", "#405060"].map(|hex| Color::from_hex(hex).expect("a colour"));
+    scene.background_keys = vec![BackgroundKey { frame: 5.0, color: one, ease: Ease::Step }];
+    let set = Command::Time(Time::PutValue(KeyedValue::Background(other), 5.0));
+    set.edit(&mut scene, &loaded).expect("it fits");
+    assert_eq!(scene.background_keys, [BackgroundKey { frame: 5.0, color: other, ease: Ease::Step }]);
 }
 
 #[test]
