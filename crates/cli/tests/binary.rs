@@ -1,5 +1,5 @@
-//! Runs the command once. This integration test makes cargo build the binary before any test runs, with the features
-//! that the workspace shares. The package `tests/` at the repository's root runs that binary.
+//! Runs the command once. Because this is an integration test, cargo builds the binary before any test runs, with the
+//! features that the whole workspace needs; the package `tests/` at the repository's root runs that binary.
 
 use std::process::Command;
 

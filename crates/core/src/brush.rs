@@ -37,7 +37,7 @@ pub struct Mark {
     pub texels: Vec<[u8; 3]>,
 }
 
-/// All marks of a brush by name, the same on every machine; `None` for a name that is not in [`NAMES`].
+/// All marks of a brush by name, the same at every call; `None` for a name that is not in [`NAMES`].
 pub fn marks_of(name: &str) -> Option<Vec<Mark>> {
     let index = NAMES.iter().position(|known| *known == name)?;
     Some((0..VARIANTS).map(|variant| mark_of(index, variant)).collect())

@@ -11,7 +11,7 @@ const ASPECT: f32 = 6.2;
 #[derive(Clone, Copy)]
 struct Brush {
     hairs: f32,
-    /// How far the start of the mark, where the brush is full, and its end are rounded, in half widths.
+    /// How deep the mark's start and its end are rounded, in half widths.
     caps: [f32; 2],
     /// How ragged the end is, as a share of the length.
     ragged: f32,
@@ -207,7 +207,7 @@ struct AcrossHere {
     rows: [Between; STREAKS],
 }
 
-/// How many lattices make the streaks: three for the paint, one for how far another colour is mixed in.
+/// How many lattices vary along the mark too: three for the paint, one for how far another colour is mixed in.
 const STREAKS: usize = 4;
 
 pub(super) struct Streaks {

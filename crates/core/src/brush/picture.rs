@@ -22,7 +22,7 @@ pub fn has_mark(size_px: [u32; 2], rgba8: &[[u8; 4]]) -> bool {
 
 /// The marks of a brush that is a picture. A texel holds as much paint as its lightness times its opacity; a dark mark
 /// on a light background is inverted. The picture is stretched over the stroke, its left edge at the stroke's start.
-/// There are no marks where `rgba8` holds fewer texels than the size says.
+/// None if `rgba8` has fewer texels than the size says, or if a side is 0.
 pub fn marks_of_picture(size_px: [u32; 2], rgba8: &[[u8; 4]]) -> Vec<Mark> {
     let [width, height] = size_px.map(|side| side as usize);
     let grey: Vec<f32> = rgba8.iter().map(paint_of).collect();
@@ -45,7 +45,7 @@ pub fn marks_of_picture(size_px: [u32; 2], rgba8: &[[u8; 4]]) -> Vec<Mark> {
         if !(0.0..1.0).contains(&u) || !(-1.0..1.0).contains(&v) {
             return 0.0;
         }
-        // All texels of the picture that one texel of the mark covers, so that a large picture is averaged.
+        // The texels of the picture under one texel of the mark, roughly: a large picture is averaged.
         let span = |at: f32, ours: f32, theirs: usize| {
             let first = ((at - 0.5 / ours).max(0.0) * theirs as f32) as usize;
             let last = ((at + 0.5 / ours) * theirs as f32).ceil() as usize;

@@ -86,8 +86,8 @@ fn a_picture_with_contrast_makes_a_brush() {
     assert!(marks_of_picture([64, 32], &light[..10]).is_empty());
 }
 
-/// All four borders of a picture decide whether its mark is dark on light. Here the two borders that the mark reaches
-/// are lighter than the picture's mean, and the other two are dark.
+/// A light bar on a dark picture reaches two of its borders. These alone would pass for a light background; but all four
+/// borders decide whether a mark is dark on light.
 #[test]
 fn a_light_mark_that_reaches_two_borders_of_its_picture_is_no_dark_one() {
     let upright = |x: usize, y: usize| match (x, y) {
@@ -120,7 +120,8 @@ fn ends_of_rows(name: &str) -> Vec<(usize, [usize; 2])> {
 
 #[test]
 fn a_round_brush_sets_down_and_lifts_off_round() {
-    // Columns from the middle of a mark to where its paint begins or ends, in rows this far from the middle.
+    // How many columns the paint reaches from the middle of a mark towards this end: the mean over rows that are so far
+    // from the middle row.
     let reach = |name: &str, end: usize, rows: std::ops::Range<usize>| {
         let all = ends_of_rows(name);
         let near = all.iter().filter(|(row, _)| rows.contains(&row.abs_diff(SIZE[1] / 2)));

@@ -1,3 +1,3 @@
-//! Materials that need passes of their own: one file each.
+//! Materials that need passes of their own: one module each.
 
 pub(crate) mod noise_displace;

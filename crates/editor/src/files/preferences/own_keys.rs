@@ -22,7 +22,7 @@ impl OwnKeysText {
         self.read().0
     }
 
-    /// Which entries cannot be read and why, in words; `None` if all can.
+    /// What is wrong with the first entry that cannot be used, and how many more there are; `None` if all can be used.
     pub fn fault(&self) -> Option<String> {
         let (_, faults) = self.read();
         let first = faults.first()?;
@@ -33,7 +33,8 @@ impl OwnKeysText {
         Some(format!("Some of your own keys cannot be read, and are left out: {first}{more}"))
     }
 
-    /// Puts `own` in place of all keys that can be read. Entries that cannot be read stay, unless `own` replaces them.
+    /// Puts `own` in place of all keys that can be read. Other entries stay, unless `own` replaces them, or frees the keys
+    /// that they were refused for.
     pub fn set(&mut self, own: &OwnKeys) {
         let read = self.keys();
         let mut map = match std::mem::replace(&mut self.0, Value::Unit) {
