@@ -26,9 +26,9 @@ const MOST_SHARE: f64 = 0.5;
 const MOST_SHARE_MOVING: f64 = 0.8;
 
 /// Where particles are left out of a body at rest, its nearest spots may get more than they would have had, until half
-/// of the whole surface's number is made, or `LEAST_OF_MOST` where that is more, or `MOST_MADE` where it is less.
-const LEAST_OF_MOST: f64 = 50_000.0;
-const MOST_MADE: f64 = 100_000.0;
+/// of the whole surface's number is made or, if that is more, this many. A camera that turns all round on a floor needs
+/// that many.
+const MOST_MADE: f64 = 50_000.0;
 
 /// The longest order, in particles: enough for a floor of some ten kilometres.
 const MOST_ON_WHOLE: f64 = 1e12;
@@ -386,7 +386,7 @@ impl SeenTree {
         };
         let most = self.most_in_picture[kind].min(MOST_ON_WHOLE);
         let (most_share, most_made) = match kind_of_body {
-            KindOfBody::AtRest => (MOST_SHARE, (0.5 * everywhere).clamp(LEAST_OF_MOST, MOST_MADE)),
+            KindOfBody::AtRest => (MOST_SHARE, (0.5 * everywhere).max(MOST_MADE)),
             KindOfBody::Heap => (MOST_SHARE, MOST_MADE_OF_HEAP),
             // No spot gets more than it would have had.
             KindOfBody::Moving => (MOST_SHARE_MOVING, made(everywhere)),
