@@ -56,6 +56,12 @@ fn drag(editor: &mut Editor, button: Button, path: [DVec2; 2], held: Modifiers) 
     event(editor, PointerKind::Release(button), path[1], held);
 }
 
+fn click(editor: &mut Editor, at: DVec2) {
+    for kind in [PointerKind::Move, PointerKind::Press(Button::Left), PointerKind::Release(Button::Left)] {
+        event(editor, kind, at, HERE);
+    }
+}
+
 fn act(editor: &mut Editor, action: Action) {
     let view = view(editor);
     editor.act(action, &view);
@@ -132,9 +138,7 @@ fn a_click_with_a_brush_selects_the_region_under_it() {
     act(&mut editor, Action::Paint);
     editor.select(Selection::default());
     let at = middle_of_the_apple(&editor);
-    for kind in [PointerKind::Move, PointerKind::Press(Button::Left), PointerKind::Release(Button::Left)] {
-        event(&mut editor, kind, at, HERE);
-    }
+    click(&mut editor, at);
     let active = editor.document().selection().active();
     assert!(matches!(active, Some(Item::Region(_))), "{active:?}");
     assert_eq!(editor.document().undo_count(), 0);
@@ -157,9 +161,7 @@ fn a_click_ends_with_its_release() {
     let mut editor = with_apple();
     act(&mut editor, Action::Arrange);
     let at = middle_of_the_apple(&editor);
-    for kind in [PointerKind::Move, PointerKind::Press(Button::Left), PointerKind::Release(Button::Left)] {
-        event(&mut editor, kind, at, HERE);
-    }
+    click(&mut editor, at);
     event(&mut editor, PointerKind::Move, at + DVec2::new(90.0, 20.0), HERE);
     assert!(!editor.is_moving());
     assert!(matches!(editor.document().selection().active(), Some(Item::Object(_))));

@@ -101,7 +101,8 @@ pub(super) fn titles(
     if input.session.overlays.trust
         && let Some(framing) = layout.framings.get(1)
     {
-        trust_legend(painter, framing.viewport().left_bottom() + vec2(0.0, 22.0), tokens);
+        let picture = framing.viewport();
+        trust_legend(painter, picture.left_bottom() + vec2(0.0, 22.0), picture.right(), tokens);
     }
 }
 

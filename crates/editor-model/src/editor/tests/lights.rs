@@ -35,11 +35,6 @@ fn selected(editor: &Editor) -> Option<&str> {
     }
 }
 
-fn click(editor: &mut Editor, at_px: DVec2) {
-    event(editor, PointerKind::Press(Button::Left), at_px, Modifiers::default());
-    event(editor, PointerKind::Release(Button::Left), at_px, Modifiers::default());
-}
-
 #[test]
 fn a_click_on_an_icon_selects_its_light_and_one_beside_it_does_not() {
     let mut editor = with_lamp();

@@ -1,7 +1,7 @@
 //! Draws the overlay of directions: short lines along the strokes. They are plain, have their regions' colours, or
 //! show how far each direction can be trusted.
 
-use egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
+use egui::{Align2, Color32, Painter, Pos2, Shape, Stroke, pos2, vec2};
 use glam::DVec2;
 
 use super::Sheet;
@@ -14,6 +14,9 @@ const WIDTH: f32 = 1.4;
 const SURE: f32 = 0.90;
 /// From this trust up to `SURE` a direction is fair; below, it cannot be trusted.
 const FAIR: f32 = 0.72;
+/// From the left end of a sign of the legend to its words, and from one row of the legend to the next.
+const SIGN: f32 = 24.0;
+const ROW: f32 = 18.0;
 /// Opacity of faint lines.
 const FAINT: f32 = 0.35;
 
@@ -71,23 +74,29 @@ fn draw(painter: &Painter, ends: [Pos2; 2], direction_line: DirectionInk, share:
     }
 }
 
-/// Draws the legend of the patterns of trust in one row; `at` is the middle of its left end.
-pub fn trust_legend(painter: &Painter, at: Pos2, tokens: &Tokens) -> Rect {
-    let mut x = at.x;
-    let words = |x: f32, text: &str| {
-        painter.text(pos2(x, at.y), Align2::LEFT_CENTER, text, type_face::small(), tokens.weak).right()
+/// Draws the legend of the patterns of trust; `at` is the middle of its left end. What would reach beyond `right` goes
+/// into a new row.
+pub fn trust_legend(painter: &Painter, at: Pos2, right: f32, tokens: &Tokens) {
+    let words = |at: Pos2, text: &str| {
+        painter.text(at, Align2::LEFT_CENTER, text, type_face::small(), tokens.weak).right()
     };
-    x = words(x, "Trust") + 14.0;
-    let line = |x: f32| [pos2(x, at.y), pos2(x + 18.0, at.y)];
+    let width_of =
+        |text: &str| painter.layout_no_wrap(text.to_owned(), type_face::small(), tokens.weak).size().x;
     let dark = tokens.text.r() > 128;
-    let sure = if dark { ink::WHITE } else { Color32::BLACK };
-    painter.line_segment(line(x), Stroke::new(2.0, sure));
-    x = words(x + 24.0, "sure, over 0.90") + 18.0;
-    painter.extend(Shape::dashed_line(&line(x), Stroke::new(2.0, tokens.ochre), 7.0, 4.0));
-    x = words(x + 24.0, "fair") + 18.0;
-    for dot in 0..5 {
-        painter.circle_filled(pos2(x + 1.5 + 3.8 * dot as f32, at.y), 1.5, tokens.pink);
+    let sure = Stroke::new(2.0, if dark { ink::WHITE } else { Color32::BLACK });
+    let mut place = pos2(words(at, "Trust") + 14.0, at.y);
+    for (sign, text) in ["sure, over 0.90", "fair", "unsure or not seen"].into_iter().enumerate() {
+        if place.x + SIGN + width_of(text) > right && place.x > at.x {
+            place = pos2(at.x, place.y + ROW);
+        }
+        let line = [place, place + vec2(18.0, 0.0)];
+        match sign {
+            0 => _ = painter.line_segment(line, sure),
+            1 => _ = painter.extend(Shape::dashed_line(&line, Stroke::new(2.0, tokens.ochre), 7.0, 4.0)),
+            _ => (0..5).for_each(|dot| {
+                painter.circle_filled(place + vec2(1.5 + 3.8 * dot as f32, 0.0), 1.5, tokens.pink);
+            }),
+        }
+        place.x = words(place + vec2(SIGN, 0.0), text) + 18.0;
     }
-    x = words(x + 25.0, "unsure or not seen");
-    Rect::from_min_max(pos2(at.x, at.y - 8.0), pos2(x, at.y) + vec2(0.0, 8.0))
 }
