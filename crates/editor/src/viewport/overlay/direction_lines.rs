@@ -92,7 +92,7 @@ pub fn trust_legend(painter: &Painter, at: Pos2, right: f32, tokens: &Tokens) {
         let line = [place, place + vec2(18.0, 0.0)];
         match sign {
             0 => _ = painter.line_segment(line, sure),
-            1 => _ = painter.extend(Shape::dashed_line(&line, Stroke::new(2.0, tokens.ochre), 7.0, 4.0)),
+            1 => painter.extend(Shape::dashed_line(&line, Stroke::new(2.0, tokens.ochre), 7.0, 4.0)),
             _ => (0..5).for_each(|dot| {
                 painter.circle_filled(place + vec2(1.5 + 3.8 * dot as f32, 0.0), 1.5, tokens.pink);
             }),
