@@ -20,7 +20,7 @@ use glam::{DAffine3, Vec3};
 use rayon::prelude::*;
 
 pub use bonds::Bonds;
-pub use carry::{CarriedPlace, Carrier, SortedParticles, normals_around};
+pub use carry::{CarriedPlace, Carrier, SortedParticles, most_growth, normals_around};
 pub use gradient::Gradients;
 
 /// The vertices of a mesh in some shape, model space.

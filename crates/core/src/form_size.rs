@@ -82,7 +82,7 @@ struct Axes([Vec<f32>; 6]);
 impl FormSize {
     /// Measures a surface; the same for the same surface and seed.
     pub fn of(surface: &Surface<'_>, seed: u32) -> Self {
-        let points = sampling::progressive(surface, MOST_SAMPLES, seed);
+        let points = sampling::samples(surface, MOST_SAMPLES, seed);
         let spacing = hexagonal_spacing(surface.area(), points.len().max(1)) as f32;
         if points.is_empty() || !(spacing.is_finite() && spacing > 0.0) {
             return Self::default();

@@ -25,7 +25,7 @@ pub use cells::{Cell, CellPiece, Cells, Needed};
 pub use levels::ProgressiveState;
 pub use packed::PackedParticle;
 pub use paper::{PolygonParticle, per_polygon};
-pub use progressive::{ProgressiveOrder, progressive};
+pub use progressive::{ProgressiveOrder, progressive, samples};
 
 /// A particle: a point of a triangle, so that it follows any deformation of the mesh, with its position and normal.
 #[derive(Clone, Copy, Debug, PartialEq)]

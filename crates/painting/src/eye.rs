@@ -7,6 +7,7 @@ use impasto_core::sampling::Cell;
 use crate::own_depths::OwnDepths;
 use crate::particle_count::{Reach, Sighting};
 use crate::presence_bound::LEAST_COUNTED_FADE;
+use crate::seen_part::SeenPart;
 
 /// The parts of a cell count as alike while the cell's radius is at most this share of its depth.
 const EVEN: f64 = 0.1;
@@ -92,48 +93,65 @@ impl Eye {
         !is_beyond(&self.picture, cell.center, cell.radius + self.most_offset)
     }
 
-    /// Whether a view may have particles on a triangle with these corners, or round it.
-    pub(crate) fn may_see(&self, corners: [DVec3; 3]) -> bool {
-        let is_beyond = |(plane, length): &(DVec4, f64)| {
-            corners.iter().all(|corner| plane.dot(corner.extend(1.0)) > length * self.most_offset)
-        };
-        !self.planes.iter().any(is_beyond)
+    /// The part of a triangle on which the view may have particles.
+    pub(crate) fn seen_part(&self, corners: [DVec3; 3]) -> SeenPart {
+        let mut seen = SeenPart::of_triangle(corners);
+        for (plane, length) in &self.planes {
+            seen.cut(|corner| plane.dot(corner.extend(1.0)) - length * self.most_offset);
+        }
+        seen
     }
 
-    /// An upper bound on the pixels that a unit of surface at rest fills anywhere on a triangle with these corners,
-    /// divided by the fade of strokes near an outline; 0 where it faces away. The normal there, times the factor by
-    /// which the area has grown since rest, must be a weighted mean of `area_normals`.
-    pub(crate) fn most_on_triangle(
-        &self,
-        corners: [DVec3; 3],
-        area_normals: impl Iterator<Item = DVec3>,
-    ) -> f64 {
-        let mut least_w =
-            corners.iter().map(|corner| self.map.row_w.dot(corner.extend(1.0))).fold(f64::MAX, f64::min);
-        if self.row_w_length > 0.0 {
-            least_w = (least_w - self.row_w_length * self.most_offset).max(self.near);
-        }
-        let towards_eye = corners.map(|corner| self.w3_to_eye.transform_point3(corner));
-        // How much that may differ at a stroke that is lifted off the triangle.
-        let lifted = self.w3_to_eye_change * self.most_offset;
+    /// An upper bound on the pixels that a unit of surface at rest fills anywhere on such a part, divided by the fade of
+    /// strokes near an outline; 0 where it faces away. The normal there, times the factor by which the area has grown
+    /// since rest, must be a weighted mean of `area_normals`.
+    pub(crate) fn most_on(&self, seen: &SeenPart, area_normals: impl Iterator<Item = DVec3>) -> f64 {
+        let (towards_eye, lifted) = self.towards_eye(seen);
         let mut facing = f64::NEG_INFINITY;
         let mut whole = 0.0f64;
         for normal in area_normals {
             let length = normal.length();
-            if !length.is_finite() || !towards_eye.iter().all(|towards| towards.is_finite()) {
+            if !length.is_finite() {
                 return f64::INFINITY;
             }
-            // Cosine times lengths is linear along the triangle, and in the normal. So it is greatest at a corner, with
+            // Cosine times lengths is linear along the surface, and in the normal. So it is greatest at a corner, with
             // one of the normals.
-            for towards in towards_eye {
-                facing = facing.max(normal.dot(towards) + length * lifted);
+            for towards in towards_eye.corners() {
+                facing = facing.max(normal.dot(*towards) + length * lifted);
                 whole = whole.max(length * (towards.length() + lifted));
             }
         }
         if facing <= 0.0 {
             return 0.0;
         }
-        let most = most_over_fade(facing / whole, self.map.uneven.is_some()) * whole / least_w.powi(3);
+        self.most_of(seen, facing / whole, whole)
+    }
+
+    /// The same where normals may point anywhere, and the area has grown at most `growth` times since rest.
+    pub(crate) fn most_facing(&self, seen: &SeenPart, growth: f64) -> f64 {
+        let (towards_eye, lifted) = self.towards_eye(seen);
+        let longest = towards_eye.corners().iter().map(|towards| towards.length()).fold(0.0, f64::max);
+        self.most_of(seen, 1.0, growth * (longest + lifted))
+    }
+
+    /// At each corner, `w3_to_eye`; and how much that may differ at a stroke that is lifted off the surface.
+    fn towards_eye(&self, seen: &SeenPart) -> (SeenPart, f64) {
+        let towards_eye = seen.moved(|corner| self.w3_to_eye.transform_point3(corner));
+        (towards_eye, self.w3_to_eye_change * self.most_offset)
+    }
+
+    /// The bound, from the greatest cosine of a normal with the direction to the eye, and the greatest w³ times pixels
+    /// of a unit of surface that faces the eye.
+    fn most_of(&self, seen: &SeenPart, facing: f64, w3_px: f64) -> f64 {
+        if !seen.corners().iter().all(|corner| corner.is_finite()) {
+            return f64::INFINITY;
+        }
+        let w_of = |corner: &DVec3| self.map.row_w.dot(corner.extend(1.0));
+        let mut least_w = seen.corners().iter().map(w_of).fold(f64::MAX, f64::min);
+        if self.row_w_length > 0.0 {
+            least_w = (least_w - self.row_w_length * self.most_offset).max(self.near);
+        }
+        let most = most_over_fade(facing, self.map.uneven.is_some()) * w3_px / least_w.powi(3);
         if most.is_nan() { f64::INFINITY } else { most }
     }
 

@@ -50,6 +50,7 @@ mod presence_bound;
 mod recall;
 mod references;
 mod regions;
+mod seen_part;
 mod shadow_bounds;
 mod shapes;
 mod stated;

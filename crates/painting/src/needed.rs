@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use glam::{DVec3, Mat3, Vec3};
-use impasto_core::bending::normals_around;
+use impasto_core::bending::{most_growth, normals_around};
 use impasto_core::presence;
 use impasto_core::sampling::{Cell, CellPiece, Cells, Needed, Surface};
 use impasto_scene::presets::LayerKind;
@@ -211,7 +211,7 @@ impl NeededInputs {
                     let of_corner = |vertex: u32| gradients.as_ref().map(|all| all[vertex as usize]);
                     let gradients = piece.vertices.map(|vertex| of_corner(vertex).unwrap_or(Mat3::IDENTITY));
                     let px_per_area = if has_noise {
-                        if eye.may_see(piece.corners) { f64::INFINITY } else { 0.0 }
+                        if eye.seen_part(piece.corners).is_empty() { 0.0 } else { f64::INFINITY }
                     } else {
                         most_on_piece(&eye, &piece, gradients)
                     };
@@ -237,19 +237,23 @@ impl NeededInputs {
 /// An upper bound on the pixels that a unit of surface at rest fills on a moved piece, divided by the fade of strokes
 /// near an outline; 0 where the view does not see it. `gradients` are F at the corners of the mesh's triangle.
 fn most_on_piece(eye: &Eye, piece: &CellPiece, gradients: [Mat3; 3]) -> f64 {
-    let corners = piece.corners;
-    if !eye.may_see(corners) {
+    let seen = eye.seen_part(piece.corners);
+    if seen.is_empty() {
         return 0.0;
     }
     // A particle's normal is a weighted mean of the smooth ones, made longer to have the length 1.
-    let Some(smooth) = piece.smooth else { return f64::INFINITY };
-    let mean = smooth.iter().sum::<DVec3>().normalize_or_zero();
-    let shortest = smooth.map(|normal| normal.dot(mean)).into_iter().fold(1.0, f64::min);
-    if shortest < LEAST_BLENDED {
-        return f64::INFINITY;
+    let blended = piece.smooth.and_then(|smooth| {
+        let mean = smooth.iter().sum::<DVec3>().normalize_or_zero();
+        let shortest = smooth.map(|normal| normal.dot(mean)).into_iter().fold(1.0, f64::min);
+        (shortest >= LEAST_BLENDED).then_some((smooth, shortest))
+    });
+    match blended {
+        Some((smooth, shortest)) => {
+            let around = normals_around(gradients, smooth.map(|normal| normal.as_vec3()));
+            eye.most_on(&seen, around.map(Vec3::as_dvec3)) / shortest
+        }
+        None => eye.most_facing(&seen, f64::from(most_growth(gradients))),
     }
-    let around = normals_around(gradients, smooth.map(|normal| normal.as_vec3()));
-    eye.most_on_triangle(corners, around.map(Vec3::as_dvec3)) / shortest
 }
 
 /// The most particles that any layer needs for each pixel that a unit of surface fills.

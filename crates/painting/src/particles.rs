@@ -43,6 +43,12 @@ impl SampledPlaces {
         }
     }
 
+    /// How many particles belong to the first `count`; `None` if so many have not been sampled
+    /// ([`ProgressiveOrder::len_of`]).
+    fn len_of(&self, count: usize) -> Option<usize> {
+        self.state.len_of(count, self.places.len(), &self.ordinals)
+    }
+
     /// Particles without a progressive order: their ordinals are their indices.
     pub(crate) fn unordered(places: Vec<PackedParticle>) -> Self {
         Self { places, ..Self::default() }
@@ -59,18 +65,19 @@ impl PartialEq for Particles {
 impl Particles {
     /// The first `count` of a new order on a surface at rest.
     pub(crate) fn new(surface: &Arc<BodySurface>, sampled: SampledPlaces, count: usize) -> Self {
-        let count = count.min(sampled.places.len());
+        let count = sampled.len_of(count).unwrap_or(sampled.places.len());
         Self { order: Arc::new(()), sampled: Arc::new(sampled), surface: Arc::clone(surface), count }
     }
 
     /// The first `count` of the same order, if that many have been sampled.
     pub(crate) fn first(&self, count: usize) -> Option<Self> {
-        (count <= self.sampled.places.len()).then(|| Self { count, ..self.clone() })
+        self.sampled.len_of(count).map(|count| Self { count, ..self.clone() })
     }
 
     /// The same order with more particles.
     pub(crate) fn continued(&self, sampled: SampledPlaces, count: usize) -> Self {
-        Self { count: count.min(sampled.places.len()), sampled: Arc::new(sampled), ..self.clone() }
+        let count = sampled.len_of(count).unwrap_or(sampled.places.len());
+        Self { count, sampled: Arc::new(sampled), ..self.clone() }
     }
 
     /// Whether both are the first particles of one order, so that the shorter is the beginning of the longer. Orders

@@ -195,14 +195,35 @@ impl Carrier {
 /// Vectors such that the carried normal at any place of a triangle is a weighted mean of them. `gradients` are F at its
 /// corners. The normal at rest must be such a mean of `normals`.
 pub fn normals_around(gradients: [Mat3; 3], normals: [Vec3; 3]) -> impl Iterator<Item = Vec3> {
+    cofactors_around(gradients)
+        .into_iter()
+        .flat_map(move |cofactors| normals.map(|normal| cofactors * normal))
+}
+
+/// An upper bound on how many times the area grows anywhere on a triangle, whatever its normal is. `gradients` are F at
+/// its corners.
+pub fn most_growth(gradients: [Mat3; 3]) -> f32 {
+    // The length of a matrix (root of the sum of squares) is no less than what it makes of a unit vector.
+    let length =
+        |cofactors: Mat3| cofactors.to_cols_array().iter().map(|entry| entry * entry).sum::<f32>().sqrt();
+    let lengths = cofactors_around(gradients).map(length);
+    if lengths.iter().all(|length| length.is_finite()) {
+        lengths.into_iter().fold(0.0, f32::max)
+    } else {
+        f32::INFINITY
+    }
+}
+
+/// Matrices such that the cofactors of F at any place of a triangle are a weighted mean of them. `gradients` are F at
+/// its corners.
+fn cofactors_around(gradients: [Mat3; 3]) -> [Mat3; 6] {
     let [a, b, c] = gradients;
     // Cofactors are quadratic in F: of u F + v G they are u² cof F + v² cof G + 2 u v (cof(F + G) − cof F − cof G)/2.
     let corners = gradients.map(cofactors_f32);
     let mixed =
         |(f, cof_f): (Mat3, Mat3), (g, cof_g): (Mat3, Mat3)| (cofactors_f32(f + g) - cof_f - cof_g) * 0.5;
     let [of_a, of_b, of_c] = [(a, corners[0]), (b, corners[1]), (c, corners[2])];
-    let between = [mixed(of_a, of_b), mixed(of_b, of_c), mixed(of_c, of_a)];
-    corners.into_iter().chain(between).flat_map(move |cofactors| normals.map(|normal| cofactors * normal))
+    [corners[0], corners[1], corners[2], mixed(of_a, of_b), mixed(of_b, of_c), mixed(of_c, of_a)]
 }
 
 #[inline(always)]

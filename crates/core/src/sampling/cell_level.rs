@@ -34,13 +34,20 @@ const UNKNOWN: f64 = 3.0;
 
 /// The cells in which the present level is thrown.
 pub(super) struct ActiveCells<'a> {
-    cells: Vec<ActiveCell>,
+    cells: Vec<Cell>,
+    /// What each level asks of every one of these cells, apart from the rest: where faces lie on each other, most cells
+    /// get no try at all.
+    asked: Vec<AskedCell>,
     needed: Option<&'a Needed>,
 }
 
 /// A cell in which particles are thrown.
-struct ActiveCell {
-    cell: Cell,
+#[derive(Clone, Copy)]
+struct AskedCell {
+    /// Its share of the surface's area.
+    share: f64,
+    /// Its random bits.
+    bits: u32,
     /// Its index in `needed`.
     index: u32,
     filled: Filled,
@@ -54,6 +61,11 @@ struct Filled {
 }
 
 impl Filled {
+    /// What is known of a part of the cell with this share of its area.
+    fn part(self, share: f64) -> Self {
+        Self { meant: share * self.meant, added: share * self.added }
+    }
+
     /// The share of its tries that the cell gets in the next level.
     #[inline(always)]
     fn tried(self) -> f64 {
@@ -61,43 +73,67 @@ impl Filled {
     }
 }
 
+impl AskedCell {
+    fn new(cell: &Cell, index: u32, filled: Filled) -> Self {
+        Self { share: cell.share, bits: cell.bits, index, filled }
+    }
+}
+
 impl<'a> ActiveCells<'a> {
     /// The first cells of a surface.
     pub(super) fn new(surface: &Surface<'_>, needed: Option<&'a Needed>) -> Self {
-        let active = |(cell, index)| ActiveCell { cell, index, filled: Filled::default() };
-        let cells = Cells::new(surface).into_iter().zip(0..).map(active).collect();
-        Self { cells, needed }
+        let cells: Vec<Cell> = Cells::new(surface).into_iter().collect();
+        let asked = cells.iter().zip(0..);
+        let asked = asked.map(|(cell, index)| AskedCell::new(cell, index, Filled::default())).collect();
+        Self { cells, asked, needed }
     }
 
     /// Drops the cells that need no particle from this ordinal on, and splits those that have many tries.
     fn refine(&mut self, surface: &Surface<'_>, (tries, ordinal): (f64, f32)) {
         let needed = self.needed;
-        let is_whole = |cell: &Cell, index: u32| {
-            cell.share * tries <= MOST_TRIES
-                && needed.is_none_or(|needed| !needed.is_strict || needed.first_part[index as usize] == 0)
+        let is_whole = |asked: &AskedCell| {
+            asked.share * tries <= MOST_TRIES
+                && needed
+                    .is_none_or(|needed| !needed.is_strict || needed.first_part[asked.index as usize] == 0)
         };
-        let is_needed = |index: u32| needed.is_none_or(|needed| needed.of_cell[index as usize] > ordinal);
-        let (few, mut many): (Vec<_>, Vec<_>) = std::mem::take(&mut self.cells)
-            .into_iter()
-            .filter(|active| is_needed(active.index))
-            .partition(|active| is_whole(&active.cell, active.index));
-        self.cells = few;
-        while let Some(active) = many.pop() {
-            let parts = active.cell.split(surface);
+        let is_needed =
+            |asked: &AskedCell| needed.is_none_or(|needed| needed.of_cell[asked.index as usize] > ordinal);
+        // The cells that stay move up to the places of those that do not.
+        let (mut stay, mut many) = (0, Vec::new());
+        for at in 0..self.cells.len() {
+            let asked = self.asked[at];
+            if !is_needed(&asked) {
+                continue;
+            }
+            if !is_whole(&asked) {
+                many.push((self.cells[at].clone(), asked));
+                continue;
+            }
+            if stay < at {
+                self.cells.swap(stay, at);
+                self.asked[stay] = asked;
+            }
+            stay += 1;
+        }
+        self.cells.truncate(stay);
+        self.asked.truncate(stay);
+        while let Some((cell, asked)) = many.pop() {
+            let parts = cell.split(surface);
             if parts.is_empty() {
-                self.cells.push(active);
+                self.cells.push(cell);
+                self.asked.push(asked);
                 continue;
             }
             for (part, number) in parts.into_iter().zip(0..) {
-                let index = needed.map_or(0, |needed| needed.part(active.index, number));
-                let share = part.share / active.cell.share;
-                let Filled { meant, added } = active.filled;
-                let filled = Filled { meant: share * meant, added: share * added };
-                let part = ActiveCell { cell: part, index, filled };
-                match is_whole(&part.cell, index) {
-                    _ if !is_needed(index) => {}
-                    true => self.cells.push(part),
-                    false => many.push(part),
+                let index = needed.map_or(0, |needed| needed.part(asked.index, number));
+                let asked = AskedCell::new(&part, index, asked.filled.part(part.share / cell.share));
+                match is_whole(&asked) {
+                    _ if !is_needed(&asked) => {}
+                    true => {
+                        self.cells.push(part);
+                        self.asked.push(asked);
+                    }
+                    false => many.push((part, asked)),
                 }
             }
         }
@@ -105,11 +141,11 @@ impl<'a> ActiveCells<'a> {
 
     /// Notes how many particles a level was meant to add, and the cells in which it added some.
     fn note(&mut self, meant: f64, added: impl Iterator<Item = u32>) {
-        for active in &mut self.cells {
-            active.filled.meant += meant * active.cell.share;
+        for asked in &mut self.asked {
+            asked.filled.meant += meant * asked.share;
         }
         for cell in added {
-            self.cells[cell as usize].filled.added += 1.0;
+            self.asked[cell as usize].filled.added += 1.0;
         }
     }
 }
@@ -161,7 +197,8 @@ impl Randoms {
 struct Throwing<'a> {
     level: &'a CellLevel,
     surface: &'a Surface<'a>,
-    cells: &'a [ActiveCell],
+    cells: &'a [Cell],
+    asked: &'a [AskedCell],
     /// The index of the first of these cells among the active ones.
     first_cell: u32,
     needed: Option<&'a Needed>,
@@ -176,12 +213,16 @@ impl Wide for Throwing<'_> {
 
     #[inline(always)]
     fn run(self) -> Vec<Thrown> {
-        let Self { level, surface, cells, first_cell, needed, field, accepted, saves_tries } = self;
+        let Self { level, surface, cells, asked, first_cell, needed, field, accepted, saves_tries } = self;
         let mut clear = Vec::new();
-        for (ActiveCell { cell, index, filled }, number) in cells.iter().zip(first_cell..) {
-            let most = needed.map_or(f32::INFINITY, |needed| needed.of_cell[*index as usize]);
-            let tried = if saves_tries { filled.tried() } else { 1.0 };
-            let (seed, count) = level.thrown(cell, tried);
+        for (asked, number) in asked.iter().zip(first_cell..) {
+            let tried = if saves_tries { asked.filled.tried() } else { 1.0 };
+            let (seed, count) = level.thrown(asked, tried);
+            if count == 0 {
+                continue;
+            }
+            let cell = &cells[(number - first_cell) as usize];
+            let most = needed.map_or(f32::INFINITY, |needed| needed.of_cell[asked.index as usize]);
             for first in (0..count).step_by(LANES) {
                 let Randoms { bits, turns, which, on_triangle: [v, w] } = Randoms::new(seed, first);
                 for lane in 0..LANES.min((count - first) as usize) {
@@ -232,20 +273,21 @@ impl CellLevel {
         active.refine(surface, (tries, self.ordinal(0.0)));
         // A heap hides much of itself, so its particles depend on the views anyway; many heaps are crowded in parts.
         let saves_tries = self.state.is_crowded() || active.needed.is_some_and(|needed| needed.is_strict);
-        let of_cells = |(chunk, cells): (usize, &[ActiveCell])| {
-            let first_cell = (chunk * CELLS) as u32;
+        let of_cells = |(chunk, (cells, asked)): (usize, (&[Cell], &[AskedCell]))| {
             widest(Throwing {
                 level: self,
                 surface,
                 cells,
-                first_cell,
+                asked,
+                first_cell: (chunk * CELLS) as u32,
                 needed: active.needed,
                 field,
                 accepted,
                 saves_tries,
             })
         };
-        let found: Vec<Vec<Thrown>> = active.cells.par_chunks(CELLS).enumerate().map(of_cells).collect();
+        let chunks = active.cells.par_chunks(CELLS).zip(active.asked.par_chunks(CELLS));
+        let found: Vec<Vec<Thrown>> = chunks.enumerate().map(of_cells).collect();
         let mut clear = found.concat();
         clear.par_sort_unstable_by_key(|thrown| {
             (thrown.turn, thrown.bits, thrown.face, thrown.weights.map(f32::to_bits))
@@ -280,7 +322,7 @@ impl CellLevel {
     /// The random bits and the number of the candidates that are thrown in a cell: the share `tried` of the level's,
     /// whether they are needed or not.
     #[inline(always)]
-    fn thrown(&self, cell: &Cell, tried: f64) -> (u32, u32) {
+    fn thrown(&self, cell: &AskedCell, tried: f64) -> (u32, u32) {
         let seed = hash::combine(hash::combine(self.seed, cell.bits), self.ends[0] as u32);
         let tries = self.tries() * cell.share * tried;
         // The cell's share of the level's tries. Chance decides whether the fraction that is left makes one more.

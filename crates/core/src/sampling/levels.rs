@@ -18,10 +18,14 @@ const GROWTH: f64 = 1.08;
 /// number meant, and nothing stops the level at that number.
 const FILLED: f64 = 1.0433;
 
-/// Where there is too little room (faces on top of each other, the first few particles of a thin rod), a level is
-/// filled up to this share of the particles that it is meant to end with. Distances do not count then, so that the work
-/// stays proportional to the count.
+/// Where there is too little room (faces on top of each other, the first few particles of a thin rod), a counted level
+/// is filled up to this share of the particles that it is meant to end with. Distances do not count then, so that an
+/// order has particles even where they lie too near to each other for f32.
 pub(super) const LEAST_FILLED: f64 = 0.5;
+
+/// An order with so many particles, or meant to have them, may be crowded. Before that, spacings are so wide that
+/// leaves of a tree may seem to lie on each other.
+const CROWDED_FROM: usize = 2048;
 
 /// The fewest darts that one task handles: fewer are not worth another thread.
 pub(super) const LEAST_CHUNK: usize = 1024;
@@ -33,7 +37,7 @@ pub(super) const LEAST_CHUNK: usize = 1024;
 /// cannot be counted, so its ordinal is computed from its turn among the tries of its level. In this way neither a
 /// particle nor its ordinal depends on what is far away. Only in a crowded order ([`ProgressiveState::is_crowded`])
 /// and in a strict one ([`super::Needed::is_strict`]), how many tries a cell gets depends on what earlier levels found
-/// there.
+/// there. In a crowded order, particles stop being counted as soon as it is known to be crowded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProgressiveState {
     /// Candidates thrown so far.
@@ -70,7 +74,17 @@ impl ProgressiveState {
     /// Whether an order on the whole surface may be in this state with this many particles.
     pub fn fits(self, particles: usize) -> bool {
         // Levels are at least half filled; a quarter leaves room for rounding.
-        self.counted[0] <= particles && self.level_end / 4 <= particles.saturating_add(1)
+        let is_filled = self.is_crowded() || self.level_end / 4 <= particles.saturating_add(1);
+        self.counted[0] <= particles && is_filled
+    }
+
+    /// [`super::ProgressiveOrder::len_of`] of an order in this state, from how many particles it has and their ordinals.
+    pub fn len_of(self, count: usize, particles: usize, ordinals: &[f32]) -> Option<usize> {
+        if !self.is_crowded() || ordinals.is_empty() {
+            return (count <= particles).then_some(count);
+        }
+        let has_all = self.ordinal_at(self.level_end as f64) >= count as f64;
+        has_all.then(|| ordinals.partition_point(|&ordinal| ordinal < count as f32))
     }
 
     /// How many particles, from the first on, have their indices as ordinals.
@@ -79,10 +93,11 @@ impl ProgressiveState {
     }
 
     /// Whether the counted levels found room for hardly any more particles than the half that is always added, as where
-    /// several faces lie on each other. Such an order is not continued but made anew.
-    pub(super) fn is_crowded(self) -> bool {
-        let [count, level_end] = self.counted.map(|number| number as f64);
-        count < 1.1 * LEAST_FILLED * level_end
+    /// several faces lie on each other. From then on such an order has no more particles than find room: those of one
+    /// face where several coincide. It is not continued but made anew.
+    pub fn is_crowded(self) -> bool {
+        let [count, level_end] = self.counted;
+        level_end >= CROWDED_FROM && (count as f64) < 1.1 * LEAST_FILLED * level_end as f64
     }
 
     /// The ordinal of a particle that is added when the order is meant to have `meant` particles.

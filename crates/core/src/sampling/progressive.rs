@@ -12,7 +12,8 @@ use super::dart_grid::{Dart, DartGrid};
 use super::levels::{LEAST_CHUNK, LEAST_FILLED, ProgressiveState, TRIES, next_level_end, spacing};
 use super::{Particle, Surface};
 
-/// At least this many particles, if they are asked for, are always made on the whole surface: see [`ProgressiveState`].
+/// This many particles, if they are asked for, are always made on the whole surface, and counted: see
+/// [`ProgressiveState`].
 const LEAST_COUNTED: usize = 8192;
 
 /// Distinct places on a surface differ by at least about this share of its greatest coordinate.
@@ -27,10 +28,27 @@ const MOST_CHUNK: usize = 1 << 20;
 ///
 /// Darts are thrown in levels whose spacings do not depend on how many particles there will be in the end. Two
 /// particles crowd each other only on the same side of the surface, so thin sheets carry their full share on both
-/// sides. The result depends on the mesh, the count and the seed alone. An empty surface gives no particles.
+/// sides. The result depends on the mesh, the count and the seed alone. An empty surface gives no particles, and one
+/// whose faces lie on each other fewer than `count`.
 pub fn progressive(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Particle> {
     let mut order = ProgressiveOrder::default();
     order.grow(surface, seed, count);
+    order.particles.truncate(order.len_of(count).unwrap_or_default());
+    order.particles
+}
+
+/// The same for at most 8,192 particles that measure a surface. Where faces lie on each other, all of these get their
+/// share: half of the samples are then laid without distances.
+pub fn samples(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Particle> {
+    let mut order = ProgressiveOrder::default();
+    if surface.faces.is_empty() {
+        return Vec::new();
+    }
+    let count = count.min(LEAST_COUNTED);
+    let mut levels = Levels::new(&mut order, surface, seed, None);
+    while levels.order.particles.len() < count {
+        levels.throw_counted();
+    }
     order.particles.truncate(count);
     order.particles
 }
@@ -49,10 +67,11 @@ pub struct ProgressiveOrder {
 }
 
 impl ProgressiveOrder {
-    /// Grows the order by whole levels to at least `count` particles, unless the surface is empty. Surface and seed
-    /// must be those of the call before. The first `n` particles are those that [`progressive`] gives.
+    /// Grows the order by whole levels until it has the first `count` particles ([`ProgressiveOrder::len_of`]), unless
+    /// the surface is empty. Surface and seed must be those of the call before. The first particles are those that
+    /// [`progressive`] gives.
     pub fn grow(&mut self, surface: &Surface<'_>, seed: u32, count: usize) {
-        if surface.faces.is_empty() || self.particles.len() >= count {
+        if surface.faces.is_empty() || self.len_of(count).is_some() {
             return;
         }
         // Tries then depend on what earlier levels found in each cell, which is not remembered.
@@ -61,9 +80,15 @@ impl ProgressiveOrder {
         }
         let mut levels = Levels::new(self, surface, seed, None);
         // Memory grows as particles are found. It is not reserved for the count asked for.
-        while levels.order.particles.len() < count {
+        while levels.order.len_of(count).is_none() {
             levels.throw();
         }
+    }
+
+    /// How many particles belong to the first `count`. `None` if the order does not reach that far. In a crowded order,
+    /// they are the particles whose ordinals are less than `count`, which may be fewer than that.
+    pub fn len_of(&self, count: usize) -> Option<usize> {
+        self.state.len_of(count, self.particles.len(), &self.ordinals)
     }
 
     /// A new order. The particles whose ordinals are their indices lie on the whole surface, all others where they are
@@ -71,12 +96,14 @@ impl ProgressiveOrder {
     /// `needed` is strict or faces lie on each other.
     pub fn where_needed(surface: &Surface<'_>, seed: u32, needed: &Needed) -> Self {
         let mut order = Self::default();
-        order.grow(surface, seed, LEAST_COUNTED);
         if surface.faces.is_empty() {
             return order;
         }
         let most = f64::from(needed.most());
         let mut levels = Levels::new(&mut order, surface, seed, Some(needed));
+        while levels.is_counting() {
+            levels.throw_counted();
+        }
         while levels.order.state.ordinal_at(levels.order.state.level_end as f64) < most
             && !levels.is_too_fine()
         {
@@ -131,9 +158,14 @@ impl<'a> Levels<'a> {
         spacing(self.surface, next_level_end(self.order.state.level_end)) < self.finest
     }
 
+    /// Whether ordinals are still indices in the next level.
+    fn is_counting(&self) -> bool {
+        self.order.particles.len() < LEAST_COUNTED && !self.order.state.is_crowded()
+    }
+
     /// Throws the next level.
     fn throw(&mut self) {
-        if self.order.particles.len() < LEAST_COUNTED {
+        if self.is_counting() {
             self.throw_counted();
         } else {
             self.throw_by_cells();
@@ -192,9 +224,9 @@ impl<'a> Levels<'a> {
         grid.fit(level.radius);
         let accepted = Accepted { grid, particles, radius: level.radius };
         let mut added = level.added(surface, cells, field, &accepted);
-        if needed.is_none() {
-            // Where there is too little room, the missing particles are taken from the sequence of candidates, which is
-            // even by area.
+        if needed.is_none() && !state.is_crowded() {
+            // Where places are too near to each other for f32, the missing particles are taken from the sequence of
+            // candidates, which is even by area.
             let least = (LEAST_FILLED * (level_end - state.level_end) as f64) as usize;
             let missing = least.saturating_sub(added.particles.len());
             let numbers: Vec<u32> =

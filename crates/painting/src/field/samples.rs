@@ -25,7 +25,7 @@ impl Default for FieldSamples {
 
 impl FieldSamples {
     pub(crate) fn new(surface: &Surface<'_>, name_hash: u32) -> Self {
-        let particles = sampling::progressive(surface, MAX_SAMPLES, name_hash);
+        let particles = sampling::samples(surface, MAX_SAMPLES, name_hash);
         let spacing = sampling::hexagonal_spacing(surface.area(), particles.len().max(1));
         Self::of(particles, spacing)
     }

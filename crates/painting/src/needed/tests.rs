@@ -51,7 +51,7 @@ fn no_place_of_a_moved_piece_needs_more_than_the_piece() {
             smooth: is_even.then_some(smooth.map(Vec3::as_dvec3)),
         };
         let most = most_on_piece(&eye, &piece, gradients);
-        turned_away += u32::from(most == 0.0 && eye.may_see(piece.corners));
+        turned_away += u32::from(most == 0.0 && !eye.seen_part(piece.corners).is_empty());
         at_eye += u32::from(piece.corners.iter().any(|&corner| map.depth(corner) < sighting.near));
         for sample in 0..40 {
             let weights = [0, 1, 2].map(|corner| random(from + 100 + 7 * sample + corner) + 0.5);

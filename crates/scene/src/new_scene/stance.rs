@@ -83,7 +83,7 @@ impl Samples {
     pub fn of(mesh: &MeshFile) -> Self {
         let sides = shells::sides(&mesh.mesh);
         let surface = Surface::with_sides(&mesh.mesh, &sides, |_| true);
-        let particles = sampling::progressive(&surface, SAMPLES, 1);
+        let particles = sampling::samples(&surface, SAMPLES, 1);
         Self {
             points: particles.iter().map(|particle| particle.position.as_dvec3()).collect(),
             normals: particles.iter().map(|particle| particle.normal.as_dvec3()).collect(),
