@@ -29,9 +29,6 @@ const SPARE: f64 = 8.0;
 /// The least share of its tries that a cell gets: so room that opens up is found.
 const LEAST_TRIED: f64 = 1.0 / 32.0;
 
-/// A cell gets all its tries until this many particles were meant for it: only then it is known how many find room.
-const UNKNOWN: f64 = 3.0;
-
 /// The cells in which the present level is thrown.
 pub(super) struct ActiveCells<'a> {
     cells: Vec<Cell>,
@@ -53,23 +50,30 @@ struct AskedCell {
     filled: Filled,
 }
 
-/// How many particles the levels were meant to add in a cell, and how many they added, since they are thrown by cells.
-#[derive(Clone, Copy, Default)]
+/// How many particles the levels were meant to add in a cell, and how many they added, since it is thrown in.
+#[derive(Clone, Copy)]
 struct Filled {
     meant: f64,
     added: f64,
+    /// The share that is expected of it. It counts as much as one particle that was meant for the cell.
+    expected: f64,
 }
 
 impl Filled {
-    /// What is known of a part of the cell with this share of its area.
-    fn part(self, share: f64) -> Self {
-        Self { meant: share * self.meant, added: share * self.added }
+    fn expected(expected: f64) -> Self {
+        Self { meant: 0.0, added: 0.0, expected }
+    }
+
+    /// The share of the particles meant for the cell that it has room for.
+    #[inline(always)]
+    fn share(self) -> f64 {
+        (self.added + self.expected) / (self.meant + 1.0)
     }
 
     /// The share of its tries that the cell gets in the next level.
     #[inline(always)]
     fn tried(self) -> f64 {
-        if self.meant < UNKNOWN { 1.0 } else { (SPARE * self.added / self.meant).clamp(LEAST_TRIED, 1.0) }
+        (SPARE * self.share()).clamp(LEAST_TRIED, 1.0)
     }
 }
 
@@ -80,11 +84,12 @@ impl AskedCell {
 }
 
 impl<'a> ActiveCells<'a> {
-    /// The first cells of a surface.
-    pub(super) fn new(surface: &Surface<'_>, needed: Option<&'a Needed>) -> Self {
+    /// The first cells of a surface, in which this share of the particles meant for them is expected.
+    pub(super) fn new(surface: &Surface<'_>, needed: Option<&'a Needed>, expected: f64) -> Self {
         let cells: Vec<Cell> = Cells::new(surface).into_iter().collect();
         let asked = cells.iter().zip(0..);
-        let asked = asked.map(|(cell, index)| AskedCell::new(cell, index, Filled::default())).collect();
+        let asked =
+            asked.map(|(cell, index)| AskedCell::new(cell, index, Filled::expected(expected))).collect();
         Self { cells, asked, needed }
     }
 
@@ -126,7 +131,7 @@ impl<'a> ActiveCells<'a> {
             }
             for (part, number) in parts.into_iter().zip(0..) {
                 let index = needed.map_or(0, |needed| needed.part(asked.index, number));
-                let asked = AskedCell::new(&part, index, asked.filled.part(part.share / cell.share));
+                let asked = AskedCell::new(&part, index, Filled::expected(asked.filled.share()));
                 match is_whole(&asked) {
                     _ if !is_needed(&asked) => {}
                     true => {
@@ -163,7 +168,19 @@ pub(super) struct CellLevel {
 /// How many candidates get their random numbers together.
 const LANES: usize = 8;
 
-/// The random numbers of some candidates of a cell.
+/// Candidates that are yet to get their random numbers. They may be of several cells: where faces lie on each other, a
+/// cell seldom has more than one.
+#[derive(Default)]
+struct Batch {
+    len: usize,
+    /// For each candidate the index of its cell among those of the task, the cell's random bits, and the candidate's
+    /// number in it.
+    cells: [u32; LANES],
+    seeds: [u32; LANES],
+    numbers: [u32; LANES],
+}
+
+/// The random numbers of a batch.
 struct Randoms {
     bits: [u32; LANES],
     /// See [`Thrown::turn`].
@@ -176,11 +193,11 @@ struct Randoms {
 
 impl Randoms {
     #[inline(always)]
-    fn new(seed: u32, first: u32) -> Self {
+    fn new(Batch { seeds, numbers, .. }: &Batch) -> Self {
         let mut randoms =
             Self { bits: [0; LANES], turns: [0; LANES], which: [0.0; LANES], on_triangle: [[0.0; LANES]; 2] };
         for lane in 0..LANES {
-            let bits = hash::combine(seed, first.wrapping_add(lane as u32));
+            let bits = hash::combine(seeds[lane], numbers[lane]);
             let [which, first, second] = [1, 2, 3].map(|which| hash::unit(hash::combine(bits, which)));
             let [v, w] = barycentric(first, second);
             randoms.bits[lane] = bits;
@@ -213,31 +230,52 @@ impl Wide for Throwing<'_> {
 
     #[inline(always)]
     fn run(self) -> Vec<Thrown> {
-        let Self { level, surface, cells, asked, first_cell, needed, field, accepted, saves_tries } = self;
-        let mut clear = Vec::new();
-        for (asked, number) in asked.iter().zip(first_cell..) {
-            let tried = if saves_tries { asked.filled.tried() } else { 1.0 };
-            let (seed, count) = level.thrown(asked, tried);
-            if count == 0 {
-                continue;
+        let (mut clear, mut batch, mut cell, mut number) = (Vec::new(), Batch::default(), 0, 0);
+        let [mut seed, mut count] = [0; 2];
+        loop {
+            // Fills the batch from one cell after the other.
+            if number < count {
+                let lane = batch.len;
+                (batch.cells[lane], batch.seeds[lane], batch.numbers[lane]) = (cell as u32 - 1, seed, number);
+                batch.len += 1;
+                number += 1;
+            } else if let Some(asked) = self.asked.get(cell) {
+                let tried = if self.saves_tries { asked.filled.tried() } else { 1.0 };
+                (seed, count) = self.level.thrown(asked, tried);
+                (cell, number) = (cell + 1, 0);
+            } else {
+                self.throw(&batch, &mut clear);
+                return clear;
             }
-            let cell = &cells[(number - first_cell) as usize];
-            let most = needed.map_or(f32::INFINITY, |needed| needed.of_cell[asked.index as usize]);
-            for first in (0..count).step_by(LANES) {
-                let Randoms { bits, turns, which, on_triangle: [v, w] } = Randoms::new(seed, first);
-                for lane in 0..LANES.min((count - first) as usize) {
-                    let (face, weights) = cell.place(surface, which[lane], [v[lane], w[lane]]);
-                    let position = surface.position(face, weights);
-                    let dart = Dart { position, face: face as u32, number: 0 };
-                    let normal = || surface.particle(face, weights).normal;
-                    let (turn, bits) = (turns[lane], bits[lane]);
-                    if level.ordinal(turn_share(turn)) < most && field.is_clear(accepted, &dart, normal) {
-                        clear.push(Thrown { turn, bits, cell: number, face: face as u32, weights, position });
-                    }
-                }
+            if batch.len == LANES {
+                self.throw(&batch, &mut clear);
+                batch.len = 0;
             }
         }
-        clear
+    }
+}
+
+impl Throwing<'_> {
+    #[inline(always)]
+    fn throw(&self, batch: &Batch, clear: &mut Vec<Thrown>) {
+        let Self { level, surface, cells, asked, first_cell, needed, field, accepted, .. } = self;
+        let Randoms { bits, turns, which, on_triangle: [v, w] } = Randoms::new(batch);
+        for lane in 0..batch.len {
+            let index = batch.cells[lane] as usize;
+            let most = needed.map_or(f32::INFINITY, |needed| needed.of_cell[asked[index].index as usize]);
+            let (turn, bits) = (turns[lane], bits[lane]);
+            if level.ordinal(turn_share(turn)) >= most {
+                continue;
+            }
+            let (face, weights) = cells[index].place(surface, which[lane], [v[lane], w[lane]]);
+            let position = surface.position(face, weights);
+            let dart = Dart { position, face: face as u32, number: 0 };
+            let normal = || surface.particle(face, weights).normal;
+            if field.is_clear(accepted, &dart, normal) {
+                let cell = first_cell + batch.cells[lane];
+                clear.push(Thrown { turn, bits, cell, face: face as u32, weights, position });
+            }
+        }
     }
 }
 

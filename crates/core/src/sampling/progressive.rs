@@ -125,6 +125,8 @@ struct Levels<'a> {
     finest: f32,
     /// Where particles are needed; `None` everywhere.
     needed: Option<&'a Needed>,
+    /// The share of the particles meant for the last counted level that found room.
+    found: f64,
     /// Made when the first level is thrown cell by cell.
     cells: Option<ActiveCells<'a>>,
 }
@@ -148,6 +150,7 @@ impl<'a> Levels<'a> {
             grid,
             finest: FINEST * greatest,
             needed,
+            found: 1.0,
             cells: None,
         }
     }
@@ -174,7 +177,8 @@ impl<'a> Levels<'a> {
 
     /// Throws a level in which ordinals are indices.
     fn throw_counted(&mut self) {
-        let Self { order: ProgressiveOrder { particles, state, .. }, candidates, field, grid, .. } = self;
+        let Self { order: ProgressiveOrder { particles, state, .. }, candidates, field, grid, found, .. } =
+            self;
         let level_begin = state.level_end;
         let level_end = next_level_end(level_begin);
         let radius = spacing(self.surface, level_end);
@@ -190,6 +194,7 @@ impl<'a> Levels<'a> {
             darts
         });
         let mut added = field.thinned(&level, &clear, radius, normal_of);
+        *found = added.len() as f64 / (level_end - level_begin) as f64;
         let least = (level_end as f64 * LEAST_FILLED) as usize;
         let missing = least.saturating_sub(particles.len() + added.len());
         added.extend(level.clone().take(missing).map(|number| candidates.dart(number)));
@@ -208,8 +213,8 @@ impl<'a> Levels<'a> {
 
     /// Throws a level cell by cell, where particles are needed.
     fn throw_by_cells(&mut self) {
-        let Self { order, surface, field, grid, needed, .. } = self;
-        let cells = self.cells.get_or_insert_with(|| ActiveCells::new(surface, *needed));
+        let Self { order, surface, field, grid, needed, found, .. } = self;
+        let cells = self.cells.get_or_insert_with(|| ActiveCells::new(surface, *needed, *found));
         let ProgressiveOrder { particles, ordinals, state } = &mut **order;
         if ordinals.is_empty() {
             ordinals.extend((0..particles.len()).map(|index| index as f32));
