@@ -166,8 +166,8 @@ impl SampleInputs {
         }
     }
 
-    /// The first `count` particles of a body. If `before` has that many, they are taken from it. If not, further ones
-    /// are sampled and appended to those of `before`; with the paper's rule, where particles are not needed everywhere,
+    /// The first `count` particles of a body, or fewer where faces lie on each other ([`ProgressiveOrder::len_of`]). If
+    /// `before` has them, they are taken from it. If not, further ones are sampled and appended to those of `before`; with the paper's rule, where particles are not needed everywhere,
     /// and in a crowded order ([`ProgressiveOrder::grow`]), all are sampled anew. `before` must come from equal inputs.
     /// `surface` is called only if particles are sampled.
     pub(crate) fn sample<'a, 'mesh: 'a>(
@@ -187,7 +187,7 @@ impl SampleInputs {
             && self.needed.is_none()
             && let Some(particles) = sampled.particles.first(count)
         {
-            return if particles == sampled.particles {
+            return if particles == sampled.particles && sampled.count_on_whole == count.max(1) {
                 Arc::clone(sampled)
             } else {
                 Arc::new(Sampled { particles, count_on_whole: count.max(1), ..Sampled::clone(sampled) })
@@ -227,11 +227,12 @@ impl SampleInputs {
         });
         order.grow(surface, self.name_hash, count);
         let places = SampledPlaces::of(&order);
+        let len = places.len_of(count).unwrap_or_default();
         Arc::new(Sampled {
             albedo: Arc::new(body.albedo(order.particles.par_iter().copied())),
             particles: match before {
-                Some(before) => before.particles.continued(places, count),
-                None => Particles::new(body, places, count),
+                Some(before) => before.particles.continued(places, len),
+                None => Particles::new(body, places, len),
             },
             area: surface.area(),
             polygons: None,

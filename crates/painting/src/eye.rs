@@ -16,6 +16,9 @@ const EVEN: f64 = 0.1;
 /// picture's shorter side.
 const LARGE: f64 = 0.25;
 
+/// A triangle of which less than this share is seen is cut.
+const MUCH_SEEN: f64 = 0.5;
+
 /// The planes that bound what a view sees, in model space; each with the length of its normal (its first three
 /// numbers).
 type Planes = [(DVec4, f64); 5];
@@ -102,6 +105,16 @@ impl Eye {
         seen
     }
 
+    /// Whether the parts of a triangle with these corners may differ much: it is long beside its depth, or most of it is
+    /// out of sight.
+    pub(crate) fn is_uneven(&self, corners: [DVec3; 3], seen: &SeenPart) -> bool {
+        let depths = corners.map(|corner| self.map.row_w.dot(corner.extend(1.0)));
+        let [least, most] =
+            [depths.into_iter().fold(f64::MAX, f64::min), depths.into_iter().fold(f64::MIN, f64::max)];
+        let is_long = self.row_w_length > 0.0 && most > (1.0 + 2.0 * EVEN) * least.max(self.near);
+        is_long || seen.area() < MUCH_SEEN * SeenPart::of_triangle(corners).area()
+    }
+
     /// An upper bound on the pixels that a unit of surface at rest fills anywhere on such a part, divided by the fade of
     /// strokes near an outline; 0 where it faces away. The normal there, times the factor by which the area has grown
     /// since rest, must be a weighted mean of `area_normals`.
@@ -143,9 +156,6 @@ impl Eye {
     /// The bound, from the greatest cosine of a normal with the direction to the eye, and the greatest w³ times pixels
     /// of a unit of surface that faces the eye.
     fn most_of(&self, seen: &SeenPart, facing: f64, w3_px: f64) -> f64 {
-        if !seen.corners().iter().all(|corner| corner.is_finite()) {
-            return f64::INFINITY;
-        }
         let w_of = |corner: &DVec3| self.map.row_w.dot(corner.extend(1.0));
         let mut least_w = seen.corners().iter().map(w_of).fold(f64::MAX, f64::min);
         if self.row_w_length > 0.0 {

@@ -43,10 +43,10 @@ impl SampledPlaces {
         }
     }
 
-    /// How many particles belong to the first `count`; `None` if so many have not been sampled
+    /// How many particles belong to the first `wanted`; `None` if the order has not been sampled that far
     /// ([`ProgressiveOrder::len_of`]).
-    fn len_of(&self, count: usize) -> Option<usize> {
-        self.state.len_of(count, self.places.len(), &self.ordinals)
+    pub(crate) fn len_of(&self, wanted: usize) -> Option<usize> {
+        self.state.len_of(wanted, self.places.len(), &self.ordinals)
     }
 
     /// Particles without a progressive order: their ordinals are their indices.
@@ -65,19 +65,18 @@ impl PartialEq for Particles {
 impl Particles {
     /// The first `count` of a new order on a surface at rest.
     pub(crate) fn new(surface: &Arc<BodySurface>, sampled: SampledPlaces, count: usize) -> Self {
-        let count = sampled.len_of(count).unwrap_or(sampled.places.len());
+        let count = count.min(sampled.places.len());
         Self { order: Arc::new(()), sampled: Arc::new(sampled), surface: Arc::clone(surface), count }
     }
 
-    /// The first `count` of the same order, if that many have been sampled.
-    pub(crate) fn first(&self, count: usize) -> Option<Self> {
-        self.sampled.len_of(count).map(|count| Self { count, ..self.clone() })
+    /// Those that belong to the first `wanted` of the same order, if it has been sampled that far.
+    pub(crate) fn first(&self, wanted: usize) -> Option<Self> {
+        self.sampled.len_of(wanted).map(|count| Self { count, ..self.clone() })
     }
 
-    /// The same order with more particles.
+    /// The first `count` of the same order, after more of it was sampled.
     pub(crate) fn continued(&self, sampled: SampledPlaces, count: usize) -> Self {
-        let count = sampled.len_of(count).unwrap_or(sampled.places.len());
-        Self { count, sampled: Arc::new(sampled), ..self.clone() }
+        Self { count: count.min(sampled.places.len()), sampled: Arc::new(sampled), ..self.clone() }
     }
 
     /// Whether both are the first particles of one order, so that the shorter is the beginning of the longer. Orders

@@ -15,7 +15,8 @@ pub(crate) struct SeenPart {
 impl SeenPart {
     pub(crate) fn of_triangle([a, b, c]: [DVec3; 3]) -> Self {
         let mut part = Self::none();
-        [a, b, c].into_iter().for_each(|corner| part.push(corner));
+        part.corners[..3].copy_from_slice(&[a, b, c]);
+        part.count = 3;
         part
     }
 
@@ -23,11 +24,12 @@ impl SeenPart {
         Self { corners: [DVec3::ZERO; MOST_CORNERS], count: 0 }
     }
 
-    fn push(&mut self, corner: DVec3) {
-        if let Some(next) = self.corners.get_mut(self.count) {
-            *next = corner;
-            self.count += 1;
-        }
+    /// Adds a corner, if there is place for one. Returns whether there was.
+    fn push(&mut self, corner: DVec3) -> bool {
+        let Some(next) = self.corners.get_mut(self.count) else { return false };
+        *next = corner;
+        self.count += 1;
+        true
     }
 
     pub(crate) fn is_empty(&self) -> bool {
@@ -39,15 +41,22 @@ impl SeenPart {
         &self.corners[..self.count]
     }
 
-    /// The same with all corners moved by a linear map.
+    pub(crate) fn area(&self) -> f64 {
+        let Some((&first, others)) = self.corners().split_first() else { return 0.0 };
+        let twice = others.windows(2).map(|side| (side[0] - first).cross(side[1] - first));
+        0.5 * twice.sum::<DVec3>().length()
+    }
+
+    /// The same with all corners moved by an affine map.
     pub(crate) fn moved(&self, by: impl Fn(DVec3) -> DVec3) -> Self {
         Self { corners: self.corners.map(by), count: self.count }
     }
 
-    /// Cuts off what is beyond a plane, where `beyond` is positive. `beyond` must be linear.
+    /// Cuts off what is beyond a plane, where `beyond` is positive. `beyond` must be affine. Corners that are not
+    /// numbers stay.
     pub(crate) fn cut(&mut self, beyond: impl Fn(DVec3) -> f64) {
         let heights = self.corners.map(beyond);
-        if heights[..self.count].iter().all(|&height| height <= 0.0) {
+        if !heights[..self.count].iter().any(|&height| height > 0.0) {
             return;
         }
         let whole = std::mem::replace(self, Self::none());
@@ -55,11 +64,13 @@ impl SeenPart {
             let next = (corner + 1) % whole.count;
             let [from, to] = [corner, next].map(|at| whole.corners[at]);
             let [height, next_height] = [corner, next].map(|at| heights[at]);
-            if height <= 0.0 {
-                self.push(from);
-            }
-            if (height > 0.0) != (next_height > 0.0) {
-                self.push(from.lerp(to, height / (height - next_height)));
+            let stays = height.is_nan() || height <= 0.0;
+            let is_crossed = (height > 0.0) != (next_height > 0.0);
+            let crossing = || from.lerp(to, height / (height - next_height));
+            if stays && !self.push(from) || is_crossed && !self.push(crossing()) {
+                // Rounding has made the polygon concave. The whole is on the safe side.
+                *self = whole;
+                return;
             }
         }
     }
@@ -77,11 +88,11 @@ mod tests {
         assert_eq!(part.corners(), [a, b, c]);
         part.cut(|corner| corner.x - 1.0);
         assert_eq!(part.corners(), [a, DVec3::X, DVec3::new(1.0, 1.0, 0.0), c]);
-        // The corner at (1, 1) is cut off too.
         part.cut(|corner| corner.x + corner.y - 1.5);
+        assert_eq!(part.corners(), [a, DVec3::X, DVec3::new(1.0, 0.5, 0.0), DVec3::Y * 1.5]);
+        assert_eq!(part.area(), 1.0);
+        part.cut(|corner| corner.y - corner.x - 1.0);
         assert_eq!(part.corners().len(), 5);
-        let farthest = part.corners().iter().map(|corner| corner.x + corner.y).fold(0.0, f64::max);
-        assert!((farthest - 1.5).abs() < 1e-12);
         part.cut(|corner| 0.1 - corner.z);
         assert!(part.corners().is_empty());
     }

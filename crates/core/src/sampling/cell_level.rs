@@ -38,7 +38,7 @@ pub(super) struct ActiveCells<'a> {
     needed: Option<&'a Needed>,
 }
 
-/// A cell in which particles are thrown.
+/// What a level asks of a cell.
 #[derive(Clone, Copy)]
 struct AskedCell {
     /// Its share of the surface's area.
@@ -50,7 +50,7 @@ struct AskedCell {
     filled: Filled,
 }
 
-/// How many particles the levels were meant to add in a cell, and how many they added, since it is thrown in.
+/// How many particles the levels were meant to add in a cell, and how many they added, since particles are thrown in it.
 #[derive(Clone, Copy)]
 struct Filled {
     meant: f64,
@@ -60,10 +60,6 @@ struct Filled {
 }
 
 impl Filled {
-    fn expected(expected: f64) -> Self {
-        Self { meant: 0.0, added: 0.0, expected }
-    }
-
     /// The share of the particles meant for the cell that it has room for.
     #[inline(always)]
     fn share(self) -> f64 {
@@ -78,7 +74,9 @@ impl Filled {
 }
 
 impl AskedCell {
-    fn new(cell: &Cell, index: u32, filled: Filled) -> Self {
+    /// A new cell, in which this share of the particles meant for it is expected.
+    fn new(cell: &Cell, index: u32, expected: f64) -> Self {
+        let filled = Filled { meant: 0.0, added: 0.0, expected };
         Self { share: cell.share, bits: cell.bits, index, filled }
     }
 }
@@ -88,8 +86,7 @@ impl<'a> ActiveCells<'a> {
     pub(super) fn new(surface: &Surface<'_>, needed: Option<&'a Needed>, expected: f64) -> Self {
         let cells: Vec<Cell> = Cells::new(surface).into_iter().collect();
         let asked = cells.iter().zip(0..);
-        let asked =
-            asked.map(|(cell, index)| AskedCell::new(cell, index, Filled::expected(expected))).collect();
+        let asked = asked.map(|(cell, index)| AskedCell::new(cell, index, expected)).collect();
         Self { cells, asked, needed }
     }
 
@@ -131,7 +128,7 @@ impl<'a> ActiveCells<'a> {
             }
             for (part, number) in parts.into_iter().zip(0..) {
                 let index = needed.map_or(0, |needed| needed.part(asked.index, number));
-                let asked = AskedCell::new(&part, index, Filled::expected(asked.filled.share()));
+                let asked = AskedCell::new(&part, index, asked.filled.share());
                 match is_whole(&asked) {
                     _ if !is_needed(&asked) => {}
                     true => {
@@ -232,26 +229,27 @@ impl Wide for Throwing<'_> {
     fn run(self) -> Vec<Thrown> {
         let (mut clear, mut batch, mut cell, mut number) = (Vec::new(), Batch::default(), 0, 0);
         let [mut seed, mut count] = [0; 2];
-        loop {
-            // Fills the batch from one cell after the other.
-            if number < count {
-                let lane = batch.len;
-                (batch.cells[lane], batch.seeds[lane], batch.numbers[lane]) = (cell as u32 - 1, seed, number);
-                batch.len += 1;
-                number += 1;
-            } else if let Some(asked) = self.asked.get(cell) {
-                let tried = if self.saves_tries { asked.filled.tried() } else { 1.0 };
-                (seed, count) = self.level.thrown(asked, tried);
-                (cell, number) = (cell + 1, 0);
-            } else {
-                self.throw(&batch, &mut clear);
-                return clear;
+        let mut is_over = false;
+        while !is_over {
+            // Fills a batch from one cell after the other.
+            batch.len = 0;
+            while batch.len < LANES && !is_over {
+                if number < count {
+                    let lane = batch.len;
+                    (batch.cells[lane], batch.seeds[lane], batch.numbers[lane]) =
+                        (cell as u32 - 1, seed, number);
+                    (batch.len, number) = (lane + 1, number + 1);
+                } else if let Some(asked) = self.asked.get(cell) {
+                    let tried = if self.saves_tries { asked.filled.tried() } else { 1.0 };
+                    (seed, count) = self.level.thrown(asked, tried);
+                    (cell, number) = (cell + 1, 0);
+                } else {
+                    is_over = true;
+                }
             }
-            if batch.len == LANES {
-                self.throw(&batch, &mut clear);
-                batch.len = 0;
-            }
+            self.throw(&batch, &mut clear);
         }
+        clear
     }
 }
 

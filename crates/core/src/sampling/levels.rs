@@ -18,13 +18,13 @@ const GROWTH: f64 = 1.08;
 /// number meant, and nothing stops the level at that number.
 const FILLED: f64 = 1.0433;
 
-/// Where there is too little room (faces on top of each other, the first few particles of a thin rod), a counted level
-/// is filled up to this share of the particles that it is meant to end with. Distances do not count then, so that an
-/// order has particles even where they lie too near to each other for f32.
+/// Where there is too little room (faces on top of each other, the first few particles of a thin rod), a level is filled
+/// up to this share of the particles that it is meant to end with, unless the order is known to be crowded. Distances do
+/// not count then.
 pub(super) const LEAST_FILLED: f64 = 0.5;
 
-/// An order with so many particles, or meant to have them, may be crowded. Before that, spacings are so wide that
-/// leaves of a tree may seem to lie on each other.
+/// An order that is meant to have fewer particles than this is never crowded: its spacings are so wide that the leaves of
+/// a tree would seem to lie on each other.
 const CROWDED_FROM: usize = 2048;
 
 /// The fewest darts that one task handles: fewer are not worth another thread.
@@ -32,8 +32,8 @@ pub(super) const LEAST_CHUNK: usize = 1024;
 
 /// How much of a progressive order has been made.
 ///
-/// The first levels, up to at least 8,192 particles, are always thrown on the whole surface, and a particle's ordinal
-/// is its index. Later levels may be thrown on a part of the surface only. Then the particles that come before one
+/// The first levels, up to at least 8,192 particles, are thrown on the whole surface, and a particle's ordinal is its
+/// index. Later levels may be thrown on a part of the surface only. Then the particles that come before one
 /// cannot be counted, so its ordinal is computed from its turn among the tries of its level. In this way neither a
 /// particle nor its ordinal depends on what is far away. Only in a crowded order ([`ProgressiveState::is_crowded`])
 /// and in a strict one ([`super::Needed::is_strict`]), how many tries a cell gets depends on what earlier levels found
@@ -73,7 +73,7 @@ impl ProgressiveState {
 
     /// Whether an order on the whole surface may be in this state with this many particles.
     pub fn fits(self, particles: usize) -> bool {
-        // Levels are at least half filled; a quarter leaves room for rounding.
+        // Unless an order is crowded, levels are at least half filled; a quarter leaves room for rounding.
         let is_filled = self.is_crowded() || self.level_end / 4 <= particles.saturating_add(1);
         self.counted[0] <= particles && is_filled
     }
@@ -95,7 +95,7 @@ impl ProgressiveState {
     /// Whether the counted levels found room for hardly any more particles than the half that is always added, as where
     /// several faces lie on each other. From then on such an order has no more particles than find room: those of one
     /// face where several coincide. It is not continued but made anew.
-    pub fn is_crowded(self) -> bool {
+    pub(super) fn is_crowded(self) -> bool {
         let [count, level_end] = self.counted;
         level_end >= CROWDED_FROM && (count as f64) < 1.1 * LEAST_FILLED * level_end as f64
     }

@@ -12,8 +12,8 @@ use super::dart_grid::{Dart, DartGrid};
 use super::levels::{LEAST_CHUNK, LEAST_FILLED, ProgressiveState, TRIES, next_level_end, spacing};
 use super::{Particle, Surface};
 
-/// This many particles, if they are asked for, are always made on the whole surface, and counted: see
-/// [`ProgressiveState`].
+/// This many particles, if they are asked for, are made on the whole surface, and counted, unless the order is crowded:
+/// see [`ProgressiveState`].
 const LEAST_COUNTED: usize = 8192;
 
 /// Distinct places on a surface differ by at least about this share of its greatest coordinate.
@@ -37,8 +37,8 @@ pub fn progressive(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Partic
     order.particles
 }
 
-/// The same for at most 8,192 particles that measure a surface. Where faces lie on each other, all of these get their
-/// share: half of the samples are then laid without distances.
+/// Samples of a surface: `count` of them, but at most 8,192. They are spread as particles are, but each face has its share
+/// also where faces lie on each other: there, up to half of the samples are laid without distances.
 pub fn samples(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Particle> {
     let mut order = ProgressiveOrder::default();
     if surface.faces.is_empty() {
@@ -230,8 +230,8 @@ impl<'a> Levels<'a> {
         let accepted = Accepted { grid, particles, radius: level.radius };
         let mut added = level.added(surface, cells, field, &accepted);
         if needed.is_none() && !state.is_crowded() {
-            // Where places are too near to each other for f32, the missing particles are taken from the sequence of
-            // candidates, which is even by area.
+            // Where finer places are too near to each other for f32, the missing particles are taken from the sequence
+            // of candidates, which is even by area.
             let least = (LEAST_FILLED * (level_end - state.level_end) as f64) as usize;
             let missing = least.saturating_sub(added.particles.len());
             let numbers: Vec<u32> =

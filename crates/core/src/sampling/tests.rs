@@ -114,6 +114,33 @@ fn the_order_has_never_changed() {
     }
 }
 
+/// Samples measure the surface: each of the squares has as many as the others.
+#[test]
+fn samples_of_squares_on_each_other_are_even_by_area() {
+    let mesh = squares_on_each_other();
+    let surface = Surface::new(&mesh, |_| true);
+    let of_samples = super::samples(&surface, 1500, 3);
+    assert_eq!(bits(&of_samples), 0xa7fe_060d_dd86_8cf8);
+    assert_eq!(super::samples(&surface, 20_000, 3).len(), 8192);
+}
+
+/// Eight sheets lie so near to each other that the order seems crowded at first. At finer spacings they have room, and get
+/// their share again.
+#[test]
+fn close_sheets_get_their_share_at_fine_spacings() {
+    let sheet = |z: f32| move |x: f32, y: f32| (Vec3::new(x, y, z), Vec3::Z);
+    let sheets: Vec<_> = (0..8).map(|number| sheet(0.03 * number as f32)).collect();
+    let patch_of: Vec<&dyn Fn(f32, f32) -> (Vec3, Vec3)> = sheets.iter().map(|sheet| sheet as _).collect();
+    let mesh = patches(3, &patch_of);
+    let surface = Surface::new(&mesh, |_| true);
+    let mut order = ProgressiveOrder::default();
+    order.grow(&surface, 5, 200_000);
+    assert!(order.state.is_crowded());
+    let before = |ordinal: f32| order.ordinals.partition_point(|&of| of < ordinal) as f32;
+    let share = (before(150_000.0) - before(60_000.0)) / 90_000.0;
+    assert!((0.97..1.03).contains(&share), "{share}");
+}
+
 #[test]
 fn growing_in_steps_gives_the_same_order() {
     for mesh in [ball(), creased_sheet(), squares_on_each_other()] {
