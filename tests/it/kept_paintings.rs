@@ -6,6 +6,8 @@ use std::path::Path;
 use std::process::{Command, Output};
 use std::sync::{Arc, Mutex};
 
+use glam::Vec3;
+use impasto_core::TriangleMesh;
 use impasto_painting::{
     FindKept, FrameOptions, Kept, KeptBytes, KeptKey, Painting, PrepareOptions, Preparer,
 };
@@ -149,6 +151,35 @@ fn ink_morphs_noise_joints_caches_shots_and_every_solver_come_back_as_they_were(
         assert!(!is_taken(&made) && is_taken(&taken), "{name}: {:?}", taken.kept());
         assert_same(name, &taken, &made, &[0.0, frame]);
         assert_same(name, &taken, &impasto_painting::prepare(loaded).unwrap(), &[frame]);
+    }
+}
+
+/// Eight squares on each other: an order with fewer particles than are wanted, and with ordinals from early on.
+#[test]
+fn faces_on_each_other_come_back_as_they_were_and_are_edited_to_the_same_bits() {
+    let mut pile = TriangleMesh::default();
+    for square in 0..8u32 {
+        let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+        pile.positions.extend(corners.map(|[x, y]| Vec3::new(x, y, 0.0)));
+        pile.normals.extend([Vec3::Z; 4]);
+        pile.triangles.extend([[0, 1, 2], [0, 2, 3]].map(|face| face.map(|corner| 4 * square + corner)));
+    }
+    let loaded = |particles: u64| {
+        let mut scene = shapes::scene(vec![shapes::object("pile", particles)]);
+        scene.strokes.layers = shapes::body_layer_alone();
+        shapes::loaded(scene, [pile.clone()])
+    };
+    let (shelf, mut preparer) = (Shelf::default(), Preparer::default());
+    for particles in [20_000, 20_001, 9000, 30_000, 29_999, 1500] {
+        let loaded = loaded(particles);
+        let cold = shelf.prepare(&mut Preparer::default(), &loaded);
+        let taken = shelf.prepare(&mut Preparer::default(), &loaded);
+        assert!(!is_taken(&cold) && is_taken(&taken), "{particles}: {:?}", taken.kept());
+        assert_same("taken", &taken, &cold, &[0.0]);
+        let edited = preparer.prepare(loaded).unwrap();
+        assert_same("edited", &edited, &cold, &[0.0]);
+        let share = cold.particle_total() as f64 / particles as f64;
+        assert!(particles < 2000 || (0.1..0.25).contains(&share), "{particles}: {share}");
     }
 }
 

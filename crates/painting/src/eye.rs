@@ -175,7 +175,10 @@ impl Eye {
         }
         let w = self.map.row_w.dot(cell.center.extend(1.0));
         if self.row_w_length > 0.0 && w - self.row_w_length * radius <= self.near {
-            return (f64::INFINITY, true);
+            // Nothing nearer than the near plane is seen.
+            let towards_eye = self.w3_to_eye.transform_point3(cell.center).length();
+            let w3_px = towards_eye + self.w3_to_eye_change * radius;
+            return (most_over_fade(1.0, self.map.uneven.is_some()) * w3_px / self.near.powi(3), true);
         }
         let [along_x, along_y] = self.map.jacobian(cell.center);
         let to_eye = along_x.cross(along_y);
