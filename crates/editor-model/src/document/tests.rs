@@ -7,7 +7,7 @@ use impasto_scene::document::{CameraKey, Ease, Lens};
 use impasto_scene::load::LoadOptions;
 
 use super::*;
-use crate::command::{Arrange, Command, Edit, SceneEdit};
+use crate::command::{Arrange, Command, Edit, KeyOf, SceneEdit, Time};
 
 const QUAD: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
 
@@ -225,6 +225,9 @@ fn a_file_changed_outside_is_not_saved_over_and_can_be_read_again() {
     assert!(document.is_changed_outside());
     assert!(matches!(document.save(), Err(SaveError::ChangedOutside { .. })));
     assert_eq!(folder.text(), theirs);
+    let mut editor = crate::editor::Editor::new(document.clone());
+    editor.take_said();
+    assert!(editor.save(None).is_err());
     document.reload().expect("read");
     assert_eq!((document.scene().seed, document.is_edited()), (9, false));
     assert!(!document.is_changed_outside());
@@ -239,6 +242,10 @@ fn a_file_changed_outside_is_not_saved_over_and_can_be_read_again() {
     // What the document itself saves is not reported as a change.
     document.save_as(&folder.path()).expect("a file chosen by hand is written over");
     assert!(!document.is_changed_outside());
+    // Where the user says so, the other program's change is written over, and told as any saving is.
+    editor.save_over().expect("written over");
+    assert_eq!(editor.take_said().last().map(|said| said.words.clone()).as_deref(), Some("Saved s.ron"));
+    assert_ne!(folder.text(), theirs);
 }
 
 #[test]
@@ -381,6 +388,40 @@ fn a_shot_that_was_exported_again_is_no_edit_and_what_was_edited_stays_one() {
     export("1");
     document.read_files_again().expect("read");
     assert!(document.is_edited() && document.scene().seed == 9);
+}
+
+/// A camera rolls once round itself in 72 frames. Its keys go on beyond half a turn rather than back by a whole one.
+#[test]
+fn keys_of_a_shot_whose_camera_rolls_roll_on() {
+    let folder = Folder::with("(version: 1, shot: \"shot.gltf\", timeline: (fps: 24, first: 0, last: 72))");
+    // Times 0 to 3, then the quaternions of 0, 120, 240 and 360 degrees about z.
+    let gltf = r#"{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+        "nodes": [{"name": "eye", "camera": 0, "translation": [0, 0, 4]}, {"name": "leaf", "mesh": 0}],
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 0.6, "znear": 0.1}}],
+        "buffers": [{"byteLength": 80, "uri": "data:application/octet-stream;base64,AAAAAAAAgD8AAABAAABAQAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAANezXT8AAAA/AAAAAAAAAADXs10/AAAAvwAAAAAAAAAAMjENJQAAgL8="},
+        {"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 80}, {"buffer": 1, "byteLength": 36}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "SCALAR", "min": [0], "max": [3]},
+        {"bufferView": 0, "byteOffset": 16, "componentType": 5126, "count": 4, "type": "VEC4"},
+        {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 2}}]}],
+        "animations": [{"samplers": [{"input": 0, "output": 1}],
+        "channels": [{"sampler": 0, "target": {"node": 0, "path": "rotation"}}]}]}"#;
+    fs::write(folder.0.path().join("shot.gltf"), gltf).expect("written");
+    let mut document = folder.open();
+    document.apply(&Command::Time(Time::OwnKeys(KeyOf::Camera))).expect("done");
+    let keys = &document.scene().camera.keys;
+    let [first, .., last] = &**keys else { panic!("{} keys", keys.len()) };
+    assert!((first.frame, last.frame) == (0.0, 72.0), "{} to {}", first.frame, last.frame);
+    assert!(
+        ((last.roll_deg - first.roll_deg).abs() - 360.0).abs() < 1e-3,
+        "{} to {}",
+        first.roll_deg,
+        last.roll_deg
+    );
+    let steps =
+        keys.windows(2).map(|pair| (pair[1].roll_deg - pair[0].roll_deg) / (pair[1].frame - pair[0].frame));
+    assert!(steps.map(f64::abs).all(|degrees| (degrees - 5.0).abs() < 1e-3), "each frame rolls by 5 degrees");
 }
 
 #[test]

@@ -96,6 +96,15 @@ fn shift_takes_touches_away_and_elsewhere_strokes() {
     let amounts = &world.document.scene().regions[0].amounts;
     assert!(amounts.len() == 1 && amounts[0].of == Amount::Density);
     assert!(amounts[0].dabs.iter().all(|dab| dab.by == 0.0));
+    // The dabs reach half as far again as the ring, whose radius is half of a touch's width.
+    let reach = amounts[0].dabs[0].radius;
+    world.drag(Tool::Touch, &[[300.0, 110.0], [340.0, 110.0]], NONE);
+    let [from, .., to] = &*touches(&world)[2].points else { panic!("a long touch") };
+    let px_per_unit = 40.0 / DVec3::from(from.at).distance(to.at.into());
+    let reach_px = reach * px_per_unit;
+    let ring_px = world.options.touch_radius_px;
+    assert!((reach_px / (1.5 * ring_px) - 1.0).abs() < 0.05, "{reach_px} for a ring of {ring_px}");
+    world.document.undo().unwrap();
     // The setting `touch_erases` swaps laying and erasing.
     world.options.touch_erases = true;
     world.drag(Tool::Touch, &[ASIDE], NONE);
