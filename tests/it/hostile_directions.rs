@@ -1,5 +1,6 @@
-//! Tests of painted directions that contradict each other, lie beside the surface, or refer to missing things: each is
-//! reported with its place, and those that only warn still give a picture.
+//! Tests of scenes whose regions, guides, painted amounts, reference frame or morphs are wrong: out of range, against each
+//! other, off the surface, or about what is missing. Each is reported with its place, and those that only warn still give
+//! a picture.
 
 use std::fs;
 

@@ -170,7 +170,7 @@ fn a_floor_that_bends_has_the_same_strokes_with_fewer_particles() {
         let [along, across] = [0.7 * at.x, 0.9 * at.z + 0.4].map(f64::sin);
         DVec3::new(at.x + 0.4 * across, at.y + 1.1 * along * across, at.z + 0.3 * along)
     };
-    // Strokes that lie below the floor show longer when it turns away. Large faces near the camera are cut.
+    // Strokes that lie below the floor show longer when it turns away. Large faces reach past the camera.
     for (lens, offset, faces) in [
         (scene.camera.lens.clone(), None, 54),
         (scene.camera.lens.clone(), Some(-0.3), 54),

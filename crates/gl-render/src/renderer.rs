@@ -60,7 +60,8 @@ pub struct Renderer {
     encoder: Encoder,
     /// The last picture before it was encoded.
     painted: Option<Painted>,
-    /// How the picture in `painted` is seen; `None` while the picture is unfinished.
+    /// How the picture in `painted` is seen. `None` until that picture is finished, and after the shaders were
+    /// replaced.
     last: Option<Seen>,
     billboards: Vec<LightBillboard>,
     /// Created when the first billboard is drawn.
@@ -208,7 +209,8 @@ impl Renderer {
         self.billboards.extend_from_slice(billboards);
     }
 
-    /// The last picture again, with the light icons that are set now; `None` where there is no finished picture.
+    /// The last picture again, with the light icons that are set now; `None` where no picture is finished,
+    /// or the shaders were replaced since.
     ///
     /// # Errors
     /// As [`Renderer::render`].

@@ -51,8 +51,8 @@ pub(crate) struct Combed {
     pub(crate) field: Option<Arc<BodyField>>,
 }
 
-/// Equal where the same lifts would be baked. The number of particles matters only where flatness is painted: its
-/// factors are compared, and there is one per particle.
+/// Equal where the same lifts would be baked. The number of particles matters in two cases: where flatness is painted
+/// (one factor for each particle), and where neighbours are used (for another number their lists are made anew).
 impl PartialEq for BakeInputs {
     fn eq(&self, other: &Self) -> bool {
         let (sources, before) = (&self.sources, &other.sources);
@@ -171,8 +171,8 @@ impl BakeInputs {
         Arc::new(BakedBody { placed, flatness, looks })
     }
 
-    /// N' of a particle and its base angle in the reference picture, radians (0 with the solver `Tangent`, which has no
-    /// use for it). `stray_rad` is what chance and slow noise add to the base angle.
+    /// N' of a particle, and the angle of its stroke in the reference picture, radians (0 with the solver `Tangent`,
+    /// which has no use for it). Both include the rule's turn and `stray_rad`, which chance and slow noise add.
     fn lift(
         &self,
         index: usize,

@@ -167,9 +167,10 @@ impl SampleInputs {
     }
 
     /// The first `count` particles of a body, or fewer where faces lie on each other ([`ProgressiveOrder::len_of`]). If
-    /// `before` has them, they are taken from it. If not, further ones are sampled and appended to those of `before`; with the paper's rule, where particles are not needed everywhere,
-    /// and in a crowded order ([`ProgressiveOrder::grow`]), all are sampled anew. `before` must come from equal inputs.
-    /// `surface` is called only if particles are sampled.
+    /// `before` has them, they are taken from it. If not, further ones are sampled and appended to those of `before`;
+    /// with the paper's rule, where particles are not needed everywhere, and in a crowded order
+    /// ([`ProgressiveOrder::grow`]), all are sampled anew. `before` must come from equal inputs. `surface` is called
+    /// only if particles are sampled.
     pub(crate) fn sample<'a, 'mesh: 'a>(
         &self,
         before: Option<Arc<Sampled>>,

@@ -16,9 +16,6 @@ const EVEN: f64 = 0.1;
 /// picture's shorter side.
 const LARGE: f64 = 0.25;
 
-/// A triangle of which less than this share is seen is cut.
-const MUCH_SEEN: f64 = 0.5;
-
 /// The planes that bound what a view sees, in model space; each with the length of its normal (its first three
 /// numbers).
 type Planes = [(DVec4, f64); 5];
@@ -105,17 +102,7 @@ impl Eye {
         seen
     }
 
-    /// Whether the parts of a triangle with these corners may differ much: it is long beside its depth, or most of it is
-    /// out of sight.
-    pub(crate) fn is_uneven(&self, corners: [DVec3; 3], seen: &SeenPart) -> bool {
-        let depths = corners.map(|corner| self.map.row_w.dot(corner.extend(1.0)));
-        let [least, most] =
-            [depths.into_iter().fold(f64::MAX, f64::min), depths.into_iter().fold(f64::MIN, f64::max)];
-        let is_long = self.row_w_length > 0.0 && most > (1.0 + 2.0 * EVEN) * least.max(self.near);
-        is_long || seen.area() < MUCH_SEEN * SeenPart::of_triangle(corners).area()
-    }
-
-    /// An upper bound on the pixels that a unit of surface at rest fills anywhere on such a part, divided by the fade of
+    /// An upper bound on the pixels that a unit of surface at rest fills anywhere on such a part with finite corners, divided by the fade of
     /// strokes near an outline; 0 where it faces away. The normal there, times the factor by which the area has grown
     /// since rest, must be a weighted mean of `area_normals`.
     pub(crate) fn most_on(&self, seen: &SeenPart, area_normals: impl Iterator<Item = DVec3>) -> f64 {
@@ -161,6 +148,11 @@ impl Eye {
         if self.row_w_length > 0.0 {
             least_w = (least_w - self.row_w_length * self.most_offset).max(self.near);
         }
+        self.most_at(least_w, facing, w3_px)
+    }
+
+    /// The same, from the least w.
+    fn most_at(&self, least_w: f64, facing: f64, w3_px: f64) -> f64 {
         let most = most_over_fade(facing, self.map.uneven.is_some()) * w3_px / least_w.powi(3);
         if most.is_nan() { f64::INFINITY } else { most }
     }
@@ -178,7 +170,7 @@ impl Eye {
             // Nothing nearer than the near plane is seen.
             let towards_eye = self.w3_to_eye.transform_point3(cell.center).length();
             let w3_px = towards_eye + self.w3_to_eye_change * radius;
-            return (most_over_fade(1.0, self.map.uneven.is_some()) * w3_px / self.near.powi(3), true);
+            return (self.most_at(self.near, 1.0, w3_px), true);
         }
         let [along_x, along_y] = self.map.jacobian(cell.center);
         let to_eye = along_x.cross(along_y);
@@ -281,12 +273,15 @@ mod tests {
             }
             of_triangle
         };
-        let mut seen = 0;
+        let (mut seen, mut near) = (0, 0);
         for (eye, target, lens) in [
             ([0.0, 2.0, 9.0], [0.0, 0.0, 0.0], PixelLens::Perspective { focal_px: 500.0 }),
             ([0.3, 1.1, 0.2], [3.0, 1.0, -2.0], PixelLens::Perspective { focal_px: 300.0 }),
             ([1.0, -4.0, 2.0], [0.0, 0.0, 0.0], PixelLens::Perspective { focal_px: 400.0 }),
             ([4.0, 3.0, 4.0], [0.0, 0.0, 0.0], PixelLens::Orthographic { px_per_unit: 50.0 }),
+            // In the field itself.
+            ([0.3, 0.55, 0.2], [3.0, 0.5, -2.0], PixelLens::Perspective { focal_px: 300.0 }),
+            ([2.1, -0.4, 1.4], [-3.0, 0.2, 2.0], PixelLens::Perspective { focal_px: 300.0 }),
         ] {
             let view = glam::dcamera::rh::view::look_at_mat4(eye.into(), target.into(), DVec3::Y);
             for pose in [DAffine3::IDENTITY, DAffine3::from_scale(DVec3::new(1.5, 0.7, 1.0))] {
@@ -307,6 +302,7 @@ mod tests {
                         continue;
                     }
                     seen += 1;
+                    near += u32::from(map.depth(at) < 0.15);
                     let fade = f64::from(presence::of_facing(facing).max(LEAST_COUNTED_FADE));
                     let needed = area_px(jacobian, normal) / fade;
                     let most = of_triangle[particle.triangle as usize]
@@ -317,6 +313,6 @@ mod tests {
                 }
             }
         }
-        assert!(seen > 10_000, "{seen}");
+        assert!(seen > 10_000 && near > 20, "{seen}, {near} of them near the eye");
     }
 }

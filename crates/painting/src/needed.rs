@@ -2,7 +2,7 @@
 //! needs there.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use glam::{DVec3, Mat3, Vec3};
 use impasto_core::bending::{most_growth, normals_around};
@@ -17,7 +17,6 @@ use crate::eye::Eye;
 use crate::own_depths::{Covered, OwnDepths};
 use crate::particle_count::{Reach, Sighting};
 use crate::parts::BodyParts;
-use crate::seen_part::SeenPart;
 
 const LAYERS: usize = LayerKind::ALL.len();
 
@@ -46,9 +45,6 @@ const PAIRS_PER_PARTICLE: usize = 2;
 /// times in a row.
 const FEW: f64 = 4.0;
 const MOST_DEPTH: u32 = 12;
-
-/// Cells of a body whose vertices move are cut at most this often in a row: each time, all vertices are moved anew.
-const MOST_ROUNDS: usize = 3;
 
 /// An object whose faces cover its part of the picture at least `HEAP` times over is a heap: surface that the object
 /// itself hides needs no particles. If other groups of its mesh are objects too, `HEAP_OF_GROUP` times are enough. A
@@ -140,15 +136,9 @@ impl NeededInputs {
                 let particles: usize = may_be_left_out.filter(|(_, may)| *may).map(|(count, _)| count).sum();
                 let pieces: usize = cells.all().iter().map(|cell| cell.triangles(surface).count()).sum();
                 let pairs = sightings.len() * (surface.mesh().positions.len() + pieces);
-                let most_pairs = MOST_PAIRS.min(PAIRS_PER_PARTICLE * particles);
-                most_pairs.checked_sub(pairs).map(|pairs_left| {
-                    let bounds = MovingBounds {
-                        has_noise: noise > 0.0,
-                        most_on_whole: counted.counts.iter().copied().max().unwrap_or_default() as f64,
-                        pairs_left,
-                    };
-                    (self.seen_moving(surface, &cells, bounds, needed_per_px), KindOfBody::Moving)
-                })
+                let seen = || self.seen_moving(surface, &cells, noise > 0.0, needed_per_px);
+                (pairs <= MOST_PAIRS.min(PAIRS_PER_PARTICLE * particles))
+                    .then(|| (seen(), KindOfBody::Moving))
             }
         };
         let Some((seen, kind_of_body)) = seen else { return counts };
@@ -197,70 +187,35 @@ impl NeededInputs {
         seen
     }
 
-    /// The same for a body whose vertices move. No cell needs more than on the whole surface. Where noise moves vertices
-    /// too, a cell that is seen needs all its particles: how far noise makes a surface grow is not known.
+    /// The same for a body whose vertices move. Its cells are not cut, and none needs more than on the whole surface.
+    /// Where noise moves vertices too, a cell that is seen needs all its particles: how far noise makes a surface grow
+    /// is not known.
     fn seen_moving(
         &self,
         surface: &Surface<'_>,
         cells: &Cells,
-        MovingBounds { has_noise, most_on_whole, mut pairs_left }: MovingBounds,
+        has_noise: bool,
         needed_per_px: impl Fn(&Cell) -> [f64; LAYERS] + Sync,
     ) -> Vec<(SeenCell, [f64; LAYERS])> {
-        let seen =
-            self.look_at_moving(surface, cells.all().to_vec(), has_noise).into_par_iter().map(|seen| {
-                let needed = if seen.px_per_area > 0.0 { needed_per_px(&seen.cell) } else { [0.0; LAYERS] };
-                (seen, needed)
-            });
-        let mut seen: Vec<(SeenCell, [f64; LAYERS])> = seen.collect();
-        for _ in 0..MOST_ROUNDS {
-            let mut to_cut = Vec::new();
-            for (seen, needed) in &mut seen {
-                seen.find_to_cut(most(needed), most_on_whole, &mut to_cut);
-            }
-            let parts_of: Vec<Vec<Cell>> = to_cut.par_iter().map(|seen| seen.cell.split(surface)).collect();
-            let pieces: usize = parts_of.iter().flatten().map(|part| part.triangles(surface).count()).sum();
-            let views = self.sightings.iter().flatten().count();
-            let pairs = views * (surface.mesh().positions.len() + pieces);
-            if pieces == 0 || pairs > pairs_left {
-                break;
-            }
-            pairs_left -= pairs;
-            let counts: Vec<usize> = parts_of.iter().map(Vec::len).collect();
-            let mut looked_at = self.look_at_moving(surface, parts_of.concat(), has_noise).into_iter();
-            for (seen, count) in to_cut.into_iter().zip(counts) {
-                seen.parts = looked_at.by_ref().take(count).collect();
-                seen.is_uneven = false;
-            }
-        }
-        seen.par_iter_mut().for_each(|(seen, _)| seen.take_most_of_parts());
-        seen
-    }
-
-    /// Cells of a body whose vertices move, as the views see them.
-    fn look_at_moving(&self, surface: &Surface<'_>, cells: Vec<Cell>, has_noise: bool) -> Vec<SeenCell> {
         // The bits of the most pixels that a unit of a cell's surface may fill: positive numbers are in the order of
-        // their bits. Then whether its parts differ much.
-        let found: Vec<(AtomicU64, AtomicBool)> = cells.iter().map(|_| Default::default()).collect();
+        // their bits.
+        let most: Vec<AtomicU64> = cells.all().iter().map(|_| AtomicU64::new(0)).collect();
         let body = self.counted.surface();
         let look = |sighting: &Sighting| {
             let eye = Eye::new(sighting, self.reach);
             let shape = &sighting.shape;
             let (positions, gradients) =
                 if has_noise { (body.positions_at(shape), None) } else { body.moved_to(shape) };
-            for (cell, (most, is_uneven)) in cells.iter().zip(&found) {
+            for (cell, most) in cells.all().iter().zip(&most) {
                 for piece in cell.pieces_at(surface, &positions) {
-                    let seen = eye.seen_part(piece.corners);
-                    if seen.is_empty() {
-                        continue;
-                    }
                     let of_corner = |vertex: u32| gradients.as_ref().map(|all| all[vertex as usize]);
                     let gradients = piece.vertices.map(|vertex| of_corner(vertex).unwrap_or(Mat3::IDENTITY));
-                    let px_per_area =
-                        if has_noise { f64::INFINITY } else { most_on_piece(&eye, &piece, &seen, gradients) };
+                    let px_per_area = if has_noise {
+                        if eye.seen_part(piece.corners).is_empty() { 0.0 } else { f64::INFINITY }
+                    } else {
+                        most_on_piece(&eye, &piece, gradients)
+                    };
                     most.fetch_max(px_per_area.to_bits(), Ordering::Relaxed);
-                    if !has_noise && px_per_area > 0.0 && eye.is_uneven(piece.corners, &seen) {
-                        is_uneven.store(true, Ordering::Relaxed);
-                    }
                 }
             }
         };
@@ -270,27 +225,22 @@ impl NeededInputs {
             body.gradients();
         }
         self.sightings.par_iter().flatten().for_each(look);
-        let seen = |(cell, (most, is_uneven)): (Cell, (AtomicU64, AtomicBool))| SeenCell {
-            is_uneven: is_uneven.into_inner(),
-            ..SeenCell::whole(cell, f64::from_bits(most.into_inner()))
+        let seen = |(cell, most): (&Cell, AtomicU64)| {
+            let px_per_area = f64::from_bits(most.into_inner());
+            let needed = if px_per_area > 0.0 { needed_per_px(cell) } else { [0.0; LAYERS] };
+            (SeenCell::whole(cell, px_per_area), needed)
         };
-        cells.into_iter().zip(found).map(seen).collect()
+        cells.all().par_iter().zip(most).map(seen).collect()
     }
 }
 
-/// What bounds the needs of a body whose vertices move.
-struct MovingBounds {
-    has_noise: bool,
-    /// The length of the longest order that counts.
-    most_on_whole: f64,
-    /// How many vertices and pieces of all views may still be looked at, to cut cells.
-    pairs_left: usize,
-}
-
 /// An upper bound on the pixels that a unit of surface at rest fills on a moved piece, divided by the fade of strokes
-/// near an outline; 0 where it faces away. `seen` is the part of it inside the view, `gradients` are F at the corners of
-/// the mesh's triangle.
-fn most_on_piece(eye: &Eye, piece: &CellPiece, seen: &SeenPart, gradients: [Mat3; 3]) -> f64 {
+/// near an outline; 0 where the view does not see it. `gradients` are F at the corners of the mesh's triangle.
+fn most_on_piece(eye: &Eye, piece: &CellPiece, gradients: [Mat3; 3]) -> f64 {
+    let seen = eye.seen_part(piece.corners);
+    if seen.is_empty() {
+        return 0.0;
+    }
     if !seen.corners().iter().all(|corner| corner.is_finite()) {
         return f64::INFINITY;
     }
@@ -303,9 +253,9 @@ fn most_on_piece(eye: &Eye, piece: &CellPiece, seen: &SeenPart, gradients: [Mat3
     match blended {
         Some((smooth, shortest)) => {
             let around = normals_around(gradients, smooth.map(|normal| normal.as_vec3()));
-            eye.most_on(seen, around.map(Vec3::as_dvec3)) / shortest
+            eye.most_on(&seen, around.map(Vec3::as_dvec3)) / shortest
         }
-        None => eye.most_facing(seen, f64::from(most_growth(gradients))),
+        None => eye.most_facing(&seen, f64::from(most_growth(gradients))),
     }
 }
 
@@ -317,7 +267,7 @@ fn most(needed: &[f64; LAYERS]) -> f64 {
 /// A cell, with the smaller ones that it is cut into where a view sees them very differently.
 struct SeenCell {
     cell: Cell,
-    /// The views that may see it; not listed for a body whose vertices move.
+    /// The views that may see it.
     eyes: Vec<usize>,
     /// The most pixels that a unit of its surface may fill: see [`Eye::most_per_area`].
     px_per_area: f64,
@@ -342,13 +292,14 @@ struct Cutting {
 }
 
 impl SeenCell {
-    /// A cell that is not to be cut, and of which only these pixels are known.
-    fn whole(cell: Cell, px_per_area: f64) -> Self {
+    /// A cell that is not to be cut, nor to get more than on the whole surface.
+    fn whole(cell: &Cell, px_per_area: f64) -> Self {
+        let cell = cell.clone();
         Self { cell, eyes: Vec::new(), px_per_area, px_in_picture: 0.0, is_uneven: false, parts: Vec::new() }
     }
 
     fn new(surface: &Surface<'_>, cell: &Cell, eyes: &[Eye], of: &[usize]) -> Self {
-        let mut seen = Self::whole(cell.clone(), 0.0);
+        let mut seen = Self::whole(cell, 0.0);
         for &eye in of {
             let (px_per_area, is_uneven) = eyes[eye].most_per_area(cell);
             let covered = || eyes[eye].own.as_ref().map_or(Covered::Nowhere, |own| own.covers(surface, cell));
@@ -373,25 +324,6 @@ impl SeenCell {
             && (needed * self.px_per_area).min(most_on_whole) * self.cell.share >= FEW
     }
 
-    /// Finds the smallest of its parts that are to be cut.
-    fn find_to_cut<'a>(&'a mut self, needed: f64, most_on_whole: f64, found: &mut Vec<&'a mut Self>) {
-        if !self.parts.is_empty() {
-            self.parts.iter_mut().for_each(|part| part.find_to_cut(needed, most_on_whole, found));
-        } else if self.is_to_cut(needed, most_on_whole) {
-            found.push(self);
-        }
-    }
-
-    /// Takes the greatest numbers of its parts, if it was cut.
-    fn take_most_of_parts(&mut self) {
-        self.parts.iter_mut().for_each(Self::take_most_of_parts);
-        if !self.parts.is_empty() {
-            let most = |of: fn(&Self) -> f64| self.parts.iter().map(of).fold(0.0, f64::max);
-            (self.px_per_area, self.px_in_picture) =
-                (most(|part| part.px_per_area), most(|part| part.px_in_picture));
-        }
-    }
-
     /// Cuts the cell while it is to be cut.
     fn refine(&mut self, surface: &Surface<'_>, eyes: &[Eye], cutting: Cutting) {
         let Cutting { needed, most_on_whole, depth, cuts } = cutting;
@@ -403,7 +335,11 @@ impl SeenCell {
         let sharing = self.parts.iter().filter(|part| part.is_to_cut(needed, most_on_whole)).count().max(1);
         let cutting = Cutting { depth: depth - 1, cuts: (cuts - 1).div_ceil(sharing), ..cutting };
         self.parts.iter_mut().for_each(|part| part.refine(surface, eyes, cutting));
-        self.take_most_of_parts();
+        if !self.parts.is_empty() {
+            let most = |of: fn(&Self) -> f64| self.parts.iter().map(of).fold(0.0, f64::max);
+            (self.px_per_area, self.px_in_picture) =
+                (most(|part| part.px_per_area), most(|part| part.px_in_picture));
+        }
     }
 }
 

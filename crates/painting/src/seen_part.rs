@@ -41,12 +41,6 @@ impl SeenPart {
         &self.corners[..self.count]
     }
 
-    pub(crate) fn area(&self) -> f64 {
-        let Some((&first, others)) = self.corners().split_first() else { return 0.0 };
-        let twice = others.windows(2).map(|side| (side[0] - first).cross(side[1] - first));
-        0.5 * twice.sum::<DVec3>().length()
-    }
-
     /// The same with all corners moved by an affine map.
     pub(crate) fn moved(&self, by: impl Fn(DVec3) -> DVec3) -> Self {
         Self { corners: self.corners.map(by), count: self.count }
@@ -68,7 +62,7 @@ impl SeenPart {
             let is_crossed = (height > 0.0) != (next_height > 0.0);
             let crossing = || from.lerp(to, height / (height - next_height));
             if stays && !self.push(from) || is_crossed && !self.push(crossing()) {
-                // Rounding has made the polygon concave. The whole is on the safe side.
+                // Rounding has made the polygon concave. It stays uncut: too large a part does no harm.
                 *self = whole;
                 return;
             }
@@ -90,10 +84,22 @@ mod tests {
         assert_eq!(part.corners(), [a, DVec3::X, DVec3::new(1.0, 1.0, 0.0), c]);
         part.cut(|corner| corner.x + corner.y - 1.5);
         assert_eq!(part.corners(), [a, DVec3::X, DVec3::new(1.0, 0.5, 0.0), DVec3::Y * 1.5]);
-        assert_eq!(part.area(), 1.0);
         part.cut(|corner| corner.y - corner.x - 1.0);
         assert_eq!(part.corners().len(), 5);
         part.cut(|corner| 0.1 - corner.z);
         assert!(part.corners().is_empty());
+    }
+
+    /// What is not known stays: what it needs must not be taken for nothing.
+    #[test]
+    fn corners_that_are_no_numbers_stay_and_too_many_corners_leave_all() {
+        let mut part = SeenPart::of_triangle([DVec3::ZERO, DVec3::X, DVec3::NAN]);
+        part.cut(|corner| corner.x - 0.5);
+        assert!(part.corners().iter().any(|corner| corner.is_nan()));
+        // Eight corners, of which every second one is cut off: more than there is place for.
+        let corner = |at: usize| DVec3::new((at as f64).cos(), (at as f64).sin(), (at % 2) as f64);
+        let mut part = SeenPart { corners: std::array::from_fn(corner), count: MOST_CORNERS };
+        part.cut(|corner| corner.z - 0.5);
+        assert_eq!(part.corners(), std::array::from_fn::<_, MOST_CORNERS, _>(corner));
     }
 }

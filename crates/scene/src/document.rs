@@ -277,7 +277,8 @@ pub struct Object {
     /// The object that this one moves with.
     #[serde(default, skip_serializing_if = "is_default")]
     pub parent: Option<String>,
-    /// How many particles it has, at most 16000000; fewer where its faces lie on each other. Left out, the number follows from the coverage.
+    /// How many particles it has, at most 16000000; fewer where its faces lie on each other. Left out, the number
+    /// follows from the coverage.
     #[serde(default, skip_serializing_if = "is_default")]
     pub particles: Option<u64>,
     /// For how many frames each pose is held, from 1 to 1000, counted from the first frame. With 1 the object moves in

@@ -31,7 +31,7 @@ pub struct Shot {
     /// The objects, in the order of the file's nodes.
     objects: Vec<ShotObject>,
     object_of_name: HashMap<String, usize>,
-    /// The node of the camera that is looked through.
+    /// The node of the camera that is looked through where no cut of the sidecar says otherwise.
     camera: Option<usize>,
     /// Whether the scene names a camera, even one that the file lacks. If so, the camera cuts of the sidecar are
     /// ignored.
@@ -71,7 +71,7 @@ impl Choice {
     }
 }
 
-/// The animation of this name, or else all of them. Adds to `odd` what is not clear in the file.
+/// The animation of this name, or else all of them. Adds to `odd` if there is none of this name, and what two animations both move.
 fn playing(file: &GltfFile, name: Option<&str>, odd: &mut Vec<[String; 2]>) -> Animator {
     let named = name.map_or(Playing::All, Playing::Named);
     let (animator, double) = Animator::new(&file.gltf, named).unwrap_or_else(|names| {
@@ -175,8 +175,8 @@ impl Shot {
         self.stated_rate().or_else(|| self.rate_of_keys()).unwrap_or(24.0)
     }
 
-    /// The first and the last frame, at `fps` frames per second. They are those that the sidecar states, if it states
-    /// no other rate. Otherwise they are those between which the shot moves (frame = time · fps).
+    /// The first and the last frame, at `fps` frames per second: those that the sidecar states, unless it also states a
+    /// rate that is not `fps`. Otherwise those between which the shot moves (frame = time · fps).
     pub fn frames(&self, fps: f64) -> (i64, i64) {
         if let Some([first, last]) =
             self.file.sidecar.frames.filter(|_| self.stated_rate().is_none_or(|rate| rate == fps))

@@ -22,8 +22,8 @@ const CELLS: usize = 32;
 /// A cell that would have more tries than this in a level is split.
 const MOST_TRIES: f64 = 48.0;
 
-/// Where faces lie on each other, most tries are in vain: the room for particles is that of one face. So a cell in
-/// which only the share s of the particles was found that were meant for it gets the share `SPARE` s of its tries.
+/// Where faces lie on each other, there is only room for the particles of one face, and most tries are in vain. So a
+/// cell that had room for the share s of the particles meant for it gets the share `SPARE` s of its tries, at most all.
 const SPARE: f64 = 8.0;
 
 /// The least share of its tries that a cell gets: so room that opens up is found.
@@ -32,8 +32,8 @@ const LEAST_TRIED: f64 = 1.0 / 32.0;
 /// The cells in which the present level is thrown.
 pub(super) struct ActiveCells<'a> {
     cells: Vec<Cell>,
-    /// What each level asks of every one of these cells, apart from the rest: where faces lie on each other, most cells
-    /// get no try at all.
+    /// What a level asks of each of these cells, in the same order. It is an array of its own because each level goes
+    /// through all of it, and reads the cell itself only for a try: where faces lie on each other, most cells get none.
     asked: Vec<AskedCell>,
     needed: Option<&'a Needed>,
 }
@@ -50,12 +50,14 @@ struct AskedCell {
     filled: Filled,
 }
 
-/// How many particles the levels were meant to add in a cell, and how many they added, since particles are thrown in it.
+/// How many particles the levels were meant to add in a cell from when it was made, and how many they added. Counted
+/// only where tries are saved.
 #[derive(Clone, Copy)]
 struct Filled {
     meant: f64,
     added: f64,
-    /// The share that is expected of it. It counts as much as one particle that was meant for the cell.
+    /// The share of the particles meant for it that the cell was expected to have room for when it was made. It counts
+    /// as much as one particle that was meant.
     expected: f64,
 }
 
@@ -90,7 +92,8 @@ impl<'a> ActiveCells<'a> {
         Self { cells, asked, needed }
     }
 
-    /// Drops the cells that need no particle from this ordinal on, and splits those that have many tries.
+    /// Drops the cells that need no particle from this ordinal on. Splits those that would have many tries and, if
+    /// `needed` is strict, all those whose parts are listed.
     fn refine(&mut self, surface: &Surface<'_>, (tries, ordinal): (f64, f32)) {
         let needed = self.needed;
         let is_whole = |asked: &AskedCell| {
@@ -141,7 +144,7 @@ impl<'a> ActiveCells<'a> {
         }
     }
 
-    /// Notes how many particles a level was meant to add, and the cells in which it added some.
+    /// Notes how many particles a level was meant to add, and the cell of each particle that it added.
     fn note(&mut self, meant: f64, added: impl Iterator<Item = u32>) {
         for asked in &mut self.asked {
             asked.filled.meant += meant * asked.share;
@@ -170,8 +173,8 @@ const LANES: usize = 8;
 #[derive(Default)]
 struct Batch {
     len: usize,
-    /// For each candidate the index of its cell among those of the task, the cell's random bits, and the candidate's
-    /// number in it.
+    /// For each candidate the index of its cell among those of the task, the level's seed for that cell, and the
+    /// candidate's number in the cell.
     cells: [u32; LANES],
     seeds: [u32; LANES],
     numbers: [u32; LANES],
@@ -207,7 +210,7 @@ impl Randoms {
     }
 }
 
-/// Throws a level's candidates in some cells. Only what is seldom called is not inlined.
+/// Throws a level's candidates in some cells. All that it calls often is inlined (see [`Wide`]).
 struct Throwing<'a> {
     level: &'a CellLevel,
     surface: &'a Surface<'a>,
@@ -307,7 +310,8 @@ impl CellLevel {
     ) -> Added {
         let tries = self.tries();
         active.refine(surface, (tries, self.ordinal(0.0)));
-        // A heap hides much of itself, so its particles depend on the views anyway; many heaps are crowded in parts.
+        // A strict order is that of a body that hides most of itself. Its particles depend on the views anyway, and
+        // many such bodies are crowded in parts.
         let saves_tries = self.state.is_crowded() || active.needed.is_some_and(|needed| needed.is_strict);
         let of_cells = |(chunk, (cells, asked)): (usize, (&[Cell], &[AskedCell]))| {
             widest(Throwing {
@@ -355,8 +359,8 @@ impl CellLevel {
         (self.ends[1] - self.ends[0]) as f64 * TRIES as f64
     }
 
-    /// The random bits and the number of the candidates that are thrown in a cell: the share `tried` of the level's,
-    /// whether they are needed or not.
+    /// The level's seed for a cell, and how many candidates are thrown there, needed or not: the share `tried` of the
+    /// cell's tries.
     #[inline(always)]
     fn thrown(&self, cell: &AskedCell, tried: f64) -> (u32, u32) {
         let seed = hash::combine(hash::combine(self.seed, cell.bits), self.ends[0] as u32);

@@ -18,13 +18,14 @@ const GROWTH: f64 = 1.08;
 /// number meant, and nothing stops the level at that number.
 const FILLED: f64 = 1.0433;
 
-/// Where there is too little room (faces on top of each other, the first few particles of a thin rod), a level is filled
-/// up to this share of the particles that it is meant to end with, unless the order is known to be crowded. Distances do
-/// not count then.
+/// Where there is too little room (faces on top of each other, the first few particles of a thin rod), a counted level
+/// is filled up to this share of the particles that it is meant to end with. A later level is filled up to this share
+/// of those that it is meant to add, if the order is not crowded and lies on the whole surface. Particles that fill up
+/// keep no distances.
 pub(super) const LEAST_FILLED: f64 = 0.5;
 
-/// An order that is meant to have fewer particles than this is never crowded: its spacings are so wide that the leaves of
-/// a tree would seem to lie on each other.
+/// An order that is meant to have fewer particles than this is never crowded: its spacings are so wide that the leaves
+/// of a tree would seem to lie on each other.
 const CROWDED_FROM: usize = 2048;
 
 /// The fewest darts that one task handles: fewer are not worth another thread.
@@ -33,11 +34,12 @@ pub(super) const LEAST_CHUNK: usize = 1024;
 /// How much of a progressive order has been made.
 ///
 /// The first levels, up to at least 8,192 particles, are thrown on the whole surface, and a particle's ordinal is its
-/// index. Later levels may be thrown on a part of the surface only. Then the particles that come before one
-/// cannot be counted, so its ordinal is computed from its turn among the tries of its level. In this way neither a
-/// particle nor its ordinal depends on what is far away. Only in a crowded order ([`ProgressiveState::is_crowded`])
-/// and in a strict one ([`super::Needed::is_strict`]), how many tries a cell gets depends on what earlier levels found
-/// there. In a crowded order, particles stop being counted as soon as it is known to be crowded.
+/// index. Later levels may be thrown on a part of the surface only, where the particles before a given one cannot be
+/// counted. So in all later levels an ordinal is computed from the turn among the tries of the level. In this way
+/// neither a particle nor its ordinal depends on what is far away. Only in a crowded order
+/// ([`ProgressiveState::is_crowded`]) and in a strict one ([`super::Needed::is_strict`]), how many tries a cell gets
+/// depends on what earlier levels found there. In a crowded order, particles stop being counted as soon as it is known
+/// to be crowded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProgressiveState {
     /// Candidates thrown so far.
@@ -78,7 +80,8 @@ impl ProgressiveState {
         self.counted[0] <= particles && is_filled
     }
 
-    /// [`super::ProgressiveOrder::len_of`] of an order in this state, from how many particles it has and their ordinals.
+    /// [`super::ProgressiveOrder::len_of`] of an order in this state, from the number of its particles and their
+    /// ordinals.
     pub fn len_of(self, count: usize, particles: usize, ordinals: &[f32]) -> Option<usize> {
         if !self.is_crowded() || ordinals.is_empty() {
             return (count <= particles).then_some(count);
@@ -93,8 +96,8 @@ impl ProgressiveState {
     }
 
     /// Whether the counted levels found room for hardly any more particles than the half that is always added, as where
-    /// several faces lie on each other. From then on such an order has no more particles than find room: those of one
-    /// face where several coincide. It is not continued but made anew.
+    /// several faces lie on each other. From then on, particles are only added where there is room: where several faces
+    /// coincide, as many as one of them holds. When a later call asks for more, the order is made anew.
     pub(super) fn is_crowded(self) -> bool {
         let [count, level_end] = self.counted;
         level_end >= CROWDED_FROM && (count as f64) < 1.1 * LEAST_FILLED * level_end as f64

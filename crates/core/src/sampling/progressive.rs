@@ -12,8 +12,8 @@ use super::dart_grid::{Dart, DartGrid};
 use super::levels::{LEAST_CHUNK, LEAST_FILLED, ProgressiveState, TRIES, next_level_end, spacing};
 use super::{Particle, Surface};
 
-/// This many particles, if they are asked for, are made on the whole surface, and counted, unless the order is crowded:
-/// see [`ProgressiveState`].
+/// Levels are thrown on the whole surface, and their particles counted, until there are this many or the order is
+/// crowded: see [`ProgressiveState`]. Calls that ask for fewer end sooner.
 const LEAST_COUNTED: usize = 8192;
 
 /// Distinct places on a surface differ by at least about this share of its greatest coordinate.
@@ -37,8 +37,8 @@ pub fn progressive(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Partic
     order.particles
 }
 
-/// Samples of a surface: `count` of them, but at most 8,192. They are spread as particles are, but each face has its share
-/// also where faces lie on each other: there, up to half of the samples are laid without distances.
+/// Samples of a surface: `count` of them, but at most 8,192. They are spread as particles are. If faces lie on each other
+/// and leave room for fewer than half, what is missing to half is laid evenly by area, without distances.
 pub fn samples(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Particle> {
     let mut order = ProgressiveOrder::default();
     if surface.faces.is_empty() {
@@ -74,7 +74,7 @@ impl ProgressiveOrder {
         if surface.faces.is_empty() || self.len_of(count).is_some() {
             return;
         }
-        // Tries then depend on what earlier levels found in each cell, which is not remembered.
+        // In a crowded order, tries depend on what earlier levels found in each cell. That is not remembered.
         if self.state.is_crowded() {
             *self = Self::default();
         }
@@ -125,7 +125,7 @@ struct Levels<'a> {
     finest: f32,
     /// Where particles are needed; `None` everywhere.
     needed: Option<&'a Needed>,
-    /// The share of the particles meant for the last counted level that found room.
+    /// The share of the particles meant for the last counted level that found room; 1 if none was thrown here.
     found: f64,
     /// Made when the first level is thrown cell by cell.
     cells: Option<ActiveCells<'a>>,
@@ -230,8 +230,8 @@ impl<'a> Levels<'a> {
         let accepted = Accepted { grid, particles, radius: level.radius };
         let mut added = level.added(surface, cells, field, &accepted);
         if needed.is_none() && !state.is_crowded() {
-            // Where finer places are too near to each other for f32, the missing particles are taken from the sequence
-            // of candidates, which is even by area.
+            // Where the spacing is too fine for f32, few tries are accepted. What is missing to half of the particles
+            // meant for the level is then taken from the sequence of candidates, which is even by area.
             let least = (LEAST_FILLED * (level_end - state.level_end) as f64) as usize;
             let missing = least.saturating_sub(added.particles.len());
             let numbers: Vec<u32> =

@@ -120,6 +120,10 @@ fn samples_of_squares_on_each_other_are_even_by_area() {
     let mesh = squares_on_each_other();
     let surface = Surface::new(&mesh, |_| true);
     let of_samples = super::samples(&surface, 1500, 3);
+    for square in 0..8 {
+        let count = of_samples.iter().filter(|sample| sample.triangle / 2 == square).count();
+        assert!((1500 / 8 - 45..1500 / 8 + 45).contains(&count), "{count} on square {square}");
+    }
     assert_eq!(bits(&of_samples), 0xa7fe_060d_dd86_8cf8);
     assert_eq!(super::samples(&surface, 20_000, 3).len(), 8192);
 }

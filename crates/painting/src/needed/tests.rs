@@ -50,10 +50,8 @@ fn no_place_of_a_moved_piece_needs_more_than_the_piece() {
             flat: DVec3::Z,
             smooth: is_even.then_some(smooth.map(Vec3::as_dvec3)),
         };
-        let seen_part = eye.seen_part(piece.corners);
-        let most =
-            if seen_part.is_empty() { 0.0 } else { most_on_piece(&eye, &piece, &seen_part, gradients) };
-        turned_away += u32::from(most == 0.0 && !seen_part.is_empty());
+        let most = most_on_piece(&eye, &piece, gradients);
+        turned_away += u32::from(most == 0.0 && !eye.seen_part(piece.corners).is_empty());
         at_eye += u32::from(piece.corners.iter().any(|&corner| map.depth(corner) < sighting.near));
         for sample in 0..40 {
             let weights = [0, 1, 2].map(|corner| random(from + 100 + 7 * sample + corner) + 0.5);
@@ -93,7 +91,7 @@ fn near_spots_get_more_only_on_bodies_at_rest() {
     let surface = Surface::new(&square, |_| true);
     let cells = Cells::new(&surface);
     let seen = |share: f64, px_per_area: f64| {
-        let mut seen = SeenCell::whole(cells.all()[0].clone(), px_per_area);
+        let mut seen = SeenCell::whole(&cells.all()[0], px_per_area);
         seen.px_in_picture = px_per_area;
         seen.cell.share = share;
         (seen, [1.0; LAYERS])

@@ -41,8 +41,8 @@ pub(super) struct Oddities {
     pub zero_w: Tally,
     pub bad_normal: Tally,
     pub bad_uv: Tally,
-    /// Indices of texture coordinates or normals, where the file has none, by [`super::scan::Kind`]. Those of positions
-    /// are errors, so the first tally stays 0.
+    /// One tally for each [`super::scan::Kind`]: corners that refer to texture coordinates, or to normals, though the
+    /// file has none. A missing position is an error, so the first tally stays 0.
     pub absent: [Tally; 3],
     pub color: Tally,
     pub bad_color: Tally,

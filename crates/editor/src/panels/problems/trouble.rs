@@ -13,7 +13,7 @@ pub struct Trouble {
     pub of: TroubleOf,
     /// What failed and why, as one sentence.
     pub words: String,
-    /// What to do about it, as one sentence; empty if the buttons say it.
+    /// How things stand now and, where the buttons do not say it, what to do.
     pub mend: String,
     /// What can be done, the best first; never empty.
     pub settles: &'static [Settle],
