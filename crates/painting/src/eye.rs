@@ -315,4 +315,41 @@ mod tests {
         }
         assert!(seen > 10_000 && near > 20, "{seen}, {near} of them near the eye");
     }
+
+    /// A small ball is one cell, and the eye is in its middle: the nearest places are as far away as the near plane.
+    #[test]
+    fn a_cell_round_the_eye_needs_what_the_near_plane_shows() {
+        let (radius, near) = (0.08, 0.05);
+        let mut mesh = TriangleMesh::default();
+        // An octahedron, then a triangle far behind that has nearly all of the area.
+        let axes = [Vec3::X, Vec3::Y, Vec3::Z, -Vec3::X, -Vec3::Y, -Vec3::Z];
+        mesh.positions.extend(axes.map(|axis| axis * radius));
+        mesh.normals.extend(axes);
+        for [x, y, z] in
+            [[0, 1, 2], [1, 3, 2], [3, 4, 2], [4, 0, 2], [1, 0, 5], [3, 1, 5], [4, 3, 5], [0, 4, 5]]
+        {
+            mesh.triangles.push([x, y, z]);
+        }
+        mesh.positions.extend([
+            Vec3::new(-20.0, -20.0, 9.0),
+            Vec3::new(20.0, -20.0, 9.0),
+            Vec3::new(0.0, 20.0, 9.0),
+        ]);
+        mesh.normals.extend([Vec3::Z; 3]);
+        mesh.triangles.push([6, 7, 8]);
+        let surface = Surface::new(&mesh, |_| true);
+        let cells = Cells::new(&surface);
+        let focal_px = 300.0;
+        let view = glam::dcamera::rh::view::look_at_mat4(DVec3::ZERO, -DVec3::Z, DVec3::Y);
+        let map = ScreenMap::new(view, DAffine3::IDENTITY, PixelLens::Perspective { focal_px });
+        let half_size_px = DVec2::new(320.0, 180.0);
+        let sighting = Sighting { map, half_size_px, near, shape: BodyShape::default() };
+        let eye = Eye::new(&sighting, Reach { margin: 1.0, reach_px: 0.0, most_offset: 0.0 });
+        let of_ball = cells.all().iter().find(|cell| cell.triangles(&surface).count() > 1).expect("a cell");
+        let (most, is_uneven) = eye.most_per_area(of_ball);
+        // The place straight ahead, if it faced the eye, and one at the near plane.
+        let at_least = (focal_px / f64::from(radius)).powi(2);
+        let at_near = (focal_px / near).powi(2);
+        assert!(is_uneven && most > at_least && most < 5.0 * at_near, "{most}, {at_least}, {at_near}");
+    }
 }
