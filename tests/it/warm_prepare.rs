@@ -3,14 +3,16 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 
+use impasto_gl_render::context::Driver;
 use impasto_painting::{Frame, FrameOptions, Painting, PrepareError, PrepareOptions, Preparer, prepare};
 use impasto_scene::document::{
-    Amount, AmountDab, Bend, Dab, Direction, Ease, Edges, LayerSettings, Light, LightKind, ObjectKey,
-    PaintedAmount, Region, Scale, Scene, Seam, Selector, Solver, Style,
+    Amount, AmountDab, Bend, Dab, Direction, Ease, Edges, InkDrawing, InkRule, LayerSettings, Light,
+    LightKind, ObjectKey, PaintedAmount, Region, Scale, Scene, Seam, Selector, Solver, Style, SumiE,
 };
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::presets::LayerKind;
 use impasto_tests::gestures::{camera, drag};
+use impasto_tests::pictures::renderer;
 use impasto_tests::shapes;
 
 const OPTIONS: FrameOptions = FrameOptions::new([320, 240]);
@@ -206,4 +208,36 @@ fn preparing_again_after_giving_up_gives_the_same_bits() {
         assert!(a.strokes == b.strokes && a.sources == b.sources, "{name}: strokes differ");
     }
     assert!(given_up > 15, "only {given_up} were given up");
+}
+
+/// Of a style without strokes, pictures are the same without particles; and the same preparer then makes the strokes of
+/// other styles.
+#[test]
+fn what_only_draws_makes_no_particles_where_none_show() {
+    let ink = |rule: InkRule, drawing: InkDrawing| Style::SumiE(SumiE { rule, drawing, ..SumiE::default() });
+    let styles = [
+        (Style::Reference, false),
+        (ink(InkRule::Painter, InkDrawing::Wash), false),
+        (ink(InkRule::Source, InkDrawing::default()), false),
+        (ink(InkRule::Painter, InkDrawing::default()), true),
+        (Style::default(), true),
+    ];
+    let mut renderer = renderer(Driver::Egl);
+    let mut preparer = Preparer::default();
+    let only_shown = PrepareOptions { only_shown: true, ..PrepareOptions::default() };
+    for (style, has_strokes) in styles {
+        let mut loaded = (*start()).clone();
+        loaded.scene.style = style.clone();
+        let loaded = Arc::new(loaded);
+        let whole = prepare(Arc::clone(&loaded)).unwrap();
+        let drawn = preparer.prepare_with(loaded, &only_shown).unwrap();
+        let made = if has_strokes { whole.particle_total() } else { 0 };
+        assert!(whole.particle_total() > 1000);
+        assert_eq!(drawn.particle_total(), made, "{style:?}");
+        let [a, b] = [&whole, &drawn].map(|painting| {
+            renderer.render(&painting.at(7.5, &OPTIONS)).unwrap();
+            renderer.read_linear()
+        });
+        assert!(a == b, "{style:?}: pictures differ");
+    }
 }

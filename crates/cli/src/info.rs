@@ -4,7 +4,7 @@ use std::collections::{BTreeSet, HashMap};
 use std::io::Write as _;
 use std::sync::Arc;
 
-use impasto_painting::{Painting, SeenFrom};
+use impasto_painting::{Painting, PrepareOptions};
 use impasto_scene::document::Region;
 use impasto_scene::mesh_file::MeshFile;
 
@@ -15,7 +15,7 @@ use crate::session::{self, Prepared};
 pub(crate) fn run(arguments: &InfoArguments) -> Result<(), Failure> {
     let loaded = session::read_scene(&arguments.scene, false)?;
     let Prepared { painting, storing: _storing } =
-        session::prepare_scene(loaded, &arguments.scene, SeenFrom::SHOT, false)?;
+        session::prepare_scene(loaded, &arguments.scene, PrepareOptions::default(), false)?;
     let facts = facts(&painting);
     let mut out = std::io::stdout();
     if arguments.json {

@@ -141,7 +141,7 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
     }
     let seen_from = SeenFrom::for_options(&loaded.scene, &options);
     let Prepared { painting, storing } =
-        session::prepare_scene(loaded, &arguments.scene, seen_from, verbose)?;
+        session::prepare_scene(loaded, &arguments.scene, session::for_pictures(seen_from), verbose)?;
     let sequence = Sequence {
         painting,
         options,

@@ -118,7 +118,8 @@ impl Server<'_> {
             *first = begun;
         }
         let warnings = loaded.warnings.iter().map(ToString::to_string).collect();
-        let prepared = session::prepare_by(&mut self.preparer, Arc::new(loaded), of_scene, SeenFrom::SHOT)?;
+        let wanted = session::for_pictures(SeenFrom::SHOT);
+        let prepared = session::prepare_by(&mut self.preparer, Arc::new(loaded), of_scene, wanted)?;
         self.ready = Some(Ready { prepared, is_for_anywhere: false, warnings, inputs, stamps });
         Ok(())
     }
@@ -134,8 +135,8 @@ impl Server<'_> {
         let is_anywhere = matches!(seen_from, SeenFrom::Anywhere);
         if is_anywhere != ready.is_for_anywhere && painting.depends_on_views() {
             let loaded = Arc::clone(painting.loaded());
-            ready.prepared =
-                session::prepare_by(&mut self.preparer, loaded, &self.arguments.scene, seen_from)?;
+            let wanted = session::for_pictures(seen_from);
+            ready.prepared = session::prepare_by(&mut self.preparer, loaded, &self.arguments.scene, wanted)?;
             ready.is_for_anywhere = is_anywhere;
         }
         Ok(())

@@ -55,12 +55,16 @@ pub(crate) struct Prepared {
     pub(crate) storing: Storing,
 }
 
-/// Prepares a scene within its memory limit, for pictures from the views of `seen_from`. If `verbose`, the time and
-/// peak memory of each step go to stderr.
+/// What is prepared to draw pictures from these views.
+pub(crate) fn for_pictures(seen_from: SeenFrom<'_>) -> PrepareOptions<'_> {
+    PrepareOptions { seen_from, only_shown: true, ..PrepareOptions::default() }
+}
+
+/// Prepares a scene within its memory limit. If `verbose`, the time and peak memory of each step go to stderr.
 pub(crate) fn prepare_scene(
     loaded: LoadedScene,
     arguments: &SceneArguments,
-    seen_from: SeenFrom<'_>,
+    wanted: PrepareOptions<'_>,
     verbose: bool,
 ) -> Result<Prepared, Failure> {
     let memory_bytes = memory::granted_bytes(arguments.memory);
@@ -68,8 +72,7 @@ pub(crate) fn prepare_scene(
     let options = PrepareOptions {
         memory_bytes,
         peak_bytes: if verbose { &memory::peak_since_last_bytes } else { &|| None },
-        seen_from,
-        ..PrepareOptions::default()
+        ..wanted
     };
     let painting = prepare_with(&mut Preparer::default(), Arc::new(loaded), options, cache.as_ref())?;
     if verbose {
@@ -92,12 +95,12 @@ pub(crate) fn prepare_by(
     preparer: &mut Preparer,
     loaded: Arc<LoadedScene>,
     arguments: &SceneArguments,
-    seen_from: SeenFrom<'_>,
+    wanted: PrepareOptions<'_>,
 ) -> Result<Prepared, Failure> {
     let memory_bytes = memory::granted_bytes(arguments.memory);
     // Later states of the scene are not kept in the cache: the preparer remembers what it needs.
     let cache = Cache::of(&arguments.cache, memory_bytes, false).filter(|_| preparer.is_new());
-    let options = PrepareOptions { memory_bytes, seen_from, ..PrepareOptions::default() };
+    let options = PrepareOptions { memory_bytes, ..wanted };
     let painting = prepare_with(preparer, loaded, options, cache.as_ref())?;
     let storing = cache.map_or_else(Storing::default, |cache| cache.store(&painting));
     Ok(Prepared { painting, storing })

@@ -193,6 +193,7 @@ fn paint(
     let options = PrepareOptions {
         give_up,
         memory_bytes: impasto_scene::memory::available_bytes().map(|bytes| bytes / SHARE),
+        only_shown: true,
         ..PrepareOptions::default()
     };
     let painting = preparer.prepare_with(Arc::new((wanted.scene)()?), &options).ok()?;

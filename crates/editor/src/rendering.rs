@@ -194,6 +194,7 @@ fn run(
         give_up: &stop,
         memory_bytes: impasto_scene::memory::available_bytes(),
         seen_from: SeenFrom::for_options(&plan.loaded.scene, &frame_options),
+        only_shown: true,
         ..PrepareOptions::default()
     };
     let prepared = Preparer::default().prepare_with(Arc::clone(&plan.loaded), &options);

@@ -26,6 +26,7 @@ const ANYWHERE: PrepareOptions<'static> = PrepareOptions {
     peak_bytes: &|| None,
     kept: None,
     seen_from: SeenFrom::Anywhere,
+    only_shown: false,
 };
 
 /// Prepares a scene to be seen from anywhere.

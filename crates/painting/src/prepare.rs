@@ -99,6 +99,11 @@ impl Preparer {
         if give_up() {
             return self.given_up(scene, caches);
         }
+        let style = scene.style.settings().preparation();
+        if options.only_shown && !style.has_strokes {
+            self.put_back(scene, caches);
+            return Ok(Painting { steps: clock.steps, ..plain });
+        }
         let Painting { rules, solver, .. } = &plain;
         let paper = presets::is_paper(scene);
         let seen = Seen::new(&loaded, options.seen_from);
@@ -110,7 +115,7 @@ impl Preparer {
             shapes: &shapes,
             solver: *solver,
             paper,
-            underpainting: scene.style.settings().preparation().underpainting && !paper,
+            underpainting: style.underpainting && !paper,
             orthographic: matches!(scene.camera.lens, Lens::Orthographic { .. }),
         };
         let mut bodies = plain.bodies.clone();

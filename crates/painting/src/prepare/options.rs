@@ -64,10 +64,14 @@ pub struct PrepareOptions<'a> {
     pub kept: Option<&'a FindKept<'a>>,
     /// From where the painting will be seen.
     pub seen_from: SeenFrom<'a>,
+    /// Whether to make only what pictures show: a style without strokes then needs no particles. Directions and counts
+    /// are missing too, so this is for those who only draw.
+    pub only_shown: bool,
 }
 
 impl Default for PrepareOptions<'_> {
-    /// Never gives up, sets no limit, looks for nothing that was kept, and expects the scene's own camera.
+    /// Never gives up, sets no limit, looks for nothing that was kept, expects the scene's own camera, and makes
+    /// particles in any style.
     fn default() -> Self {
         Self {
             give_up: &|| false,
@@ -75,6 +79,7 @@ impl Default for PrepareOptions<'_> {
             peak_bytes: &|| None,
             kept: None,
             seen_from: SeenFrom::SHOT,
+            only_shown: false,
         }
     }
 }
