@@ -229,6 +229,37 @@ fn round_the_picture_the_floor_is_painted_too() {
     assert!(beside * 10 > middle * 8, "{beside} strokes beside the picture, {middle} in its middle");
 }
 
+/// A picture may be much wider than the scene states. It is painted to its borders all the same, as if the scene stated
+/// that size.
+#[test]
+fn a_wide_picture_of_a_tall_scene_is_painted_to_its_borders() {
+    let bands = |width_px: u32| {
+        let mut scene = floor_scene(500.0);
+        scene.size = (width_px, SIZE_PX[1]);
+        let seen_from = SeenFrom::for_options(&scene, &FrameOptions::new(SIZE_PX));
+        let options = PrepareOptions { seen_from, ..PrepareOptions::default() };
+        let loaded = shapes::loaded(scene, [floor(300.0, 1)]);
+        let painting = Preparer::default().prepare_with(loaded, &options).unwrap();
+        assert!(painting.is_partial() && painting.particle_total() < 200_000, "{width_px} pixels wide");
+        let frame = painting.at(0.0, &FrameOptions::new(SIZE_PX));
+        // Eight parts of the floor's half of the picture, from the left to the right.
+        let mut strokes = [0; 8];
+        for [x, y] in frame.strokes.iter().map(|stroke| stroke.center_px) {
+            if (0.0..640.0).contains(&x) && (0.0..160.0).contains(&y) {
+                strokes[(x / 80.0) as usize] += 1;
+            }
+        }
+        strokes
+    };
+    let stated = bands(SIZE_PX[0]);
+    for width_px in [400, 160, 90] {
+        for (found, wanted) in bands(width_px).into_iter().zip(stated) {
+            assert!(wanted > 300, "{stated:?}");
+            assert!(found * 10 > wanted * 9, "{width_px} pixels wide: {found} strokes, not {wanted}");
+        }
+    }
+}
+
 /// Strokes fade where the ground is seen at a grazing angle. There its own colour shows, not the tone under all paint.
 #[test]
 fn to_the_horizon_the_ground_keeps_its_colour() {

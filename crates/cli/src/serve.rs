@@ -72,8 +72,8 @@ fn of_failure(id: u64, failure: &Failure) -> Value {
 type Stamp = Option<(u64, SystemTime)>;
 
 struct Ready {
-    /// Whether it was prepared to be seen from anywhere.
-    is_for_anywhere: bool,
+    /// What it was prepared for.
+    seen_from: SeenFrom<'static>,
     prepared: Prepared,
     warnings: Vec<String>,
     inputs: Vec<PathBuf>,
@@ -118,26 +118,25 @@ impl Server<'_> {
             *first = begun;
         }
         let warnings = loaded.warnings.iter().map(ToString::to_string).collect();
-        let wanted = session::for_pictures(SeenFrom::SHOT);
+        let seen_from = SeenFrom::SHOT;
+        let wanted = session::for_pictures(seen_from);
         let prepared = session::prepare_by(&mut self.preparer, Arc::new(loaded), of_scene, wanted)?;
-        self.ready = Some(Ready { prepared, is_for_anywhere: false, warnings, inputs, stamps });
+        self.ready = Some(Ready { prepared, seen_from, warnings, inputs, stamps });
         Ok(())
     }
 
-    /// Some sizes need particles for any view, others only for the views of the shot. Prepares the scene again when
-    /// that changes.
+    /// Wide pictures need particles where others do not. Prepares the scene again when it lacks them, or has too many.
     fn ready_for(&mut self, size_px: Option<[u32; 2]>) -> Result<(), Failure> {
         let Some(ready) = &mut self.ready else { return Ok(()) };
         let painting = &ready.prepared.painting;
         let scene = painting.scene();
         let size_px = size_px.unwrap_or([scene.size.0, scene.size.1]);
         let seen_from = SeenFrom::for_options(scene, &FrameOptions::new(size_px));
-        let is_anywhere = matches!(seen_from, SeenFrom::Anywhere);
-        if is_anywhere != ready.is_for_anywhere && painting.depends_on_views() {
+        if seen_from != ready.seen_from && painting.depends_on_views() {
             let loaded = Arc::clone(painting.loaded());
             let wanted = session::for_pictures(seen_from);
             ready.prepared = session::prepare_by(&mut self.preparer, loaded, &self.arguments.scene, wanted)?;
-            ready.is_for_anywhere = is_anywhere;
+            ready.seen_from = seen_from;
         }
         Ok(())
     }

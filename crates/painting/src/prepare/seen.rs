@@ -14,7 +14,7 @@ use crate::shapes::BodyShapes;
 use crate::view::PictureView;
 
 /// From where a painting will be seen.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SeenFrom<'a> {
     /// By the scene's camera, at every whole frame of its timeline and of its keys. Where no view looks, large surfaces
     /// have only few particles.
@@ -42,12 +42,15 @@ impl SeenFrom<'_> {
     /// By the scene's camera alone.
     pub const SHOT: Self = Self::Shot { also: &[], margin: Self::MARGIN };
 
-    /// What pictures of the scene with these options need: those that are much wider than the scene states, or whose
-    /// strokes keep their size in larger pictures, need particles where the scene's own pictures do not.
-    pub fn for_options(scene: &Scene, options: &FrameOptions) -> Self {
+    /// What pictures of the scene with these options need. Those that are wider than the scene states show what lies
+    /// beside its own pictures. Where strokes keep their size in larger pictures, more of them are needed everywhere.
+    pub fn for_options(scene: &Scene, options: &FrameOptions) -> SeenFrom<'static> {
         let aspect = |[width, height]: [u32; 2]| f64::from(width.max(1)) / f64::from(height.max(1));
         let wider = aspect(options.size_px) / aspect([scene.size.0, scene.size.1]);
-        if options.keep_stroke_px || wider > Self::MARGIN { Self::Anywhere } else { Self::SHOT }
+        if options.keep_stroke_px || wider > Self::MOST_MARGIN {
+            return SeenFrom::Anywhere;
+        }
+        SeenFrom::Shot { also: &[], margin: wider.max(Self::MARGIN) }
     }
 }
 
