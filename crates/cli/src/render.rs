@@ -241,7 +241,7 @@ fn destination(arguments: &RenderArguments, frames: &FrameList) -> Result<Destin
         if has_ending(&arguments.output, ".exr") {
             return Err(Failure::Usage("--apng writes a PNG file: let -o end in .png".to_owned()));
         }
-        // It is one file, whose name needs no number.
+        // For one frame, `parse` adds no number to the name. If the user wrote a place for one, `all` stands there.
         let pattern = Pattern::parse(&arguments.output, 1);
         return Ok(Destination::Animation(if pattern.has_place() {
             pattern.beside("all")
@@ -455,7 +455,8 @@ impl Plan {
     }
 }
 
-/// The fault of a rendering into one file. A rendering that was stopped is an error, because it leaves no file.
+/// The fault of a rendering into one file or to standard output. It is an error if it was stopped, because it has then
+/// left nothing of use.
 fn of_all(ending: Ending) -> Result<Fault, Failure> {
     match ending {
         Ending::Done(fault) => Ok(fault),

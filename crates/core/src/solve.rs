@@ -1,4 +1,5 @@
-//! Projects all particles of a body and turns their strokes, in one pass over arrays of plain numbers.
+//! The arrays that hold particles, and how particles are projected and their strokes turned: all at once for tests and
+//! benchmarks, or one by one for pictures.
 
 mod cull;
 
@@ -31,12 +32,12 @@ pub struct PlacedParticles {
 pub struct BakedParticles {
     /// Where they are.
     pub placed: PlacedParticles,
-    /// First column of N': x, y, z.
+    /// First column of N' (see [`Lift`]): x, y, z.
     pub along: [Vec<f32>; 3],
     /// Second column of N': x, y, z.
     pub across: [Vec<f32>; 3],
-    /// 1: the stroke only turns with its surroundings, as if it lay flat on the picture. 0: its direction is also
-    /// foreshortened with the surface. Empty when all are 1.
+    /// 1: the stroke turns as the picture round it turns. 0: it points as a line drawn on the surface would,
+    /// foreshortening included. Between them it is a blend: see [`solve`]. Empty when all are 1.
     pub flatness: Vec<f32>,
 }
 
@@ -125,7 +126,7 @@ impl PlacedParticles {
         self.len() == 0
     }
 
-    /// Memory held, in bytes.
+    /// Memory that they need, in bytes.
     pub fn bytes(&self) -> usize {
         6 * self.len() * size_of::<f32>()
     }
@@ -223,9 +224,10 @@ fn vector(arrays: &[Vec<f32>; 3], particle: usize) -> DVec3 {
 /// Projects every particle of a body and finds its stroke's angle. Serves tests and benchmarks: a picture solves only
 /// the particles that show, one by one ([`ParticleView`]).
 ///
-/// With flatness 1 the angle is φ, that of the rotation nearest to A = J N'. With flatness 0 it is the direction of
-/// A e₁, the first column of A. With a flatness F between, the two unit vectors are blended:
-/// `arg(F·e^{iφ} + (1 − F)·A e₁/|A e₁|)`. The number of threads changes no bit of the result.
+/// J is the Jacobian of the screen map, N' the particle's lift. With flatness 1 the angle is φ, that of the rotation
+/// nearest to A = J N'. With flatness 0 it is the direction of A e₁, the first column of A. With a flatness F between,
+/// the two unit vectors are blended: `arg(F·e^{iφ} + (1 − F)·A e₁/|A e₁|)`. The number of threads changes no bit of the
+/// result.
 pub fn solve(particles: &BakedParticles, map: &ScreenMap, solved: &mut SolvedParticles) {
     let count = particles.len();
     for array in

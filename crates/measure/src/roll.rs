@@ -16,8 +16,8 @@ pub struct QuarterDifference {
     pub pixels: usize,
 }
 
-/// M1 for quarter turns: compares the square picture of a rolled camera with the picture of the straight camera, turned
-/// clockwise by as many quarters, within a mask of the rolled picture.
+/// M1 for quarter turns. `rolled` is the picture of a camera that is rolled by `quarters` quarter turns. It is compared
+/// with `straight`, turned clockwise by as many, inside `mask`. The pictures are square.
 pub fn quarter_difference(
     straight: &Picture,
     rolled: &Picture,

@@ -7,18 +7,20 @@ use super::tangent_axes;
 /// The principal curvatures of a point and their directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curvature {
-    /// The one of greater magnitude first; 1 / model units, positive where the surface bends away from its normal.
+    /// The one of greater magnitude first; 1 / model units, positive where the surface is convex, seen from the
+    /// side of its normal (as on a ball with its normals outward).
     pub curvatures: [f64; 2],
     /// For each curvature, the unit tangent along which the surface has it, model space.
     pub directions: [DVec3; 2],
 }
 
 /// Fits the shape operator S (symmetric, `n' ≈ n + S d`) to the neighbours of a point. `normal` is n; `near` gives the
-/// offset d and the unit normal n' of each neighbour. `None` with too few neighbours, or when they lie on one line.
+/// offset d and the unit normal n' of each neighbour. `None` unless two of them lie in clearly different directions
+/// from the point, and not just in opposite ones.
 pub fn principal(normal: DVec3, near: impl Iterator<Item = (DVec3, DVec3)>) -> Option<Curvature> {
     let [right, above] = tangent_axes(normal);
     let flat = |v: DVec3| DVec2::new(v.dot(right), v.dot(above));
-    // Least squares over the three entries (a, b, c) of S = [a b; b c]: A x = y.
+    // Least squares for the entries (p, q, r) of S = [p q; q r]: `a` and `y` are both sides of its normal equations.
     let (mut a, mut y) = ([[0.0; 3]; 3], [0.0; 3]);
     for (offset, normal_there) in near {
         let (d, change) = (flat(offset), flat(normal_there - normal));

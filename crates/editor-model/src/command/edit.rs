@@ -1,4 +1,4 @@
-//! Commands on things of every kind: names, parents, order, visibility, locks, deletion.
+//! Commands on things of every kind: names, parents, order, visibility, locks, copies, deletion.
 
 use glam::{DAffine3, DMat3, DVec3};
 use impasto_scene::document::{ObjectKey, Scene};
@@ -23,7 +23,8 @@ pub enum Edit {
     Duplicate(Vec<Item>),
     /// Gives a thing another name.
     Rename(Item, String),
-    /// Makes an object the child of another one, or of none. Its pose in the world at the reference's frame stays.
+    /// Makes an object the child of another one, or of none. Its pose in the world at the reference's frame stays
+    /// (nearly so if a parent has an uneven scale).
     SetParent {
         /// The object.
         object: String,
@@ -114,7 +115,8 @@ fn delete(scene: &mut Scene, items: &[Item]) -> Result<Done, Refusal> {
     Ok(Done::new(text).selecting(Selection::default()))
 }
 
-/// Deletes an object with what lies on it; refuses if it is locked.
+/// Deletes an object with what lies on it, and gives its children to its parent. Refuses if it is locked, or if a
+/// child's pose may not be changed (it is locked, or the shot moves it).
 pub(super) fn delete_object(scene: &mut Scene, name: &str) -> Result<(), Refusal> {
     let parent = unlocked_object(scene, name)?.parent.clone();
     let frame = motion::referred_to(scene, &scene.reference).1;

@@ -36,8 +36,8 @@ enum Doing {
     ListeningStill(CommandId, String),
     /// The command is to get these keys, but the listed commands have them. The sheet asks whether to take them.
     Asking(CommandId, Vec<Chord>, Vec<CommandId>),
-    /// The command works only while a key on a lane is selected. During that time these keys would no longer reach the
-    /// listed commands. The sheet asks whether the command is to get the keys.
+    /// The command works only while a keyframe on a lane is selected. Then these keys of the keyboard would no longer
+    /// reach the listed commands. The sheet asks whether the command is to get them all the same.
     AskingToHide(CommandId, Vec<Chord>, Vec<CommandId>),
     /// The sheet asks whether to reset all keys to the preset's.
     AskingReset,
@@ -116,7 +116,7 @@ fn search(ui: &mut Ui, memory: &mut Memory) {
     if field.changed() {
         memory.marked = 0;
     }
-    // While keys are listened for, nothing else may take them.
+    // The search field has the focus, except while the sheet listens for keys or asks something.
     match memory.doing {
         Doing::Nothing => field.request_focus(),
         _ => field.surrender_focus(),
@@ -206,8 +206,8 @@ fn line(
     whole
 }
 
-/// Gives a command its keys. Asks first if other commands would lose them, always or while a key on a lane is
-/// selected.
+/// Gives a command these keys. Asks first if another command would lose one of them for good; or, unless they are the
+/// preset's own, if it could not be reached by one while a keyframe is selected.
 fn choose(keymap: &Keymap, id: CommandId, chords: Vec<Chord>, doing: &mut Doing, asks: &mut Vec<Ask>) {
     let losers = keymap.losers(id, &chords);
     let hidden = if chords == keymap.usual(id) { Vec::new() } else { keymap.hidden(id, &chords) };

@@ -1,10 +1,11 @@
-// Places the four corners of a stroke of ink: a quad flat on the screen, with its size and its angle in pixels.
+// Places the four corners of a stroke of ink: a quad flat on the screen (round a tapered or bent stroke, its box). Its
+// size is in pixels.
 #include "shared/stroke_shape.glsl"
 layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
 layout(location = 1) in vec4 size;           // length and width in px, facing fade, supply_ln (see `Stroke`)
 layout(location = 2) in uvec4 marks;         // random bits, body id, albedo, mark
 layout(location = 3) in uvec2 bytes;         // opacity, thickness, pickup, dryness (lowest byte first); mixing
-layout(location = 4) in vec4 normal_and_bow; // normal in world space; bow of the mark in half widths
+layout(location = 4) in vec4 normal_and_bow; // normal in world space; bow of the mark (see `Stroke`)
 layout(location = 5) in vec4 reach;          // overrun in px, slow noise of hue and of edges, skew
 layout(location = 6) in vec4 resolved;       // colour and how much is there
 layout(location = 7) in vec4 fitted;         // centre in px after its shift onto its body, how dark it is
@@ -16,7 +17,7 @@ uniform float dryness;           // of the scene
 
 out vec2 mark_at;                // place on the mark, 0..1; on a shaped stroke, px along and across it
 out vec2 from_center_px;
-flat out vec4 ink;               // rgb: what it takes from white; a: where the mark has less paint, no ink is laid
+flat out vec4 ink;               // rgb: what it takes from white; a: the paint of the mark where half of its ink is gone
 flat out vec4 mark;              // its number, level of detail, half its soft edge, bow
 flat out vec4 body;              // opacity, how dry it ends, overrun in px, sign of the flip
 flat out vec2 own;               // depth and id of the body
@@ -34,7 +35,7 @@ void main() {
     }
     float dry = float(bytes.x >> 24) * BYTE;
     float share = 0.98 * (1.0 - dry) * there;
-    // Half the width of the edge of the ink, in values of the mark's paint: small strokes have soft edges.
+    // How far above and below that the ink fades, in the same units: the smaller the stroke, the softer its edge.
     float soft = clamp(2.0 * (size.x + size.y) / (size.x * size.y), 0.03, 0.22);
     ink = vec4((1.0 - resolved.rgb) * fitted.z, mix(1.0 + soft, soft + 0.02, share));
     vec2 along = vec2(cos(place.w), sin(place.w));

@@ -5,7 +5,7 @@ layout(location = 0) in vec4 place;          // centre in px, depth, angle in ra
 layout(location = 1) in vec4 size;           // length and width in px, facing fade, supply_ln (see `Stroke`)
 layout(location = 2) in uvec4 marks;         // random bits, body id, albedo, mark
 layout(location = 3) in uvec2 bytes;         // paint, mixing
-layout(location = 4) in vec4 normal_and_bow; // normal in world space; bow of the mark in half widths
+layout(location = 4) in vec4 normal_and_bow; // normal in world space; bow of the mark (see `Stroke`)
 layout(location = 5) in vec4 reach;          // overrun in px, slow noise of hue and of edges, skew
 
 uniform mat4 view_from_world;

@@ -1,7 +1,8 @@
-//! Finds the plain lines of an OBJ text on all cores: vertices and faces as nearly every program writes them.
+//! Finds the plain lines of an OBJ text on all cores: vertices and faces as nearly every program writes them, comments
+//! and blank lines.
 //!
-//! Plain lines have no problem to report, and tobj reads them unchanged. All other lines are left to [`super::lint`];
-//! they need not be wrong.
+//! By itself, a plain line has no problem to report, and tobj reads it unchanged; whether its indices exist is checked
+//! later. All other lines are left to [`super::lint`]; they need not be wrong.
 
 use std::ops::Range;
 
@@ -9,8 +10,8 @@ use rayon::prelude::*;
 
 use super::text::{Lines, finite};
 
-/// The largest coordinate. Beyond it, squares of areas (in the length of a cross product) would overflow in single
-/// precision.
+/// The largest coordinate. Far beyond it, areas of triangles would overflow in single precision: the length of a cross
+/// product squares them.
 pub(super) const MAX_COORDINATE: f64 = 1e9;
 
 /// Texture coordinates of this size or more count as unusable.
@@ -19,7 +20,7 @@ pub(super) const MAX_UV: f64 = 1e30;
 /// The smallest size of a piece of text, in bytes: smaller pieces would not make scanning quicker.
 const PIECE_BYTES: usize = 1 << 18;
 
-/// The kinds of values that an OBJ file numbers, each kind on its own.
+/// The kinds of values in an OBJ file. A face refers to a value by its number; each kind is counted from 1 on its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     Position,
@@ -30,7 +31,7 @@ pub(super) enum Kind {
 /// Indices of a corner, counted from 1, by [`Kind`]; 0 where the corner has none.
 pub(super) type Indices = [u32; 3];
 
-/// How many values, faces and corners a piece has: in all, or before some line.
+/// How many values, faces and corners the plain lines of a piece have: all of its lines, or those before some line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Counts {
     /// Positions, texture coordinates and normals, by [`Kind`].
@@ -43,7 +44,7 @@ pub(super) struct Counts {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Rest {
     pub text: Range<usize>,
-    /// What the piece holds before these lines.
+    /// What the plain lines of the piece before these hold.
     pub before: Counts,
 }
 
@@ -167,8 +168,8 @@ impl Piece {
     }
 
     /// Takes the face whose keyword is at `keyword`, and returns where the next line begins. `None` if the face is not
-    /// plain: it has an index that counts backwards or is no number, fewer than three corners, or the same position at
-    /// two neighbouring corners.
+    /// plain: for example, an index counts backwards, there are fewer than three corners, or two neighbouring corners
+    /// have the same position.
     fn face(&mut self, text: &[u8], keyword: usize) -> Option<usize> {
         let before = self.corners.len();
         let end = self.face_corners(text, keyword + 1);

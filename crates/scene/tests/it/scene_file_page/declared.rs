@@ -1,5 +1,5 @@
 //! Finds the structs and enums that the sources of `scene::document` declare: a test compares docs/scene_file.md with
-//! them. The sources are read line by line, which is enough since rustfmt puts one declaration on a line.
+//! them. The sources are read line by line, which is enough as long as each declaration has a line of its own.
 
 use std::path::{Path, PathBuf};
 
@@ -21,8 +21,9 @@ pub struct Field {
     pub name: String,
     /// The type of a field. For a variant: the types in its brackets, or `{` if it has named fields.
     pub kind: String,
-    /// The default of a field, as a scene file would write it. An empty text: the field can be left out, and then has
-    /// no value. `None`: the field must be given. (A variant has no default: always `None`.)
+    /// The default of a field, as a scene file would write it. An empty text: the field can be left out (some only if
+    /// there is a shot), and there is no default to write. `None`: the field must be given. (A variant has no default:
+    /// always `None`.)
     pub usual: Option<String>,
     /// Whether a variant is the default of its enum.
     pub is_usual: bool,
@@ -64,7 +65,7 @@ fn sources() -> Vec<PathBuf> {
     sources
 }
 
-/// All structs and enums that a scene file may hold, in no particular order.
+/// All structs and enums of which the page has a table, in no particular order.
 pub fn declared() -> Vec<Declared> {
     let texts: Vec<String> = sources().iter().map(|path| std::fs::read_to_string(path).unwrap()).collect();
     let mut found = Vec::new();
@@ -105,7 +106,7 @@ fn default_of(kind: &str) -> String {
         "Lens" => "Perspective()",
         "Style" => "RotatingStrokes()",
         "Timeline" | "StrokeSettings" => "()",
-        // A scene can leave these out only if it has a shot.
+        // `Scene::camera` and `Object::mesh`: if they are left out, they come from the shot.
         "Camera" | "String" => "",
         kind if kind.starts_with("Option<") || kind.starts_with("Vec<") => "",
         kind => panic!("what is the default of {kind}?"),
@@ -113,8 +114,8 @@ fn default_of(kind: &str) -> String {
     .to_owned()
 }
 
-/// A Rust expression as a scene file would write it; empty for no value. Of the path of an enum variant, only the
-/// variant's name is kept.
+/// A Rust expression as a scene file would write it; empty for no value. `Some(…)` counts as a struct of defaults. Of
+/// the path of an enum variant, only the variant's name is kept.
 fn in_file(expression: &str) -> String {
     let expression = expression.trim();
     if expression == "None" || expression == "Vec::new()" {
@@ -160,7 +161,7 @@ fn read(text: &str, texts: &[String], found: &mut Vec<Declared>) {
     let mut usual: Option<String> = None;
     let mut is_usual = false;
     let mut is_skipped = false;
-    // Whether every field of the type may be left out.
+    // Whether the last `serde(deny_unknown_fields …)` said `default`: then fields may be left out.
     let mut has_defaults = false;
     // The type around the current line, and inside it perhaps a variant with named fields. Each is given as its index
     // in `found` and the indent of its first line.
