@@ -1,7 +1,9 @@
 //! Tests of touches, the strokes placed by hand: they lie where they were put, move with the surface, are hidden by
 //! what is in front of them, and a long one is one stroke.
 
+use std::collections::BTreeSet;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use impasto_core::TriangleMesh;
@@ -10,7 +12,9 @@ use impasto_gl_render::context::Driver;
 use impasto_painting::frame::{Frame, LayerKind, LineVertex};
 use impasto_painting::{FrameOptions, Painting, prepare};
 use impasto_scene::document::{Color, Direction, ObjectKey, Region, Scene, Selector, Touch, TouchPoint};
+use impasto_scene::load::{LoadOptions, load};
 use impasto_scene::motion::{self, CameraPose};
+use impasto_tests::command::root;
 use impasto_tests::gestures::camera;
 use impasto_tests::pictures::{faulty_renderer, renderer};
 use impasto_tests::shapes;
@@ -305,4 +309,24 @@ fn without_a_colour_a_touch_has_that_of_the_picture_and_hidden_ones_are_not_ther
     let hidden = Touch { hidden: true, ..plain };
     let frame = seen(&painted(scene(vec![hidden]), shapes::sheet(9)), &camera([0.0, 0.0, 4.0], [0.0; 3]));
     assert!(frame.lines.strips.is_empty() && frame.layers.iter().all(|run| run.kind != LayerKind::Touches));
+}
+
+/// In mattes, a touch belongs to the material under its middle.
+#[test]
+fn a_touch_is_of_the_material_that_it_lies_on() {
+    let mut loaded = load(&root().join("scenes/apple.ron"), &LoadOptions::default()).unwrap();
+    loaded.scene.objects.retain(|object| object.name == "apple");
+    loaded.scene.objects[0].particles = Some(2000);
+    let before = prepare(Arc::new(loaded.clone())).unwrap();
+    let mut materials = BTreeSet::new();
+    for index in (0..2000).step_by(190) {
+        let at = before.particles(0).at(index);
+        let place = point(at.position.as_dvec3().to_array(), at.normal.as_dvec3().to_array());
+        loaded.scene.touches = vec![Touch::new("touch", "apple", vec![place])];
+        let painting = prepare(Arc::new(loaded.clone())).unwrap();
+        let under = before.material_of(0, LayerKind::Body, index);
+        assert_eq!(painting.material_of(0, LayerKind::Touches, 0), under);
+        materials.insert(under.to_owned());
+    }
+    assert!(materials.len() > 2 && !materials.contains("apple"), "{materials:?}");
 }

@@ -43,7 +43,7 @@ pub fn id_bits(name: &str) -> u32 {
 pub(crate) struct Matte {
     /// Its name, such as `CryptoObject`.
     pub(crate) kind: &'static str,
-    /// The names that may show, by their [`id_bits`].
+    /// The names that the file lists, by their [`id_bits`].
     pub(crate) names: BTreeMap<u32, String>,
 }
 

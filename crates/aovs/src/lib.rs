@@ -47,7 +47,8 @@ pub const GATHERED: &[Aov] = &[
     Aov::CryptoStroke,
 ];
 
-/// Reads the colour of a renderer's last picture, which must be of this frame, and the AOVs that are wanted.
+/// Reads the colour of a renderer's last picture, which must be of this frame, and the AOVs that are wanted. Those of
+/// [`GATHERED`] are left out if the frame's quality is not exact.
 ///
 /// # Errors
 /// When the driver complains.

@@ -1,6 +1,6 @@
 //! Sizes in bytes as people write them.
 
-/// Reads a number of bytes, with or without K, M, G or T behind it.
+/// Reads a number of bytes, with or without K, M, G or T (powers of 1024) behind it.
 pub(crate) fn size_bytes(text: &str) -> Result<u64, String> {
     let words = || format!("{text:?} is no size: write a number of bytes, or one such as 512M or 4G");
     let text = text.trim();

@@ -161,8 +161,8 @@ impl Frames {
         Ok(any)
     }
 
-    /// Whether any pixel of any frame is transparent. Only frames whose files have alpha are read, up to the first
-    /// transparent one.
+    /// Whether any pixel of any frame is transparent. Only frames whose files have alpha are read, and only until a
+    /// transparent one is found.
     fn are_transparent_somewhere(&self, quiet: bool) -> Result<bool, Failure> {
         let with_alpha: Vec<&PathBuf> = self
             .paths

@@ -2,8 +2,8 @@
 //! what lies on it.
 //!
 //! ```text
-//! bound ─▶ + Σ weight · target ─▶ Σ weight · joint ─┬─▶ (noise) ─▶ vertices
-//!                    or, instead, points of a cache ┘               └─▶ Gradients: F at each vertex ─▶ carry
+//! bound ─▶ + Σ weight · target ─▶ Σ weight · joint ─┬─▶ (noise) ─▶ vertices ─▶ Gradients: F at each ─▶ carry
+//!                    or, instead, points of a cache ┘
 //! ```
 //!
 //! F is the deformation gradient: it takes a step on the surface at rest to the same step on the bent one. Where there

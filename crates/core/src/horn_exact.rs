@@ -14,7 +14,8 @@ pub struct ClipView {
 }
 
 impl ClipView {
-    /// Where a point shows, in pixels, Y up. Points behind the eye come out mirrored, as they do in the paper.
+    /// Where a point shows, in pixels from the picture's centre, Y up. Points behind the eye come out mirrored, as they
+    /// do in the paper.
     pub fn pixel(&self, position_in_model: DVec3) -> DVec2 {
         let clip = self.clip_from_model * position_in_model.extend(1.0);
         DVec2::new(clip.x / clip.w, clip.y / clip.w) * 0.5 * self.size_px
@@ -24,7 +25,7 @@ impl ClipView {
 /// The angle by which a stroke turns from the reference to this frame, radians: `arg Σ p̄ c` over its neighbours. As
 /// complex numbers, p and c are a neighbour's offset from the stroke in the reference picture and in this frame. Each
 /// point is given as a pair: where it is in the reference, and where it is now, model space. 0 when there are no
-/// neighbours or the sum is not finite.
+/// neighbours or the sum is not a number.
 pub fn turn_rad(
     center: [DVec3; 2],
     neighbours: impl Iterator<Item = [DVec3; 2]>,

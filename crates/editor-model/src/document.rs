@@ -180,7 +180,8 @@ impl Document {
         self.selection = selection;
     }
 
-    /// Shows the scene as a command would leave it, until [`Document::end_preview`] or the next command.
+    /// Shows the scene as a command would leave it, until [`Document::end_preview`], a command, undo, redo, or reading
+    /// again.
     ///
     /// # Errors
     /// As [`Document::apply`]; what was shown before stays.
@@ -397,7 +398,7 @@ impl Document {
         is_free
     }
 
-    /// The proposed file for saving: the scene's own, or one named after its first object.
+    /// The proposed file for saving: the scene's own, or one named after its first object, or *untitled.ron*.
     pub fn suggested_file(&self) -> PathBuf {
         if let Some(file) = &self.file {
             return file.clone();

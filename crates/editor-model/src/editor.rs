@@ -70,7 +70,7 @@ enum Busy {
     ShotView(Navigation, DVec3, CameraPose),
     /// A tool of Paint has the pointer.
     Painting,
-    /// The button is down on an object; after a few pixels this becomes a drag.
+    /// The button is down on an object or a light; after a few pixels this becomes a drag.
     Pressed(DVec2),
     /// Objects or a light are moved, turned or scaled.
     Transforming(Box<TransformDrag>),
@@ -104,7 +104,7 @@ pub struct Editor {
     said: Vec<Said>,
     requests: Vec<Request>,
     version: u64,
-    /// The result of [`losses_of`] when messages were last taken or the document was last saved, whichever was later.
+    /// The result of [`losses_of`] when messages were last taken or [`Editor::save`] last saved, whichever was later.
     losses: (usize, bool),
 }
 
@@ -272,7 +272,8 @@ impl Editor {
         self.told(result)
     }
 
-    /// To be called when the document may have changed: stops playback and deselects keys that are gone.
+    /// To be called when the document may have changed. Stops playback, deselects keys that are gone, and shows the
+    /// loose poses again. Loose poses that were dropped before can no longer be restored.
     fn edited(&mut self) {
         self.version += 1;
         self.time.playback.stop();

@@ -117,7 +117,7 @@ impl FinishedFrames {
     }
 
     /// The indices of the frames to read, the most urgent first: the frame that is asked for, the frame before it (only
-    /// while playback is stopped), and the frames after it.
+    /// while playback is stopped; before the first frame comes the last), and the frames after it.
     pub fn wanted(&self) -> Vec<usize> {
         let count = self.frames.len();
         let mut wanted: Vec<usize> = (0..=AHEAD)

@@ -97,7 +97,7 @@ pub enum Action {
     SmallerRadius,
     /// Makes the brush larger.
     LargerRadius,
-    /// Turns the direction under the cursor round.
+    /// Flips the directions of the region under the cursor.
     FlipUnderCursor,
     /// Selects all objects; on a lane, all keys.
     SelectAll,
@@ -117,7 +117,7 @@ pub enum Action {
     ShowAll,
     /// Locks what is selected, or unlocks it.
     Lock,
-    /// Moves the view so that the selected objects fill it.
+    /// Moves the view so that the selected objects, and those of selected regions, fill it.
     FrameSelected,
     /// Moves the view so that all objects fill it, except those that are hidden or have a built-in mesh.
     FrameAll,
@@ -433,12 +433,12 @@ pub enum Button {
     Wheel,
 }
 
-/// What a drag does to the view.
+/// What a drag or the wheel does to the view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Navigation {
     /// Moves the camera round a point.
     Orbit,
-    /// Moves the camera sideways.
+    /// Moves the camera parallel to the picture.
     Pan,
     /// Moves the camera nearer or farther.
     Zoom,

@@ -191,7 +191,7 @@ impl SurfacePath {
         self.radius
     }
 
-    /// Whether the pointer is off the surface now.
+    /// Whether the tip of the string had no surface to draw on at the last look-up.
     pub fn is_lifted(&self) -> bool {
         self.lifted
     }

@@ -12,8 +12,8 @@ use std::collections::BTreeSet;
 #[cfg(test)]
 mod tests;
 
-/// If the clock jumps ahead by more than this many seconds, the machine is taken to have been suspended. Playback then
-/// goes on from the frame that is shown.
+/// If the clock jumps ahead by more than this many seconds (as after a suspension of the machine), or back by more than
+/// [`MOST_LEAD_SECS`], playback goes on from the frame that is shown.
 const SLEPT_SECS: f64 = 5.0;
 /// The greatest lead, seconds. The lead is the time by which pictures are asked for before they are due.
 const MOST_LEAD_SECS: f64 = 0.4;

@@ -27,9 +27,9 @@ pub enum Tool {
     Turn,
     /// Arrange, Animate: the gizmo's boxes.
     Scale,
-    /// Arrange: adds a light where the user clicks.
+    /// Arrange, Animate: adds a light where the user clicks.
     AddLight,
-    /// Arrange: orbits the shot camera.
+    /// Arrange, Animate: orbits the shot camera.
     ShotCamera,
     /// Paint: strokes follow the drag.
     Comb,

@@ -26,7 +26,7 @@ struct Watched {
 /// What changed on disk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum News {
-    /// Meshes or pictures that the scene uses.
+    /// Files that the scene uses, such as meshes, pictures or the shot.
     Files,
     /// The scene file itself, changed by another program.
     Scene,

@@ -146,8 +146,8 @@ impl Shared {
         board.wanted.first().filter(|_| board.list == list).cloned()
     }
 
-    /// Stores the picture that was next in the list with this number; none if it could not be painted. Returns whether
-    /// the list is still wanted.
+    /// Stores the picture that was next in the list with this number; `image` is `None` if it could not be painted.
+    /// Returns whether the list is still wanted.
     fn put(&self, list: u64, image: Option<ColorImage>) -> bool {
         let mut board = self.board();
         if board.list != list || board.wanted.is_empty() {
@@ -167,7 +167,7 @@ impl Shared {
     }
 
     /// Paints a list. The driver is opened for the list and closed after it, so that no second scene stays in memory
-    /// without need. None if there is no driver.
+    /// without need. None if there is no driver, or a shader is broken.
     fn paint_list(&self, list: u64, driver: Driver, wake: &dyn Fn()) -> Option<()> {
         let shaders = self.board().shaders.clone();
         let mut renderer = open_renderer(driver, &shaders).ok()?;

@@ -44,13 +44,13 @@ pub struct ViewportInput<'a> {
     pub through_shot: bool,
     /// What is drawn over the picture; in a comparison, over the reference.
     pub marks: &'a Marks<'a>,
-    /// The other half of a comparison, if there is one.
+    /// The second picture of a comparison, if there is one.
     pub now: Option<Now<'a>>,
     /// The badge at the bottom left.
     pub badge: Badge,
     /// What a screen reader says of the viewport, such as *Paint, comb, shot camera, frame 0, reference*.
     pub value: &'a str,
-    /// What a screen reader says of the place under the pointer, such as *skin, 10 degrees, trust 0.97*.
+    /// What a screen reader says of the place under the pointer, such as *10°  trust 0.97*.
     pub under_cursor: &'a str,
     /// Whether the scene is empty.
     pub empty: bool,
@@ -58,7 +58,7 @@ pub struct ViewportInput<'a> {
     pub trouble: Option<&'a str>,
 }
 
-/// The right half of a comparison.
+/// The second picture of a comparison: the frame that is shown, beside or below the reference.
 #[derive(Clone, Copy)]
 pub struct Now<'a> {
     /// The camera at the frame that is shown, before it is widened to the viewport.
@@ -74,7 +74,7 @@ pub struct Now<'a> {
 /// How the view that is shown differs from the reference.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Badge {
-    /// It does not differ: the shot camera, at the reference's frame.
+    /// The shot camera, at the reference's frame.
     Reference(f64),
     /// Another frame, through the shot camera.
     Turned {

@@ -41,7 +41,8 @@ const CLOSING: Duration = Duration::from_millis(1500);
 pub struct Job {
     /// The scene.
     pub loaded: Arc<LoadedScene>,
-    /// The version of the scene: nothing is prepared again while it stays the same.
+    /// The version of the scene. While it stays the same, the scene is prepared again only for views in which large
+    /// surfaces may lack particles.
     pub serial: u64,
     /// The views, each drawn as one picture.
     pub views: Vec<ViewJob>,
@@ -133,13 +134,13 @@ pub enum Report {
 pub struct Picture {
     /// Index of the view in its job.
     pub index: usize,
-    /// The view.
+    /// The view that was drawn. During playback it may be one frame earlier than the job's.
     pub view: ViewJob,
     /// The serial of its scene.
     pub serial: u64,
     /// The pixels. A draft has fewer than the view asked for.
     pub image: Arc<ColorImage>,
-    /// Whether it is what a file would get, not a draft.
+    /// Whether it is drawn as for a file, not as a draft.
     pub exact: bool,
     /// How many strokes it has.
     pub strokes: usize,
@@ -171,7 +172,7 @@ impl Worker {
     }
 
     /// Shows this job from now on. An earlier job that has not begun is dropped. One that is under way gives up its
-    /// exact pictures.
+    /// film, and exact pictures that take long to draw.
     pub fn show(&self, job: Job) {
         self.mailbox.put(job, Later::default());
     }
@@ -187,7 +188,7 @@ impl Worker {
         self.mailbox.put_shaders(texts);
     }
 
-    /// Gives up preparing the last job: its scene is not shown, and the pictures shown so far stay until another job
+    /// Gives up preparing the last job: its scene is not painted, and the pictures shown so far stay until another job
     /// comes.
     pub fn stop_preparing(&self) {
         self.mailbox.stop_preparing();

@@ -37,8 +37,8 @@ pub(crate) struct BodyProgram {
     variants: [Option<Program>; 2],
 }
 
-/// A pose scales unevenly if the squared lengths of its axes differ by more than this share. Rounding to single
-/// precision makes a smaller difference.
+/// A pose scales unevenly if its axes differ in squared length, or are off a right angle, by more than this share.
+/// Rounding to single precision makes a smaller difference.
 const UNEVEN: f64 = 1e-4;
 
 /// The matrix that takes normals from model space to the world: the pose itself, or its inverse transpose if the pose
@@ -49,8 +49,8 @@ fn world_from_normal(body: &FrameBody) -> Mat3 {
 }
 
 impl BodyProgram {
-    /// A program whose vertex shader includes `shared/body.glsl`. `source` names only the uniforms that are not in that
-    /// file.
+    /// A program whose vertex shader includes `shared/body.glsl`. `source` names only the uniforms that
+    /// [`BodyProgram::bind`] does not set.
     pub(crate) fn new(
         gpu: &Gpu,
         files: &'static [&'static [ShaderFile]],
@@ -83,8 +83,8 @@ impl BodyProgram {
         Ok(())
     }
 
-    /// Starts to draw a part of a body: sets the uniforms of `shared/body.glsl` and `shared/cutout.glsl`. Holes are
-    /// only sure to be cut if [`BodyProgram::prepare`] was called for the frame.
+    /// Starts to draw a part of a body: sets the pose, the matrix of its normals, and the uniforms of
+    /// `shared/cutout.glsl`. Holes are only sure to be cut if [`BodyProgram::prepare`] was called for the frame.
     pub(crate) fn bind<'a>(&'a self, body: &FrameBody, part: &Part) -> Bound<'a> {
         let usual = || self.variants[0].as_ref().expect("the usual variant is always made");
         let wanted = self.variants[usize::from(part.cutoff.is_some())].as_ref();

@@ -71,7 +71,7 @@ impl PixelShares {
 /// One layer of paint of a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaintedLayer {
-    /// The `layer` that the scene states for the regions of its strokes.
+    /// The `layer` that the scene states for the regions of its strokes; for touches, the highest of all.
     pub order: i32,
     /// Which of the layers of paint it is.
     pub kind: LayerKind,

@@ -64,7 +64,7 @@ impl Keeps {
         drawn + else_taken
     }
 
-    /// Whether a target is freed as soon as no later pass reads it.
+    /// Whether targets are freed while a picture is drawn, instead of staying for the next one.
     pub(crate) fn lets_go(self) -> bool {
         self != Self::Everything
     }

@@ -1,12 +1,12 @@
 //! The only crate that draws: Frame -> pixels.
 //!
 //! ```text
-//! Frame ─▶ reference pass: shadow ─▶ surface ─▶ openness ─▶ light      (colour, normal, depth and id)
+//! Frame ─▶ reference pass: shadow ─▶ surface ─▶ samples ─▶ openness ─▶ light ─▶ noise   (colour, normal, depth and id)
 //!                │
 //!                └─▶ a style: its targets and its passes in order ─▶ encode: sRGB bytes ─▶ overlays of a window
 //! ```
 //!
-//! Openness is ambient occlusion: 1 in the open, 0 where a place is enclosed.
+//! Openness is ambient occlusion: 1 in the open, 0 where a place is enclosed. Noise means bodies that noise colours.
 
 mod body_program;
 pub mod context;

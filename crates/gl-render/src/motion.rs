@@ -18,10 +18,10 @@ pub struct MotionPixels {
     /// Width and height in pixels.
     pub size_px: [u32; 2],
     /// From a pixel's centre to where the same surface point projects in the other picture: columns to the right, rows
-    /// **down**. 0 where no body shows, or where the point is behind the other camera's eye.
+    /// **down**. 0 where no body shows, or where the point is behind the other camera's eye (in perspective).
     pub offset_px: Vec<[f32; 2]>,
-    /// Depth of that point along the other camera's gaze, in world units; 0 where no body shows, or where the point is
-    /// behind the other camera's eye.
+    /// Depth of that point along the other camera's gaze, in world units; 0 where no body shows. Behind the other
+    /// camera's eye it is 0 in perspective, and below 0 with parallel rays.
     pub depth_then: Vec<f32>,
     /// Index of the body plus 1; 0 where nothing is.
     pub body_id: Vec<u32>,

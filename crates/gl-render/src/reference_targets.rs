@@ -12,7 +12,7 @@ pub(crate) const SURFACE_TEXTURES: [&str; 4] = ["albedo_and_lit", "normal", "dep
 /// The textures of the reference pass. All have the picture's size, except `openness`.
 pub(crate) struct ReferenceTargets {
     size_px: [u32; 2],
-    /// The lit picture, display-linear. For brush strokes, it leaves out a part of strong highlights.
+    /// The lit picture, display-linear. Where highlights have strokes of their own, a part of strong ones is left out.
     pub(crate) color: Rc<Texture>,
     pub(crate) normal: Rc<Texture>,
     /// Depth along the gaze, and the body's index plus 1; 0 where nothing is.

@@ -267,7 +267,7 @@ impl Renderer {
         Ok(lights)
     }
 
-    /// Draws the style over the reference picture, and reads the result.
+    /// Draws the style from the reference picture, and reads the result.
     fn draw_style(
         &mut self,
         frame: &Frame,

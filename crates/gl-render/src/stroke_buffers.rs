@@ -23,7 +23,7 @@ pub(crate) struct StrokeBuffers {
     count: usize,
     /// A point for each stroke.
     points: VertexArray,
-    /// A billboard for each stroke.
+    /// A billboard for each stroke, or the strip of a line: the inputs are set anew for each draw.
     quads: VertexArray,
 }
 

@@ -31,8 +31,8 @@ pub(crate) struct StyleInput<'a> {
 
 /// Draws frames in one style.
 pub(crate) trait StyleRenderer {
-    /// Runs the style's passes. The last one writes the picture into `output`: display-linear, straight alpha. If
-    /// `input.keeps` is not everything, each target is freed after its last use.
+    /// Runs the style's passes, which leave the picture in `output`: display-linear, straight alpha. If `input.keeps`
+    /// is not everything, the style's own targets are freed at the end.
     fn draw(
         &mut self,
         input: &StyleInput<'_>,

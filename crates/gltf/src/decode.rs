@@ -246,7 +246,8 @@ impl Reading {
         Self { component: accessor.component, is_normalized }
     }
 
-    /// A number of the file as `f32`; if it is normalised, divided by the largest number of its type.
+    /// A number of the file as `f32`. If it is normalised and has 8 or 16 bits, it is divided by the largest number of
+    /// its type; the result is at least −1.
     fn value(self, raw: f32) -> f32 {
         let scale = match self.component {
             _ if !self.is_normalized => return raw,
@@ -301,7 +302,8 @@ impl Reading {
     }
 }
 
-/// Reads the first `N` numbers of each element. The run ends with its last element, so all are there.
+/// Reads the first `N` numbers of each element. The last chunk of the run may be shorter than the stride, but holds a
+/// whole element.
 fn convert<const N: usize, const BYTES: usize>(
     run: &Run,
     read: impl Fn([u8; BYTES]) -> f32,

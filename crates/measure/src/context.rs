@@ -19,7 +19,7 @@ use crate::shot::WholeShot;
 use crate::strokes::{StrokesByKey, strokes_by_key};
 use crate::versions::SceneVersion;
 
-/// Some protocols look from where the scene's own camera never is.
+/// Prepares for views from anywhere: some protocols look from where the scene's own camera never is.
 const ANYWHERE: PrepareOptions<'static> = PrepareOptions {
     give_up: &|| false,
     memory_bytes: None,

@@ -20,8 +20,8 @@ pub fn shown_over_wanted(strokes: &[PlacedStroke], pixels: usize) -> f64 {
 }
 
 /// How evenly the strokes with an alpha above a half are spread: the mean distance to the nearest neighbour, divided
-/// by that distance in a hexagonal lattice with as many points on as many pixels. Also returns how many strokes these
-/// are.
+/// by that distance in a hexagonal lattice with as many points on as many pixels; 0 for fewer than two strokes. Also
+/// returns how many strokes these are.
 pub fn spacing_over_ideal(strokes: &[PlacedStroke], pixels: usize) -> (f64, usize) {
     let mut shown: Vec<[f64; 2]> =
         strokes.iter().filter(|stroke| stroke.alpha > 0.5).map(|stroke| stroke.center_px).collect();

@@ -9,7 +9,7 @@ use crate::metric::Metric;
 pub struct MeasureOptions {
     /// Width and height of the pictures; half the scene's own where it is `None`.
     pub size_px: Option<[u32; 2]>,
-    /// How many pairs of neighbouring frames of the shot are measured.
+    /// How many pairs of neighbouring frames of the shot are measured, at most.
     pub pairs: usize,
     /// Which metrics.
     pub metrics: Vec<Metric>,

@@ -92,8 +92,8 @@ pub fn by_presence(strokes: &StrokesByKey) -> StrokesByKey {
     strokes.iter().map(|(key, stroke)| (*key, MeasuredStroke { alpha: stroke.presence, ..*stroke })).collect()
 }
 
-/// The strokes of the bodies that move between the two frames: strokes of still bodies would dilute the share that
-/// pops.
+/// The strokes of the bodies that move in the picture between the two frames: strokes of still bodies would dilute the
+/// share that pops.
 pub fn of_moving_bodies(before: &StrokesByKey, after: &StrokesByKey) -> [StrokesByKey; 2] {
     let mut moving: Vec<u32> = before
         .iter()

@@ -70,7 +70,7 @@ pub enum Verdict {
 /// How much was measured for a row.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Counts {
-    /// Strokes, each counted once per view.
+    /// Strokes; most metrics count each once per view.
     pub strokes: usize,
     /// Pixels, each counted once per view.
     pub pixels: usize,

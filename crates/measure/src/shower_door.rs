@@ -7,7 +7,8 @@ use crate::turns::Turn;
 /// How the brushwork of two pictures correlates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ShowerDoor {
-    /// Correlation at the same pixels: 1 for a shower door, 0 where nothing stays on the picture.
+    /// Correlation at the pixels that show the same body in both: 1 for a shower door, 0 where nothing stays on the
+    /// picture.
     pub same_pixels: f64,
     /// Correlation at the same surface points: 1 where the brushwork moves wholly with the surface.
     pub same_points: f64,

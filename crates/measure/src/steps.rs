@@ -44,7 +44,7 @@ pub struct Steps {
     pub by_body: BTreeMap<u32, Share>,
     /// The largest step.
     pub worst: Option<Place>,
-    /// For how many frames each highlight has been there.
+    /// For each highlight that came within the shot and was not seen to go: how many frames it has lasted.
     living: BTreeMap<StrokeKey, usize>,
     /// For each highlight that came and went within the shot: how many frames it lasted.
     lives: Vec<f64>,
@@ -107,7 +107,7 @@ impl Steps {
     }
 
     /// For each highlight that came within the shot: how many frames it lasted. A highlight that is still there at the
-    /// end counts with its frames so far.
+    /// end, or that left at the picture's border, counts with its frames so far.
     pub fn lives_of_highlights(&self) -> Vec<f64> {
         self.lives.iter().copied().chain(self.living.values().map(|&frames| frames as f64)).collect()
     }

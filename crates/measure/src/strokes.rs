@@ -13,7 +13,7 @@ pub struct StrokeKey {
     pub body_id: u32,
     /// Layer of paint.
     pub kind: LayerKind,
-    /// Index of its particle in the progressive order of the object's layer.
+    /// Index of its particle in the progressive order of the object's layer; of a touch, its index in the scene.
     pub particle: u32,
 }
 

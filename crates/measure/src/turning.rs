@@ -2,7 +2,8 @@
 
 use crate::plane::Plane;
 
-/// Where a pixel of a square picture was before the picture was turned counter-clockwise by this many quarters.
+/// Where a pixel of a square picture was before the picture was turned counter-clockwise by this many quarters. `last`
+/// is the index of the last column and row.
 fn before_quarters(quarters: i32, [x, y]: [usize; 2], last: usize) -> [usize; 2] {
     match quarters.rem_euclid(4) {
         0 => [x, y],

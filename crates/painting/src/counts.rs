@@ -225,7 +225,7 @@ impl Unneeded {
         if !surface.bends() && noise.is_none() && shapes.all(|shape| surface.is_at_rest(shape)) {
             return Self::AtRest;
         }
-        // A kept painting is found by the points of its caches in a few frames only.
+        // The key of a kept painting has the positions of a point cache at a few frames only, not in every view.
         if surface.has_cache() {
             return Self::None;
         }

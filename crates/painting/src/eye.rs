@@ -20,7 +20,7 @@ const LARGE: f64 = 0.25;
 /// numbers).
 type Planes = [(DVec4, f64); 5];
 
-/// Whether all of a sphere lies on the near side of all planes.
+/// Whether all of a sphere lies inside all planes, where they are negative.
 fn is_inside(planes: &Planes, center: DVec3, radius: f64) -> bool {
     planes.iter().all(|(plane, length)| plane.dot(center.extend(1.0)) < -length * radius)
 }
@@ -102,9 +102,9 @@ impl Eye {
         seen
     }
 
-    /// An upper bound on the pixels that a unit of surface at rest fills anywhere on such a part with finite corners, divided by the fade of
-    /// strokes near an outline; 0 where it faces away. The normal there, times the factor by which the area has grown
-    /// since rest, must be a weighted mean of `area_normals`.
+    /// An upper bound on the pixels that a unit of surface at rest fills anywhere on such a part, divided by the fade
+    /// of strokes near an outline; 0 where it faces away. The part's corners must be finite. The normal there, times
+    /// the factor by which the area has grown since rest, must be a weighted mean of `area_normals`.
     pub(crate) fn most_on(&self, seen: &SeenPart, area_normals: impl Iterator<Item = DVec3>) -> f64 {
         let (towards_eye, lifted) = self.towards_eye(seen);
         let mut facing = f64::NEG_INFINITY;
@@ -177,7 +177,8 @@ impl Eye {
         // The pixels that a unit of surface fills at the centre if it faces the eye.
         let px_per_area = to_eye.length();
         let radius_per_depth = self.row_w_length * radius / w;
-        // Points that are nearer than the centre, and seen in another direction, may fill up to this many times as many.
+        // A unit of surface that is nearer than the centre, and seen in another direction, may fill up to this many
+        // times as many pixels.
         let nearer = (1.0 + radius_per_depth) / (1.0 - radius_per_depth).powi(3);
         let thickness = (cell.thickness + self.most_offset) / cell.radius * radius_per_depth;
         // The cosine between the normal and the direction to the eye, at most: the eye's distance from the cell's

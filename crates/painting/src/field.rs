@@ -60,8 +60,9 @@ struct UnguidedField {
 }
 
 impl BodyField {
-    /// Solves the field. `None` if none is needed: every direction is stated exactly, all seams are hard, and no guide
-    /// smooths. If only guides have changed since `before` was solved, what does not depend on guides is taken from it.
+    /// Solves the field. `None` if none is needed: every direction is stated exactly and not left to combing guides or
+    /// the curvature, all seams are hard, and no guide smooths. If only guides have changed since `before` was solved,
+    /// what does not depend on guides is taken from it.
     pub(crate) fn solve(inputs: &Arc<FieldInputs>, before: Option<&Self>) -> Option<Self> {
         let only_guides_differ = |before: &&Self| {
             let guides = Arc::clone(&before.inputs.guides);

@@ -128,7 +128,7 @@ pub struct FrameView {
     pub near_far: [f32; 2],
 }
 
-/// Lights of a frame. Colours are linear Rec. 709 and already multiplied by the intensity.
+/// Lights of a frame. Colours are linear Rec. 709, already multiplied by the intensity and the scene's exposure.
 #[derive(Clone, Debug, Default)]
 pub struct FrameLights {
     /// Parallel lights; the first one casts shadows.

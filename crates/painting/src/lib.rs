@@ -2,7 +2,7 @@
 //! `painting.at(frame, options) -> Frame`. A frame is plain data; nothing here needs files or OpenGL.
 //!
 //! ```text
-//! LoadedScene ─▶ surfaces ─▶ sampling ─▶ neighbours (horn only) ─▶ lift ─▶ order ─▶ Painting
+//! LoadedScene ─▶ surfaces ─▶ sampling ─▶ neighbours (Horn only) ─▶ field ─▶ lift ─▶ order ─▶ Painting
 //!                a step runs again only when its inputs have changed
 //! Painting + frame number + picture size ─▶ Frame
 //! ```

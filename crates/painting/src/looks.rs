@@ -12,7 +12,7 @@ use rayon::prelude::*;
 pub(crate) struct Look {
     /// The columns of the lift N' (see [`impasto_core::lift`]), model space.
     pub(crate) lift: [[f32; 3]; 2],
-    /// Two slow noises: one for hue and value, one for how firm edges are and where scumble and contours lie.
+    /// Two slow noises: one for hue and value, one for how firm edges are and where scumble lies.
     pub(crate) drift: [f32; 2],
     /// The base angle with jitter in the reference picture, radians. The solver `HornExact` adds its turn to it. 0 with
     /// the solver `Tangent`, where the lift alone gives the angle.

@@ -153,8 +153,9 @@ impl NeededInputs {
         counts
     }
 
-    /// The cells of a body that stays at rest, each with how many particles it needs for each pixel that a unit of its
-    /// surface fills. `own` tells what a heap hides of itself in each view.
+    /// The cells of a body that stays at rest. Each comes with the length of the order that it needs, in particles on
+    /// the whole surface, for each pixel that a unit of surface fills. `own` tells what a heap hides of itself in each
+    /// view.
     fn seen_at_rest(
         &self,
         surface: &Surface<'_>,
@@ -259,7 +260,7 @@ fn most_on_piece(eye: &Eye, piece: &CellPiece, gradients: [Mat3; 3]) -> f64 {
     }
 }
 
-/// The most particles that any layer needs for each pixel that a unit of surface fills.
+/// The longest order that any layer needs for each pixel that a unit of surface fills.
 fn most(needed: &[f64; LAYERS]) -> f64 {
     needed.iter().copied().fold(0.0, f64::max)
 }
@@ -281,7 +282,8 @@ struct SeenCell {
 /// How a cell is to be cut.
 #[derive(Clone, Copy)]
 struct Cutting {
-    /// The most particles that any layer needs for each pixel that a unit of surface fills.
+    /// The longest order that any layer needs for each pixel that a unit of surface fills, in particles on the whole
+    /// surface.
     needed: f64,
     /// The length of the longest order that counts.
     most_on_whole: f64,
@@ -316,8 +318,8 @@ impl SeenCell {
         seen
     }
 
-    /// Whether its parts differ much and it needs many particles: `needed` for each pixel that a unit of surface fills,
-    /// but no more than belong to an order of the length `most_on_whole`.
+    /// Whether its parts differ much and it needs at least [`FEW`] particles: its share of an order that is `needed`
+    /// long for each pixel that a unit of surface fills, but at most `most_on_whole` long.
     fn is_to_cut(&self, needed: f64, most_on_whole: f64) -> bool {
         self.is_uneven
             && needed > 0.0
@@ -362,7 +364,8 @@ struct SeenTree {
 }
 
 impl SeenTree {
-    /// Builds the tree from the first cells, with what they need for each pixel that a unit of surface fills.
+    /// Builds the tree from the first cells, with the order that each layer needs for each pixel that a unit of surface
+    /// fills.
     fn new(first: Vec<(SeenCell, [f64; LAYERS])>) -> Self {
         let (mut cells, mut first_part) = (Vec::new(), Vec::new());
         let mut most_in_picture = [0.0f64; LAYERS];

@@ -49,7 +49,7 @@ const SPOTS: [[f64; 3]; 7] = [
 /// How a view sees a piece of surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Covered {
-    /// Nothing of the body lies in front of it.
+    /// Nothing of the body is known to lie in front of it.
     Nowhere,
     /// Some of it may be hidden.
     InPart,
@@ -230,7 +230,7 @@ impl Level {
 }
 
 impl Shown {
-    /// A triangle's visible side; `None` where it faces away or reaches behind the eye.
+    /// A triangle's visible side; `None` where it faces away or reaches nearer than the near plane.
     fn of(sighting: &Sighting, corners: [DVec3; 3], flipped: bool) -> Option<Self> {
         let map = &sighting.map;
         let px = corners.map(|corner| map.project(corner));

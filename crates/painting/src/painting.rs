@@ -233,16 +233,18 @@ impl Painting {
         self.bent_at(frame)[object].as_ref().map(|bent| bent.place(PackedParticle::of(place)))
     }
 
-    /// The name of the material that a stroke lies on; the object's name where the material has none.
+    /// The name of the material that a stroke lies on, a touch with its middle; the object's name where the material has
+    /// none. Of a touch, `particle` is its index in the scene.
     pub fn material_of(&self, object: usize, kind: LayerKind, particle: usize) -> &str {
         let body = &self.bodies[object].surface;
-        let material = self
-            .coat(object, kind)
-            .map(|coat| coat.sampled.particles.triangle(particle))
-            .and_then(|triangle| {
-                body.materials
-                    .get(body.mesh.material_of_triangle.get(triangle).copied().unwrap_or(0) as usize)
-            });
+        let touch = || self.touches.iter().find(|laid| laid.number as usize == particle);
+        let triangle = match kind {
+            LayerKind::Touches => touch().map(LaidTouch::triangle),
+            _ => self.coat(object, kind).map(|coat| coat.sampled.particles.triangle(particle)),
+        };
+        let material = triangle.and_then(|triangle| {
+            body.materials.get(body.mesh.material_of_triangle.get(triangle).copied().unwrap_or(0) as usize)
+        });
         match material {
             Some(material) if !material.name.is_empty() => &material.name,
             _ => &self.scene().objects[object].name,

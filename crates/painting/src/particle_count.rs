@@ -298,7 +298,8 @@ fn needed_per_area<const LAYERS: usize>(
     (needed_by_layer, deepness)
 }
 
-/// Weighted quantile: the least value such that the weights of all values up to it add up to `target`.
+/// Weighted quantile: the least value such that the weights of all values up to it add up to at least `target`; `None`
+/// if all weights together are less. Reorders `values`, which are pairs of value and weight.
 fn reached(mut values: &mut [(f64, f64)], target: f64) -> Option<f64> {
     const FEW: usize = 32;
     let order = |a: &(f64, f64), b: &(f64, f64)| a.0.total_cmp(&b.0);

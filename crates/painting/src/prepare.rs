@@ -56,7 +56,7 @@ pub struct Preparer {
 /// Prepares one scene; for many versions of one, keep a [`Preparer`].
 ///
 /// # Errors
-/// When a mesh that the scene names was not handed over with it.
+/// When a mesh that the scene names was not handed over with it, or when there are too many particles to number.
 pub fn prepare(loaded: Arc<LoadedScene>) -> Result<Painting, PrepareError> {
     Preparer::default().prepare(loaded)
 }
@@ -70,7 +70,7 @@ impl Preparer {
     /// Prepares a scene, reusing every step whose inputs are those of the scene before.
     ///
     /// # Errors
-    /// When a mesh that the scene names was not handed over with it.
+    /// When a mesh that the scene names was not handed over with it, or when there are too many particles to number.
     pub fn prepare(&mut self, loaded: Arc<LoadedScene>) -> Result<Painting, PrepareError> {
         self.prepare_with(loaded, &PrepareOptions::default())
     }

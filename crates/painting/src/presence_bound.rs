@@ -28,7 +28,7 @@ pub(crate) struct PresenceBound {
     pub(crate) reach_px: f32,
     /// One number for each part of the body. A stroke can be present only if its particle's ordinal (about how many
     /// particles come before it) is less than this, times the px² that a unit of surface covers there. Infinite where
-    /// presence does not depend on the ordinal.
+    /// the ordinal rules out nothing: with the source paper's counts, and with `size_follow`.
     pub(crate) most_per_area: Vec<f32>,
 }
 

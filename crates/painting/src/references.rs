@@ -348,8 +348,7 @@ impl Views {
         1.0 - self.facing.iter().flatten().map(|reference| 1.0 - reference.share).product::<f64>()
     }
 
-    /// A unit tangent. In the view with this Jacobian, strokes along it that the lift of [`Self::flat`] carries show at
-    /// this angle.
+    /// The unit tangent for which the lift of [`Self::flat`] shows at this angle in the view with this Jacobian.
     pub(crate) fn tangent_at(&self, angle_rad: f64, jacobian: [DVec3; 2]) -> DVec3 {
         let turned = angle_rad - self.flat(self.axes[0]).map(jacobian).angle_rad();
         let (sin, cos) = turned.sin_cos();

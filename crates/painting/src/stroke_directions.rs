@@ -21,7 +21,8 @@ pub struct StrokeDirection {
     pub region: usize,
     /// Index of the particle in its object's body layer. Particles are in the order in which they were sampled.
     pub particle: usize,
-    /// The particle's place in the order of sampling, as a share of all particles, in (0, 1).
+    /// The particle's place in the order of sampling, as a share of the particles that its object's whole surface would
+    /// have, in (0, 1].
     pub rank: f32,
     /// Pixels, origin at the upper left corner of the picture, Y down.
     pub position_px: [f32; 2],

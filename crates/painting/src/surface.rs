@@ -226,7 +226,8 @@ impl BodySurface {
         self.mesh.material_of_triangle.get(triangle).copied().unwrap_or(0) as usize
     }
 
-    /// sRGB albedo at a particle, 8 bits a channel, as 0xAABBGGRR; A is 0 where unlit.
+    /// sRGB albedo at a particle, 8 bits a channel, as 0xAABBGGRR; A is 0 where unlit, else 255. [`HOLE`] where a
+    /// texture cuts a hole.
     pub(crate) fn albedo_srgb8(&self, particle: &Particle) -> u32 {
         let material = self.material_of_triangle(particle.triangle as usize);
         let Some(material) = self.materials.get(material) else { return NO_MATERIAL };

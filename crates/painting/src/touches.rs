@@ -60,6 +60,13 @@ pub(crate) struct LaidTouch {
     pub(crate) albedo_srgb8: u32,
 }
 
+impl LaidTouch {
+    /// The triangle in its middle.
+    pub(crate) fn triangle(&self) -> usize {
+        self.places[self.places.len() / 2].place.triangle()
+    }
+}
+
 /// A place that a touch runs through, at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct TouchPlace {

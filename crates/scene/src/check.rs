@@ -1,8 +1,8 @@
 //! Checks whether the values of a document make sense: each in range, consistent with each other, and naming things
 //! that exist.
 //!
-//! Nothing here opens a file. A finding names its field by a path such as `objects[2].keys[1].frame`, which
-//! [`crate::locate::Located::place_of`] turns into a line and a column.
+//! Nothing here opens a file; only point caches, which are open already, are read. A finding names its field by a path
+//! such as `objects[2].keys[1].frame`, which [`crate::locate::Located::place_of`] turns into a line and a column.
 
 use std::collections::{BTreeMap, HashSet};
 use std::sync::Arc;

@@ -25,8 +25,8 @@ impl FoundFiles {
     /// between folders.
     pub(crate) fn note(&self, [beside, root]: [&Path; 2], path: &Path, name: &str) {
         let mut places = self.places.lock().unwrap_or_else(PoisonError::into_inner);
-        // If the naming file is itself in the list, `name` is relative to the place that the list has for it. Only the
-        // folder of that place matters, so the file name `file` is a stand-in.
+        // The place of the naming file: from the list if it is there, else from its folder. Its own file name does not
+        // matter, so `file` stands in for it.
         let naming = places.get(&without_dots(beside)).cloned().unwrap_or_else(|| {
             let root = std::fs::canonicalize(root).ok()?;
             let folder = beside.parent().filter(|folder| !folder.as_os_str().is_empty());

@@ -1,5 +1,5 @@
-//! The document and everything that reads files: scenes, meshes, pictures, keyframes, presets, saving, and located
-//! problems.
+//! The document and its files: reads, checks and saves scenes and presets, reads meshes and pictures, evaluates
+//! keyframes, and says where in a file a problem is.
 
 pub mod aovs;
 pub mod assets;

@@ -311,7 +311,7 @@ fn shared<T>((read, warnings): (T, Vec<Problem>)) -> (Arc<T>, Vec<Problem>) {
 /// Gives findings their position: in the file or, for a field that `--set` has set, on the command line.
 struct FieldLocator<'a> {
     path: &'a Path,
-    /// The file as it was written; `None` for a generated scene.
+    /// The file as it was written; `None` for a scene that was generated or edited.
     written: Option<&'a Located>,
     applied: &'a [Applied],
     /// `Some` for a document that was edited in memory. It has no text, so messages begin with their field.

@@ -15,7 +15,7 @@ pub struct MeshFile {
     pub groups: Vec<String>,
     /// Materials, indexed by `mesh.material_of_triangle`. At least one; faces without a material use a grey one.
     pub materials: Vec<Material>,
-    /// What bends it: morph targets and joints, in the file's own space.
+    /// The morph targets and joints that bend it; `None` if there are none.
     pub bend: Option<Arc<Bend>>,
     /// The points of the file, for a point cache to move; `None` if they were not asked for, or the file does not have
     /// them.

@@ -25,7 +25,7 @@ pub struct CameraPose {
     pub target: DVec3,
     /// Turn of the camera about its gaze, radians in (−π, π], counter-clockwise as seen from behind the camera.
     pub roll_rad: f64,
-    /// Shift of the lens, which moves everything in the picture; in half heights of the picture, Y up.
+    /// Shift of the lens: added to positions in the picture, in half heights of the picture, Y up.
     pub shift: DVec2,
     /// The lens, with the field of view of this frame.
     pub lens: Lens,

@@ -61,11 +61,11 @@ pub struct NewScene {
 /// A scene with one model in front of a ground. A tenth of the picture stays free at each border, whatever the model's
 /// size and position.
 ///
-/// The model is the first object and is named after the file. If it has no colours and from 2 to 12 groups, each group
-/// is an object, and the first of these is the parent of the others. Objects name the mesh by its bare file name, so
-/// the scene must lie in the same folder. A model without colours gets one, chosen by its name. With
-/// [`ViewFrom::Auto`], an open mesh that would show its back is seen from the side that shows most of its front; if
-/// that is from below, there is no ground, since the floor would hide the mesh.
+/// The model is the first object and is named after the file. But if it has no colours and from 2 to 12 groups, each
+/// group is an object with the group's name, and the first of these is the parent of the others. Objects name the mesh
+/// by its bare file name, so the scene must lie in the same folder. A model without colours gets one, chosen by its
+/// name. With [`ViewFrom::Auto`], an open mesh that would show its back is seen from the side that shows most of its
+/// front; if that is from below, there is no ground, since the floor would hide the mesh.
 pub fn for_mesh(path: &Path, mesh: &MeshFile, placing: Placing) -> NewScene {
     let name = object_name(path);
     let name_hash = scheme::name_hash(&name);

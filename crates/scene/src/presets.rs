@@ -103,9 +103,10 @@ pub fn is_paper(scene: &Scene) -> bool {
 /// The settings of region `region` of the scene; `None` means everything that no region covers.
 ///
 /// A value comes from the first that states it: the region, the region's preset, the scene, the scene's preset, the
-/// style's own preset. But a region's `scale` multiplies the size that it takes from the scene. An unknown preset
-/// counts as none (`check` refuses it). A hidden layer has a coverage of 0, except the body: its particles carry the
-/// directions that tools and touches read. The index must be one of the scene's regions.
+/// style's own preset. A preset states every value, so a region with one takes nothing from the scene. A region's
+/// `scale` multiplies the size that the region would have without it. An unknown preset counts as none (`check` refuses
+/// it). A hidden layer has a coverage of 0, except the body: its particles carry the directions that tools and touches
+/// read. The index must be one of the scene's regions.
 pub fn resolve(scene: &Scene, region: Option<usize>) -> ResolvedStrokes {
     let of_region = region.map(|region| &scene.regions[region].strokes);
     let mut strokes = resolve_with(scene, &scene.strokes, of_region);

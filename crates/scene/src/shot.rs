@@ -40,7 +40,7 @@ pub struct Shot {
     lights: Vec<(Light, Option<usize>)>,
     /// Factor from a light's intensity in the file to that in the scene.
     exposure: f64,
-    /// Intensity of the ambient light, which stands for the light that surfaces reflect onto each other.
+    /// The part of the ambient light's intensity that stands for light that surfaces reflect onto each other.
     around: f64,
     /// For each light of the file, a factor on the intensities of its keys.
     key_factors: Vec<f64>,
@@ -71,7 +71,8 @@ impl Choice {
     }
 }
 
-/// The animation of this name, or else all of them. Adds to `odd` if there is none of this name, and what two animations both move.
+/// The animation of this name; all of them if no name is given, or none has it. Adds to `odd` if none has it, and also
+/// each thing that two animations move.
 fn playing(file: &GltfFile, name: Option<&str>, odd: &mut Vec<[String; 2]>) -> Animator {
     let named = name.map_or(Playing::All, Playing::Named);
     let (animator, double) = Animator::new(&file.gltf, named).unwrap_or_else(|names| {

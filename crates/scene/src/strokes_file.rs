@@ -114,7 +114,7 @@ fn tidy(value: f64) -> f64 {
     (value * 1e6).round() / 1e6
 }
 
-/// A length or width that a file may state.
+/// A length or width, clamped to what a file may state, and rounded.
 fn size_px(px: f64) -> f64 {
     tidy(px.clamp(0.001, MAX_STROKE_PX))
 }

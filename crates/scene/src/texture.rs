@@ -18,8 +18,8 @@ pub const MAX_FILE_BYTES: u64 = 256 << 20;
 /// What a decoder may allocate, in bytes.
 const MAX_DECODER_BYTES: u64 = 384 << 20;
 
-/// No PNG, BMP, TGA or JPEG has more pixels per byte than this: deflate packs at most 1032 : 1, and a pixel has at
-/// least one bit.
+/// No PNG, BMP, TGA or JPEG has more pixels per byte than this. PNG packs most: deflate at most 1032 : 1, with at least
+/// one bit for each pixel.
 const MAX_PIXELS_PER_BYTE: u64 = 8 * 1032;
 
 /// A picture and the warnings about it.
@@ -37,8 +37,7 @@ pub struct Decoded {
 ///
 /// # Errors
 /// A [`Severity::Limit`] problem when the header claims more than [`MAX_PIXELS`], or when decoding would take too much
-/// memory. No memory is allocated beyond the limit. A [`Severity::Warning`] when the picture cannot be decoded: go on
-/// without it.
+/// memory: such a picture is not decoded. A [`Severity::Warning`] when the picture cannot be decoded: go on without it.
 pub fn decode(path: &Path, bytes: &[u8]) -> Result<Decoded, Problem> {
     let problem = |severity, message: String, mend: &str| Problem {
         severity,
@@ -121,8 +120,8 @@ pub fn decode(path: &Path, bytes: &[u8]) -> Result<Decoded, Problem> {
 /// Finds, reads and decodes a picture that another file names.
 ///
 /// # Errors
-/// Those of [`decode`]. Also a warning that names the paths that were tried if the file is not there, and a limit if
-/// the file is too large.
+/// Those of [`decode`]. Also a warning if the name is refused, the file is not there or it cannot be read, and a limit
+/// if the file is too large.
 pub fn read(folders: &AssetFolders, request: &AssetRequest<'_>) -> Result<Decoded, Problem> {
     let asset =
         folders.open(request).map_err(|error| error.to_problem(Severity::Warning, request.beside, None))?;

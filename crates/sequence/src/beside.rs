@@ -12,7 +12,8 @@ pub(crate) struct Steps<W, F> {
     pub(crate) work: W,
     /// Done on other threads, with what `work` returned.
     pub(crate) finish: F,
-    /// How many results other threads may finish at a time. With 0, the calling thread finishes them.
+    /// How many results may wait or be finished on other threads while the calling thread works on the next job. With
+    /// 0, the calling thread finishes them.
     pub(crate) most_beside: usize,
 }
 

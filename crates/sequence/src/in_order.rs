@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-/// How many jobs per thread may be under way or waiting to be taken in: enough that one slow job holds up no thread.
+/// How many jobs per thread may be under way or waiting to be taken in: enough that a job that takes twice as long as
+/// the others holds up no thread.
 const AHEAD: u64 = 2;
 
 /// Does one job after the other on its thread.

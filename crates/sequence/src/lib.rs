@@ -48,7 +48,8 @@ const MAX_BESIDE_BYTES: u64 = 64 << 20;
 /// Opening a driver and compiling the shaders once more takes about as long as this many frames.
 const FRAMES_PER_PAINTER: u64 = 4;
 
-/// The most memory that the pictures of all painters may take together, in bytes.
+/// The most bytes that the pictures of all painters may take together. On a graphics card, where one painter draws, it
+/// bounds the pictures being encoded on other threads.
 const MAX_PICTURE_BYTES: u64 = 1 << 30;
 
 /// What became of a frame's file.

@@ -9,8 +9,8 @@ use impasto_scene::save;
 use crate::Wanted;
 
 /// A hash of the scene as it was read (with what the command line changed), the bytes of all files that it reads, the
-/// settings of its frames, and the program's version: 32 hexadecimal digits. It does not depend on where the files lie.
-/// A file that cannot be opened any more counts as empty.
+/// settings of its frames, the wanted kinds of files, replaced shaders, and the program's version: 32 hexadecimal
+/// digits. It does not depend on where the files lie. A file that cannot be opened any more counts as empty.
 pub fn state(loaded: &LoadedScene, options: &FrameOptions, wanted: &Wanted, shaders: &ShaderTexts) -> String {
     let mut sum = blake3::Hasher::new();
     let mut add = |bytes: &[u8]| {

@@ -22,7 +22,7 @@ pub fn has_mark(size_px: [u32; 2], rgba8: &[[u8; 4]]) -> bool {
 
 /// The marks of a brush that is a picture. A texel holds as much paint as its lightness times its opacity; a dark mark
 /// on a light background is inverted. The picture is stretched over the stroke, its left edge at the stroke's start.
-/// None if `rgba8` has fewer texels than the size says, or if a side is 0.
+/// Empty if `rgba8` has fewer texels than the size says, or if a side is 0.
 pub fn marks_of_picture(size_px: [u32; 2], rgba8: &[[u8; 4]]) -> Vec<Mark> {
     let [width, height] = size_px.map(|side| side as usize);
     let grey: Vec<f32> = rgba8.iter().map(paint_of).collect();

@@ -86,8 +86,8 @@ fn a_picture_with_contrast_makes_a_brush() {
     assert!(marks_of_picture([64, 32], &light[..10]).is_empty());
 }
 
-/// A light bar on a dark picture reaches two of its borders. These alone would pass for a light background; but all four
-/// borders decide whether a mark is dark on light.
+/// A light bar on a dark picture reaches two of its borders. These alone would pass for a light background, but all
+/// four borders decide whether a mark is dark on light.
 #[test]
 fn a_light_mark_that_reaches_two_borders_of_its_picture_is_no_dark_one() {
     let upright = |x: usize, y: usize| match (x, y) {

@@ -131,8 +131,8 @@ impl FieldGraph {
         &self.edges[self.starts[sample] as usize..self.starts[sample + 1] as usize]
     }
 
-    /// The unit complex numbers that fit the constraints best. A sample whose number comes out as 0 keeps its target.
-    /// The same inputs give the same bits, on any number of threads.
+    /// The unit complex numbers that fit the constraints best. A sample whose number comes out of the linear solve as 0
+    /// begins the further steps at its target. The same inputs give the same bits, on any number of threads.
     pub fn solve(&self, symmetry: Symmetry, constraints: &[Constraint]) -> Vec<DVec2> {
         let system = System { graph: self, turns: self.turns(symmetry), constraints };
         let mut u = system.conjugate_gradients();

@@ -16,7 +16,7 @@ pub struct Guide {
     ball: (DVec3, f64),
 }
 
-/// How the strength of a guide falls off with the distance r. R is the guide's radius.
+/// How the strength of a guide falls off with the distance r. R is the guide's reach: see [`Guide::influence`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Falloff {
     /// (1 − (r/R)²)².

@@ -98,9 +98,9 @@ impl FreeSamples {
         self.solve(start, &firm, &pull, |tie, there| tie.turn.rotate(there))
     }
 
-    /// For each sample of a tear, a constraint that decides which way the field turns there. Its target is
-    /// perpendicular to the line along which the blend changes. Over the whole tear it lies on one side of this line:
-    /// the side to which the turn is shorter.
+    /// For each sample of a tear, a constraint that decides which way round the field turns there; `None` for others.
+    /// Its target is perpendicular to the line along which the blend changes, and on the same side of this line all
+    /// over the tear: the side that makes the turn shorter.
     fn leads(&self, field: &[DVec2], blend: &[DVec2]) -> Vec<Option<Constraint>> {
         let torn = |index: usize| blend[index].length() < TORN;
         let at = |tie: &Tie| tie.inner.map_or(field[tie.to], |inner| blend[inner]);

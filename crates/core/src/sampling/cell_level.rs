@@ -50,8 +50,8 @@ struct AskedCell {
     filled: Filled,
 }
 
-/// How many particles the levels were meant to add in a cell from when it was made, and how many they added. Counted
-/// only where tries are saved.
+/// How many particles the levels were meant to add in a cell since it was made, and how many they added. Counted only
+/// where tries are saved.
 #[derive(Clone, Copy)]
 struct Filled {
     meant: f64,
@@ -225,7 +225,7 @@ struct Throwing<'a> {
 }
 
 impl Wide for Throwing<'_> {
-    /// Those that are needed and that no accepted particle crowds.
+    /// The candidates that are needed and that no accepted particle crowds.
     type Output = Vec<Thrown>;
 
     #[inline(always)]

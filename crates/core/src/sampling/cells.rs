@@ -26,7 +26,7 @@ pub struct Cells(Vec<Cell>);
 #[derive(Clone, Debug)]
 pub struct Cell {
     extent: Extent,
-    /// Random bits that tell it from all other cells of its surface.
+    /// Random bits; hardly any two cells of a surface have the same.
     pub(super) bits: u32,
     /// Centre of a sphere that holds the cell, model units.
     pub center: DVec3,
@@ -257,8 +257,8 @@ impl Cell {
         })
     }
 
-    /// A point of the cell, from a number in 0..1 that is spread evenly, and weights that are spread evenly over a
-    /// triangle: the point's face, and the weights of the face's second and third corner.
+    /// Picks a point of the cell. Returns its face, and the weights of the face's second and third corner. `which` is
+    /// spread evenly over 0..1, `on_triangle` are such weights, spread evenly over a triangle.
     #[inline(always)]
     pub(super) fn place(
         &self,
@@ -360,9 +360,9 @@ pub struct Needed {
     /// For each cell, the index of the first of the smaller cells that it is split into ([`Cell::split`]); 0 where
     /// these need what the cell needs.
     pub first_part: Arc<Vec<u32>>,
-    /// Whether all cells are split into the smaller ones listed here, from the first level on that is thrown by cells.
-    /// If so, these levels add no particle where none is needed, but their particles are not those of the whole order.
-    /// If not, cells with few tries stay whole, which is faster.
+    /// Whether every cell is split into the smaller ones listed here as soon as levels are thrown cell by cell. If so,
+    /// these levels add no particle where none is needed, but their particles are not those of the whole order. If not,
+    /// cells with few tries stay whole, which is faster.
     pub is_strict: bool,
 }
 

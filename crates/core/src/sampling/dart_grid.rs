@@ -178,8 +178,8 @@ impl DartGrid {
         }
     }
 
-    /// Visits the darts that are nearer than `radius` to a position, some of them more than once, until the visitor ends
-    /// the search. Returns whether it did.
+    /// Visits the darts that are nearer than `radius` to a position, some of them more than once, until the visitor
+    /// ends the search. Returns whether it did. `radius` must not exceed that of the grid.
     #[inline(always)]
     pub(super) fn visit_near(&self, position: Vec3, radius: f32, visitor: &mut impl Visitor) -> bool {
         let scaled = position * self.cells_per_unit;

@@ -29,7 +29,7 @@ const MOST_CHUNK: usize = 1 << 20;
 /// Darts are thrown in levels whose spacings do not depend on how many particles there will be in the end. Two
 /// particles crowd each other only on the same side of the surface, so thin sheets carry their full share on both
 /// sides. The result depends on the mesh, the count and the seed alone. An empty surface gives no particles, and one
-/// whose faces lie on each other fewer than `count`.
+/// whose faces lie on each other may give fewer than `count`.
 pub fn progressive(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Particle> {
     let mut order = ProgressiveOrder::default();
     order.grow(surface, seed, count);
@@ -37,8 +37,8 @@ pub fn progressive(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Partic
     order.particles
 }
 
-/// Samples of a surface: `count` of them, but at most 8,192. They are spread as particles are. If faces lie on each other
-/// and leave room for fewer than half, what is missing to half is laid evenly by area, without distances.
+/// Samples of a surface: `count` of them, but at most 8,192; none on an empty surface. They are spread as particles
+/// are. Where faces lie on each other and leave too little room, samples without distances are added, evenly by area.
 pub fn samples(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Particle> {
     let mut order = ProgressiveOrder::default();
     if surface.faces.is_empty() {

@@ -128,8 +128,8 @@ fn samples_of_squares_on_each_other_are_even_by_area() {
     assert_eq!(super::samples(&surface, 20_000, 3).len(), 8192);
 }
 
-/// Eight sheets lie so near to each other that the order seems crowded at first. At finer spacings they have room, and get
-/// their share again.
+/// Eight sheets lie so near to each other that the order seems crowded at first. At finer spacings they have room, and
+/// get their share again.
 #[test]
 fn close_sheets_get_their_share_at_fine_spacings() {
     let sheet = |z: f32| move |x: f32, y: f32| (Vec3::new(x, y, z), Vec3::Z);
@@ -179,8 +179,8 @@ fn an_ordinal_counts_the_particles_before_it() {
     }
 }
 
-/// Fifty sheets on each other, and one apart, whose small faces follow each other in the mesh: so each cell has parts of
-/// all of them, and few tries. The one apart gets about four fifths of its share.
+/// Fifty sheets on each other, and one apart. The mesh lists their small faces in turn, so each cell has faces of all
+/// sheets, and few tries. The one apart gets about four fifths of its share.
 #[test]
 fn an_open_sheet_among_piled_ones_is_hardly_thinner() {
     let square = |x: f32, y: f32| (Vec3::new(x, y, 0.0), Vec3::Z);
@@ -202,8 +202,8 @@ fn an_open_sheet_among_piled_ones_is_hardly_thinner() {
     assert!((0.75..1.1).contains(&share), "{share} of its share");
 }
 
-/// A pile of squares has little room. A sheet beside it still gets as many particles as it would have alone: of the
-/// squares of one size, or of a pile that is a hundred times as large.
+/// A pile of squares has little room. A sheet beside it still gets as many particles as it would have alone, whether it
+/// is as large as one of the squares or has a hundredth of the pile's area.
 #[test]
 fn a_sheet_beside_a_pile_keeps_its_share() {
     let square = |x: f32, y: f32| (Vec3::new(x, y, 0.0), Vec3::Z);

@@ -39,7 +39,7 @@ pub enum PoseField {
     Move(usize),
     /// Euler angle about an axis, degrees.
     Turn(usize),
-    /// The scale factor.
+    /// The scale factor; if the scale is uneven, the geometric mean of its factors.
     Scale,
 }
 
@@ -76,7 +76,7 @@ pub enum Arrange {
         /// Factors, none 0.
         factors: DVec3,
     },
-    /// Sets one number of an object's pose at a frame, by shifting all its keys.
+    /// Sets one number of an object's pose at a frame. All its keys shift, or scale, along.
     SetPoseField {
         /// The object.
         object: String,
@@ -89,7 +89,7 @@ pub enum Arrange {
     },
     /// Turns upright a mesh that was made with Z up, or turns it back.
     TurnUpright(String),
-    /// Scales a mesh so that its longest side has this length.
+    /// Scales an object so that the longest side of its mesh has this length, in units of the object's own space.
     ScaleTo(String, f64),
     /// Sets or removes the material override of an object.
     SetMaterial(String, Option<MaterialOverride>),
@@ -116,8 +116,8 @@ pub enum Arrange {
     /// Sets the lens of the shot. Also removes the fields of view from the camera's keys, unless only the near and
     /// far depths change.
     SetLens(Lens),
-    /// Gives the shot's camera this pose at a frame, by shifting all its keys; an orthographic one also the height of
-    /// the pose's lens.
+    /// Gives the shot's camera this pose at a frame, by shifting all its keys. If both lenses are orthographic, the
+    /// camera also takes the height of the pose's lens.
     SetCamera {
         /// The frame.
         frame: f64,

@@ -41,7 +41,7 @@ pub enum SaveError {
         /// What the system said.
         source: std::io::Error,
     },
-    /// The file was changed by another program since it was read.
+    /// The file was changed by another program since it was last read or saved here.
     #[error("{} was changed by another program since it was read", target.display())]
     ChangedOutside {
         /// The file.
@@ -171,8 +171,8 @@ impl Document {
         names.into_iter().filter(|name| !impasto_scene::built_in_mesh::is_built_in(name))
     }
 
-    /// Reads the scene's file, its meshes and its pictures again. This is one entry of the history, so undo brings the
-    /// edits back. If the file has errors, nothing changes.
+    /// Reads the scene's file, and the files that it names, again. A difference becomes one entry of the history, so
+    /// undo brings the edits back. If the file has errors, or there is no file, nothing changes.
     ///
     /// # Errors
     /// What is wrong with the file.
@@ -211,8 +211,8 @@ impl Document {
         Step { text, note: None }
     }
 
-    /// Reads again the shot, the meshes and the pictures that the scene names. If the shot changes the scene, this
-    /// makes an entry of the history, with a note of the objects that came and went.
+    /// Reads again the files that the scene names: shot, meshes, point caches and pictures. If the shot changes the
+    /// scene, this makes an entry of the history, with a note of the objects that came and went.
     ///
     /// # Errors
     /// What is wrong with the files, in the words to show. The scene then keeps the files as it read them before.

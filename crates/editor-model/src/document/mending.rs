@@ -305,7 +305,8 @@ fn merged_value<T: Clone + PartialEq>(from: &T, left: &T, right: &T, what: &str)
 }
 
 /// Three-way merge of lists of named things: `right`, with what `left` changed, added and removed since `from`. If one
-/// of the two removed what the other changed, or if both added the same name, `right` wins.
+/// of the two removed what the other changed, or if both added the same name, `right` wins. Refused if both changed a
+/// thing, each in another way.
 fn merged_list<T: Clone + PartialEq>(
     from: &[T],
     left: &[T],

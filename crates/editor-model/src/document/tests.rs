@@ -242,7 +242,7 @@ fn a_file_changed_outside_is_not_saved_over_and_can_be_read_again() {
     // What the document itself saves is not reported as a change.
     document.save_as(&folder.path()).expect("a file chosen by hand is written over");
     assert!(!document.is_changed_outside());
-    // Where the user says so, the other program's change is written over, and told as any saving is.
+    // If the user says so, the other program's change is overwritten. The message is that of any save.
     fs::write(folder.path(), &theirs).expect("written");
     editor.save_over().expect("written over");
     assert_eq!(editor.take_said().last().map(|said| said.words.clone()).as_deref(), Some("Saved s.ron"));

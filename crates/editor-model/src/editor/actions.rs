@@ -241,7 +241,7 @@ impl Editor {
         }
     }
 
-    /// Changes the mode; cancels the interaction under way.
+    /// Changes the mode; cancels the interaction under way. Entering Paint also looks through the shot camera.
     pub fn set_mode(&mut self, mode: Mode, view: &View) {
         self.cancel(view);
         let frame = reference_frame(self.document.scene());

@@ -66,7 +66,8 @@ impl Editor {
     }
 
     /// The command that moves or turns a light. If the light has keys, the command sets a key at the frame that is
-    /// shown. `None` if lights of this kind cannot be moved or turned like that. `delta` is given in `axes`.
+    /// shown. `None` if lights of this kind cannot be moved or turned like that. The columns of `axes` are the axes of
+    /// `delta` in world space.
     pub(super) fn light_command(&self, name: &str, delta: TransformDelta, axes: DMat3) -> Option<Command> {
         // The light without the preview, as it was when the drag began.
         let (stored, frame) = (self.document.scene(), self.session.frame);

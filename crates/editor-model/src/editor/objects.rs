@@ -1,4 +1,4 @@
-//! Moving, turning and scaling objects; moving lights.
+//! Moving, turning and scaling objects; moving and turning lights.
 
 use std::sync::Arc;
 
@@ -26,8 +26,8 @@ impl Editor {
         self.document.hold_mesh(mesh, file);
     }
 
-    /// Begins a transform of what is selected; returns false and says why if it cannot. `at_px` is where the pointer
-    /// is, and `held` whether its button is down.
+    /// Begins a transform of what is selected; returns false and says why if it cannot. `at_px` is the place that
+    /// movements of the pointer count from, and `held` whether its button is down.
     pub(super) fn begin_transform(
         &mut self,
         operation: Operation,
@@ -117,7 +117,8 @@ impl Editor {
     }
 
     /// The handles round the selected object, in Arrange and Animate, or round the selected light, in Arrange. `None`
-    /// if nothing with handles is selected, and while the view moves, the shot plays or two pictures are compared.
+    /// if nothing with handles is selected, with a tool that has none, and while the view moves, the shot plays or two
+    /// pictures are compared.
     pub fn gizmo(&self, view: &View) -> Option<Gizmo> {
         let operation = match self.session.tool() {
             Tool::Move | Tool::Select => Operation::Move,

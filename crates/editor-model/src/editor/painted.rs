@@ -1,7 +1,6 @@
 //! Answers what the tools ask about the painting: regions and stroke directions under the pointer.
 
 use impasto_core::bending::CarriedPlace;
-use impasto_core::sampling::Particle;
 use impasto_painting::{Painting, SurfacePlace};
 use impasto_scene::document::Amount;
 use impasto_scene::motion::CameraPose;
@@ -28,15 +27,8 @@ pub(super) struct PaintedView<'a> {
 impl Painted for PaintedView<'_> {
     fn region_at(&self, hit: &Hit) -> Option<usize> {
         let painting = self.painting?;
-        let place = Particle {
-            triangle: hit.triangle,
-            barycentric: [hit.barycentric[1] as f32, hit.barycentric[2] as f32],
-            flipped: false,
-            position: hit.position_in_model.as_vec3(),
-            normal: hit.normal_in_model.as_vec3(),
-        };
-        let is_there = (hit.object) < painting.scene().objects.len();
-        let region = is_there.then(|| painting.region_at(hit.object, &place))?;
+        let is_there = hit.object < painting.scene().objects.len();
+        let region = is_there.then(|| painting.region_at(hit.object, &hit.particle()))?;
         (region < painting.scene().regions.len()).then_some(region)
     }
 

@@ -15,7 +15,7 @@ use crate::timeline::KeysEvent;
 use crate::tools::{Painted as _, REST_SECS, Surroundings, ToolEvent, ToolOutput};
 use crate::transform::{Operation, Snap, TransformEvent};
 
-/// A drag of an object begins after this many pixels.
+/// A drag of an object or a light begins after this many pixels. A right press that moves less asks for a menu.
 const DRAG_PX: f64 = 4.0;
 
 /// A zooming drag of this many pixels counts as one step of the wheel.
@@ -107,7 +107,7 @@ impl Editor {
                 let shot = self.shot();
                 navigate(self.looking.free(&shot), way, about, delta_px, view);
             }
-            Busy::ShotView(..) if delta_px == DVec2::ZERO => {}
+            Busy::Shot(_) | Busy::ShotView(..) if delta_px == DVec2::ZERO => {}
             Busy::ShotView(way, about, pose) => {
                 let mut free = FreeView::new(pose.clone());
                 navigate(&mut free, *way, *about, delta_px, view);
@@ -265,7 +265,10 @@ impl Editor {
             Busy::Shot(pose) if button == Button::Left => {
                 let pose = pose.clone();
                 self.busy = Busy::Idle;
-                self.place_shot(pose);
+                // A click moves nothing.
+                if pose != self.shot() {
+                    self.place_shot(pose);
+                }
             }
             Busy::ShotView(_, _, pose) => {
                 let pose = pose.clone();

@@ -1,5 +1,6 @@
 //! The file of a copy of unsaved work: a scene file with comment lines above it. The comments say what it is a copy of.
-//! If parts of the text that the scene was read from could not be read, the comments also hold that text.
+//! They also hold the text that the scene was read from, if parts of it could not be read, and the user's unfinished
+//! edit of that text, if there is one.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

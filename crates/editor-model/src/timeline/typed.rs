@@ -1,6 +1,7 @@
 //! Reads frames that a person types, as `37` or `1.5 s`.
 
-/// The frame that was typed: its number, as in `37`, or a time from frame 0, as in `1.5 s`. `None` for other text.
+/// The frame that was typed: its number, as in `37`, or a time from frame 0, as in `1.5 s`. Rounded to a whole frame;
+/// `None` for other text.
 pub fn typed_frame(text: &str, fps: f64) -> Option<f64> {
     let text = text.trim().replace('\u{2212}', "-").replace(',', ".");
     let (number, frames) = match text.strip_suffix('s') {

@@ -19,7 +19,8 @@ use crate::session::Tool;
 
 mod spline;
 
-/// Distances within which the pointer is on a handle, on a line, and on the arrow beyond its end.
+/// Distances within which the pointer is on a handle, on a line, and on the arrow beyond its end. A press within
+/// `ARROW_PX` of the last point also ends a curve.
 const HANDLE_PX: f64 = 12.0;
 const LINE_PX: f64 = 6.0;
 const ARROW_PX: f64 = 8.0;

@@ -10,7 +10,7 @@ pub(super) struct Typed {
 const MOST: usize = 12;
 
 impl Typed {
-    /// Takes a digit or a point; `-` changes the sign wherever it is typed. Anything else is ignored.
+    /// Takes a digit or a point (`.` or `,`); `-` changes the sign wherever it is typed. Anything else is ignored.
     pub(super) fn push(&mut self, character: char) {
         match character {
             '-' | '−' => self.negative = !self.negative,

@@ -10,14 +10,13 @@ use impasto_editor_model::editor::Mend;
 use impasto_editor_model::keymap::Preset;
 
 use super::EditorApp;
-use super::long_work::MeshFor;
 use crate::files::beside::Copies;
 use crate::files::dialogs::{Answer, FileDialogs};
 use crate::files::file_ask::FileAsk;
 use crate::files::incoming::{self, Present, Step};
 use crate::files::preferences::{self, Keys, Preferences};
 use crate::panels::ask_close::{self, Question};
-use crate::panels::problems::{self, TroubleOf};
+use crate::panels::problems::{self, MeshFor, TroubleOf};
 use crate::panels::welcome::{self, Choices, Left};
 use crate::theme;
 

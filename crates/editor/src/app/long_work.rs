@@ -17,20 +17,12 @@ use impasto_scene::problem::Report;
 
 use super::EditorApp;
 use crate::files::incoming::{Adopted, Step, adopt_mesh, name_of};
-use crate::panels::problems::{TroubleOf, note_read};
+use crate::panels::problems::{MeshFor, TroubleOf, note_read};
 use crate::panels::work::{Work, WorkKind};
 use crate::window::Waker;
 
 /// Work that takes longer than this is shown in the status line.
 const SHOWN_AFTER: Duration = Duration::from_millis(200);
-
-#[derive(Clone, Debug)]
-pub(super) enum MeshFor {
-    /// To add a new object.
-    Import,
-    /// To replace the mesh of this object.
-    Replace(String),
-}
 
 enum Outcome {
     Opened(PathBuf, Result<Box<Document>, Report>),
@@ -272,7 +264,7 @@ impl EditorApp {
                 }
             },
             Outcome::Mesh(path, what_for, Ok((adopted, file))) => {
-                self.settled(&TroubleOf::Import(path));
+                self.settled(&TroubleOf::Mesh(what_for.clone(), path));
                 if !adopted.copied.is_empty() {
                     self.toast(format!("Copied {} beside the scene", adopted.name), None, false);
                 }
@@ -290,10 +282,10 @@ impl EditorApp {
                     }
                 }
             }
-            Outcome::Mesh(path, _, Err(words)) => {
+            Outcome::Mesh(path, what_for, Err(words)) => {
                 // Pictures and presets that came together with the mesh were meant for it.
                 self.long.drop_brushes();
-                self.trouble(TroubleOf::Import(path), words);
+                self.trouble(TroubleOf::Mesh(what_for, path), words);
             }
         }
     }

@@ -25,8 +25,9 @@ use crate::viewport::overlay::{
 use crate::viewport::surface_map::{Face, FacePlace, StandingBody, SurfaceMap};
 use crate::viewport::{Framing, HairLook, Marks, direction_marks};
 
-/// The map of visible surfaces has this many cells per point: first at rest, then while the view moves.
+/// Cells per point of the map of visible surfaces, while the view is at rest.
 const CELLS_PER_POINT: f64 = 0.5;
+/// The same, while the view moves.
 const MOVING_CELLS_PER_POINT: f64 = 0.2;
 
 /// The cached marks of the pictures that are shown: two in a comparison, otherwise one.
@@ -172,7 +173,8 @@ impl MarkCache {
         half.map = Some((key, map));
     }
 
-    /// The marks of a picture: the cached ones and, with `fresh`, also those that are made in every pass.
+    /// The marks of a picture: the cached ones and, with `fresh`, also those that are made in every pass. The caller
+    /// adds singular points, from [`MarkCache::singular`].
     pub(super) fn marks<'a>(&'a self, index: usize, editor: &Editor, fresh: Option<&'a Fresh>) -> Marks<'a> {
         let half = &self.halves[index];
         let marks = Marks {

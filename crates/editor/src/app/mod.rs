@@ -93,9 +93,10 @@ pub(crate) struct EditorApp {
     presets: PresetFlow,
 }
 
-/// Missing meshes, and for each the file in the scene's folder that is likely meant.
+/// Missing meshes, and for some of them the file in the scene's folder that is likely meant.
 #[derive(Default)]
 struct LikelyMeshes {
+    folder: PathBuf,
     of: Vec<String>,
     found: Vec<(String, String)>,
 }
@@ -359,15 +360,16 @@ impl EditorApp {
 }
 
 impl LikelyMeshes {
-    /// Searches the folder again if other meshes are missing than before.
+    /// Searches the scene's folder if it is another one, or if other meshes are missing than before.
     fn follow(&mut self, document: &Document) {
         let loaded = document.shown();
         let is_missing = |mesh: &&str| document.lacks_mesh(mesh);
         let missing = loaded.scene.objects.iter().map(|object| object.mesh.as_str()).filter(is_missing);
-        if !missing.clone().eq(self.of.iter().map(String::as_str)) {
+        if self.folder != document.folder() || !missing.clone().eq(self.of.iter().map(String::as_str)) {
             let missing: Vec<&str> = missing.collect();
             self.found = crate::files::nearby::meshes_like(document.folder(), &missing);
             self.of = missing.into_iter().map(str::to_owned).collect();
+            self.folder = document.folder().to_owned();
         }
     }
 }

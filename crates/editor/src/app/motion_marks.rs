@@ -12,7 +12,7 @@ use crate::viewport::Framing;
 use crate::viewport::overlay::{MissingMesh, MotionPath, Outline};
 use crate::viewport::surface_map::{StandingBody, SurfaceMap};
 
-/// A path has about this many dots at most.
+/// A path is made of at most about this many places.
 const MAX_PLACES: f64 = 400.0;
 /// Ghosts, the object's outlines at other frames, are made from a coarse map with this many cells per point of the
 /// window.

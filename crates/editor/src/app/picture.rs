@@ -19,7 +19,7 @@ use crate::worker::{Job, Later, Report, ViewJob, Worker};
 /// Pictures per second are counted over this time, seconds.
 const SPAN_S: f64 = 1.0;
 
-/// At most this many frames of the film are asked for at a time. The thread keeps those that it has memory for.
+/// At most this many frames of the film are asked for at a time. The thread keeps those that it has room for.
 const MOST_FRAMES: i64 = 1000;
 
 /// What came from the thread in this pass.

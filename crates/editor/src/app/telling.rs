@@ -61,7 +61,8 @@ fn controls_in_words(controls: &TreeUpdate) -> String {
 }
 
 impl EditorApp {
-    /// Reports the frame of the playback that was just shown, and the frame that the clock stands at.
+    /// Reports the frame of the playback that was just shown, the frame that the clock stands at, and how many frames
+    /// were dropped.
     pub(super) fn tell_played(&self) {
         let playback = &self.editor.time().playback;
         let clock = playback.clock_frame(self.editor.now_secs());

@@ -5,12 +5,11 @@ use impasto_scene::built_in_mesh::is_built_in;
 use impasto_scene::mesh_format::file_and_node;
 
 use super::EditorApp;
-use super::long_work::MeshFor;
 use crate::files::file_ask::FileAsk;
 use crate::panels::problems::{Settle, Trouble, TroubleOf};
 
 impl EditorApp {
-    /// Lists a failure and shows the list.
+    /// Lists a failure. Shows the list if the failure is new in it.
     pub(super) fn trouble(&mut self, of: TroubleOf, words: String) {
         // Leaves out the advice that helps only on the command line.
         let words = words.replace(", or name its folder with --asset-dir", "");
@@ -32,7 +31,7 @@ impl EditorApp {
                 (words, "What was read last stays", &[Settle::Retry, Settle::Dismiss])
             }
             TroubleOf::Open(_)
-            | TroubleOf::Import(_)
+            | TroubleOf::Mesh(..)
             | TroubleOf::Picture(..)
             | TroubleOf::Preset(..)
             | TroubleOf::SavePreset(..) => (words, "Nothing changed", &[Settle::Retry, Settle::Dismiss]),
@@ -86,7 +85,7 @@ impl EditorApp {
                 self.toast("Something is being read: wait for it, or stop it".to_owned(), None, true);
             }
             (Settle::Retry, TroubleOf::ChangedOutside(news)) => self.changed_outside(*news),
-            (Settle::Retry, TroubleOf::Import(path)) => self.read_mesh(path, MeshFor::Import),
+            (Settle::Retry, TroubleOf::Mesh(what_for, path)) => self.read_mesh(path, what_for.clone()),
             (Settle::Retry, TroubleOf::Picture(of, path)) => self.picture(of, path),
             (Settle::Retry, TroubleOf::Preset(of, path)) => self.use_preset(of.clone(), path),
             (Settle::Retry, TroubleOf::SavePreset(of, path)) => self.save_preset_again(of.clone(), path),

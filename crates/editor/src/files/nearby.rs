@@ -12,7 +12,7 @@ const MAX_FILES: usize = 4000;
 const MAX_APART: usize = 2;
 
 /// For each missing mesh, the mesh in the scene's folder that is likely meant: one of the same name in another
-/// folder, else the one of the most similar name.
+/// folder, else the one of the most similar name. Missing meshes without one are left out.
 pub fn meshes_like(folder: &Path, missing: &[&str]) -> Vec<(String, String)> {
     if missing.is_empty() {
         return Vec::new();

@@ -89,7 +89,7 @@ fn taken(before: Rect, after: Rect) -> Rect {
     rect
 }
 
-/// Moves the focus to the next area, or to the first area if nothing has the focus.
+/// Moves the focus to the next area, or to the first area if the focus is in none.
 pub fn next_area(ctx: &Context) {
     let places: Places = ctx.data(|data| data.get_temp(places_id())).unwrap_or_default();
     let shown: Vec<(Area, Rect)> = ORDER

@@ -1,5 +1,5 @@
-//! The viewer of finished frames: a picture as large as the window, and a bar to play, step and scrub. Nothing can be
-//! edited here.
+//! The viewer of finished frames: a picture, made smaller if it does not fit, and a bar to play, step and scrub.
+//! Nothing can be edited here.
 
 use egui::{CentralPanel, Color32, Event, Frame, Panel, Rect, RichText, Role, Sense, TextureHandle, Ui};
 use egui::{WidgetInfo, pos2, vec2};
@@ -42,9 +42,9 @@ pub enum ViewerAsk {
     Close,
     /// Play, or stop.
     PlayOrStop,
-    /// Go to the frame with this index.
+    /// Stop, and go to the frame with this index. An index beyond either end means that end.
     GoTo(i64),
-    /// Go this many frames on.
+    /// Stop, and go this many frames on.
     Step(i64),
     /// Begin again at the end, or not.
     Loop(bool),

@@ -206,8 +206,8 @@ fn line(
     whole
 }
 
-/// Gives a command these keys. Asks first if another command would lose one of them for good; or, unless they are the
-/// preset's own, if it could not be reached by one while a keyframe is selected.
+/// Gives a command these keys. Asks first if another command has one of them and would lose it for good. Also asks if
+/// one of them would no longer reach another command while a keyframe is selected, unless they are the preset's keys.
 fn choose(keymap: &Keymap, id: CommandId, chords: Vec<Chord>, doing: &mut Doing, asks: &mut Vec<Ask>) {
     let losers = keymap.losers(id, &chords);
     let hidden = if chords == keymap.usual(id) { Vec::new() } else { keymap.hidden(id, &chords) };

@@ -2,7 +2,7 @@
 //! list of [`Ask`]; no panel changes the document or the session itself.
 //!
 //! Each bar cuts its own space off the `Ui` that it is given, so the order of the calls decides the layout: top bar,
-//! status line, `strip`, right column, options bar, rail. What is left is the viewport.
+//! status line, `strip`, problems, right column, options bar, rail. What is left is the viewport.
 
 mod areas;
 pub mod ask_close;
@@ -62,7 +62,7 @@ pub struct PanelInput<'a> {
     pub document: &'a Document,
     /// Mode, tools, view.
     pub session: &'a Session,
-    /// Whether the right column is shown.
+    /// Whether the right column is shown where it fits ([`column_fits`]).
     pub has_column: bool,
     /// Playback and selected keys.
     pub time: &'a TimeHand,
@@ -70,9 +70,9 @@ pub struct PanelInput<'a> {
     pub painting: Option<&'a Painting>,
     /// The key bindings in use; menus and tooltips take the texts of shortcuts from them.
     pub keymap: &'a Keymap,
-    /// What the mouse would do now, alone and with keys: `[Drag] comb  [Shift] smooth`.
+    /// What is going on, and what the mouse and the keys would do now: `[Drag] comb  [Shift] smooth`.
     pub status: &'a str,
-    /// Numbers for the status line.
+    /// Numbers about the picture, and the work in the background.
     pub numbers: Numbers<'a>,
     /// Recently opened files, the latest first.
     pub recent: &'a [PathBuf],
@@ -153,7 +153,7 @@ impl<'a> PanelInput<'a> {
     }
 }
 
-/// Numbers for the status line.
+/// Numbers about the picture for the status line, the inspector and the rulers, and the work in the background.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Numbers<'a> {
     /// Strokes in the last exact picture.

@@ -15,11 +15,11 @@ use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Button};
 
 pub use source::{forget_text, note_read, restore_text, unread_text};
-pub use trouble::{Settle, Trouble, TroubleOf};
+pub use trouble::{MeshFor, Settle, Trouble, TroubleOf};
 
 const HEIGHT: f32 = 232.0;
 const LEAST_HEIGHT: f32 = 200.0;
-/// The largest share of the window's height that the panel takes.
+/// The share of the window's height that the panel takes, between `LEAST_HEIGHT` and `HEIGHT`.
 const MOST_OF_WINDOW: f32 = 0.45;
 const HEAD: f32 = 41.0;
 const FOOT: f32 = 44.0;

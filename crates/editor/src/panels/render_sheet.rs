@@ -38,7 +38,7 @@ pub struct RenderShown<'a> {
 pub enum RenderAsk {
     /// Start rendering.
     Render,
-    /// Stop rendering; finished frames stay.
+    /// Stop rendering. Finished frames stay, but not those of a movie.
     Stop,
     /// Close the sheet while rendering goes on.
     WorkOn,

@@ -12,7 +12,7 @@ pub const STRIP: f32 = 44.0;
 pub const RAIL: f32 = 48.0;
 /// Height of a row in menus, in lists of commands and keys, and in the inspector's list of paint layers.
 pub const ROW: f32 = 28.0;
-/// Height of a row in the scene tree.
+/// Height of a row in the scene tree, and in the sheet for files.
 pub const TREE_ROW: f32 = 26.0;
 /// Height of a section's head.
 pub const SECTION_HEAD: f32 = 30.0;

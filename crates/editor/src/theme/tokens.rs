@@ -57,9 +57,9 @@ pub struct Tokens {
     pub accent_text: Color32,
     /// Text on `accent`.
     pub on_accent: Color32,
-    /// Unsaved edits, warnings, dropped frames.
+    /// Unsaved edits, warnings, dropped frames, views other than the reference, fair trust.
     pub ochre: Color32,
-    /// Keys on the timeline.
+    /// Animation keys, and the motion path.
     pub key: Color32,
     /// Errors.
     pub vermilion: Color32,

@@ -34,7 +34,7 @@ pub struct Marks<'a> {
     pub rings: &'a [Ring],
     /// A needle that shows the direction at the centre of the tool's own ring.
     pub needle: Option<Needle>,
-    /// Radius of the tool's own ring, in points: the needle and the label keep clear of it.
+    /// Radius of the tool's own ring, in points: it gives the needle its length and the label its place.
     pub radius_px: f64,
     /// The label beside the tool's own ring; it is not drawn where there is no ring.
     pub tag: Option<&'a str>,

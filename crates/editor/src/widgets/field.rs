@@ -56,9 +56,9 @@ pub struct FieldResponse {
     pub response: Response,
     /// The value has changed.
     pub changed: bool,
-    /// A drag, a typed number, a step or a reset began in this pass.
+    /// In this pass a drag began, typing ended without `Esc`, or there was a step or a reset.
     pub began: bool,
-    /// A drag, a typed number, a step or a reset ended in this pass.
+    /// In this pass a drag ended, typing ended without `Esc`, or there was a step or a reset.
     pub ended: bool,
     /// The change was one step of the wheel, of an arrow key or of a screen reader.
     pub stepped: bool,
@@ -101,7 +101,7 @@ impl<'a> NumberField<'a> {
         }
     }
 
-    /// Shows these words in place of the name, which may be longer than there is room for.
+    /// Shows these words as the label, for a name that is too long for one.
     pub fn label(self, words: &'a str) -> Self {
         Self { label: Some(words), ..self }
     }

@@ -11,7 +11,7 @@ use crate::theme::{Tokens, measure, type_face};
 pub enum RowMark {
     /// An icon that shows what kind of thing it is.
     Icon(Icon),
-    /// A region's colour.
+    /// The colour of a region or a touch.
     Colour(Color32),
     /// Something is wrong with it: a vermilion icon, and the name in the same colour.
     Wrong(Icon),

@@ -69,7 +69,7 @@ impl From<accesskit_winit::Event> for Happening {
 ///
 /// # Errors
 ///
-/// [`WindowError`] if there is no display or no OpenGL, with the packages to install.
+/// [`WindowError`] if there is no display or no OpenGL, or if one of them fails while the window is open.
 pub fn run<A: App>(options: Options, make: impl FnOnce(&Opened) -> A) -> Result<(), WindowError> {
     let event_loop = build_event_loop()?;
     let proxy = event_loop.create_proxy();

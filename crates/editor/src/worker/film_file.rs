@@ -33,7 +33,7 @@ impl FilmFile {
         })
     }
 
-    /// Appends a picture. Returns its offset in bytes; `None` if there is no room for it.
+    /// Appends a picture. Returns its offset in bytes; `None` if there is no room for it or it cannot be written.
     pub(super) fn put(&mut self, image: &ColorImage) -> Option<u64> {
         let bytes = image.as_raw();
         let (at, size) = (self.used, bytes.len() as u64);

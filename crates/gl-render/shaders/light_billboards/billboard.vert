@@ -11,7 +11,7 @@ uniform float icon;              // layer of the icon texture; below 0: a ring
 uniform float px;                // a pixel as a share of half the quad's side
 uniform float pieces;            // how many straight pieces make the ring
 
-out vec2 on_plane;               // place on the picture's plane
+out vec2 on_plane;               // place on the quad's plane, world units right and up from corner_00
 flat out vec4 first_two;         // the corners on that plane
 flat out vec4 last_two;
 

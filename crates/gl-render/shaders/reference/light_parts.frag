@@ -18,7 +18,7 @@ void main() {
     light_and_shadow = vec4(1.0);
     if (texelFetch(albedo_and_lit, at, 0).a == 0.0) return;
     vec4 normal_and_gloss = texelFetch(normal, at, 0);
-    // A surface without a normal is coloured by noise. No light falls on it.
+    // A surface without a normal is coloured by noise. It counts as unlit: all values stay 1.
     if (dot(normal_and_gloss.xyz, normal_and_gloss.xyz) < 0.25) return;
     LitPoint point;
     point.position = world_from_px(gl_FragCoord.xy, here.x);

@@ -13,7 +13,7 @@ layout(location = 0) out vec4 motion;
 
 void main() {
     cut_out();
-    // A point behind the eye has no place in the picture: its depth is 0.
+    // A point behind the eye of a perspective lens has no place in the picture: its depth is 0.
     bool in_front = clip_then.w > 0.0;
     // Without this check, a body that stands still would get a tiny offset: graphics cards fuse one of the two
     // quotients with the subtraction, and so round the two differently.

@@ -25,8 +25,8 @@ const vec2 LEAP = vec2(0.01, 0.03);
 void main() {
     ivec2 last = textureSize(depth_and_id, 0) - 1;
     ivec2 block = ivec2(gl_FragCoord.xy) * block_px;
-    // A block belongs to its foremost body, weighted by that body's share of sixteen taps, so that thin bodies fade in
-    // and out.
+    // A block has the detail of its foremost body only. That body's share of sixteen taps is the weight of the block
+    // in all means, so that thin bodies fade in and out.
     ivec2 taps[5];
     vec2 front = vec2(0.0);
     for (int index = 0; index < 5; index++) {

@@ -6,7 +6,7 @@
 uniform sampler2D normal;            // of the surface, world space, towards the eye; 0 where noise colours it
 #endif
 uniform sampler2D picture;           // premultiplied, display-linear
-uniform sampler2D reference_color;   // alpha 1 where a body is
+uniform sampler2D reference_color;   // alpha 1 where a body is, or less where noise colours it
 #ifndef DRAFT
 uniform sampler2D surface;           // x: depth; y: body id + half the share of the pixel that shows something else
 uniform sampler2D height;            // of the paint, in brush thicknesses, and how wet it is
@@ -31,7 +31,7 @@ layout(location = 3) out vec2 wet_and_border;    // how wet it is; whether neigh
 layout(location = 4) out vec4 ground;            // premultiplied
 #endif
 
-const float THICKNESS_PX = 1.6;      // of paint of height 1
+const float THICKNESS_PX = 1.6;      // of paint of height 1, pixels of the scene's own size
 const float WEAVE_PX = 0.09;
 #ifndef DRAFT
 // Wet paint of one colour runs together. MELT: how far, 0..1. MELT_PX: over which two distances, pixels of the scene's
@@ -45,8 +45,9 @@ const float MELTED_RELIEF = 0.45;
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 
 #ifndef DRAFT
-// Between these cosines, strokes fade towards an outline until few are left. On a round body such flat angles lie
-// within less than a pixel of the outline. On ground that runs to the horizon they fill a wide strip.
+// Cosines between the normal and the direction to the eye: from the second down to the first, strokes fade until few
+// are left. On a round body such flat angles lie within less than a pixel of the outline. On ground that runs to the
+// horizon they fill a wide strip.
 const vec2 FLAT = vec2(0.015, 0.08);
 
 // How flat the angle is at which a surface is seen: 0 where no strokes have faded, 1 where the surface's own colour

@@ -1,5 +1,5 @@
-// How a stroke's colour is mixed from the colour under it. Colours are Oklab. A jitter, temperature or grading of 0
-// changes nothing.
+// How a stroke's colour is mixed from the colour that `resolve.vert` finds at its place. Colours are Oklab. A jitter,
+// temperature or grading of 0 changes nothing.
 #ifdef PALETTES
 uniform sampler2D palettes;      // a row per palette: pigments in Oklab; w: how far colours keep to it, 0 past the end
 

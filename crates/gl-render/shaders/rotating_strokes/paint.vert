@@ -30,7 +30,7 @@ uniform mat4 view_from_world;
 uniform int kind;                // layer of paint
 #endif
 uniform float mark_rows;         // texels across a mark
-uniform sampler2D mark_bounds;   // a row for each mark: the box around all texels with more paint than a given amount
+uniform sampler2D mark_bounds;   // a row per mark, a texel per threshold of paint: the box around what lies above it
 #ifndef DRAFT
 uniform sampler2D below;         // the picture before this layer, premultiplied
 uniform sampler2D depth_and_id;
@@ -43,7 +43,7 @@ flat out uint number;
 
 out vec2 mark_at;                // place on the mark, 0..1; on a shaped stroke, px along and across it
 out vec2 from_center_px;
-flat out vec4 paint;             // rgb: colour; a: where the mark has less paint than this, nothing is laid
+flat out vec4 paint;             // rgb: colour; a: the paint value of the mark in the middle of its soft edge
 flat out vec3 half_mixed;        // other paint in the brush: added to the colour, times the mark's tint
 flat out vec4 picked_up;         // colour from below and how much of it
 flat out vec4 mark;              // number of the mark, level of detail, half the width of its soft edge, bow
@@ -62,7 +62,7 @@ flat out float leaning;          // skew
 #endif
 
 const float MARGIN = 1.0 / 0.84;
-// How fast the mark of a fading stroke ends, as in the fragment shader.
+// How much more paint the mark needs past the ends of a fading stroke, per half length; as in the fragment shader.
 const float STEEPNESS = 4.0;
 // Paint that picks up this much from below, or more, runs together with its neighbours as far as it can.
 const float WET_PICKUP = 0.25;
@@ -151,7 +151,7 @@ void main() {
     float share = 0.98 * (1.0 - dryness) * mix(0.5, 1.0, there);
     // A fading stroke shrinks from its ends to a quarter of its length, then fades as a whole.
     float extent = max(there, 0.25);
-    // An edge about a pixel wide, as a share of the mark.
+    // An edge about a pixel wide, as a share of the mark's area.
     float soft = clamp(1.2 * (size.x + size.y) / (size.x * size.y), 0.02, 0.14);
     paint = vec4(resolved.rgb, mix(1.0 + soft, soft + 0.02, share));
 #ifdef DRAFT

@@ -51,8 +51,8 @@ const float NEAR_PEAK = 0.7;
 // How far from itself a contour stroke looks for the end of its body, pixels of the scene's own size.
 const float OUTLINE_PX = 20.0;
 
-// How far behind the stroke another body must lie to count as past the end of the stroke's own body: in part from the
-// first depth on, wholly from the second.
+// How far behind the stroke another body must lie to count as past the end of the stroke's own body, pixels of the
+// scene's own size: in part from the first depth on, wholly from the second.
 const vec2 BEHIND_PX = vec2(10.0, 50.0);
 
 // A stroke that other bodies hide in part is wholly there while more than this share of it is visible.

@@ -102,7 +102,7 @@ float freedom(vec2 center_px, float id) {
         found += weight;
         covered += weight * smoothstep(covers_px.x, covers_px.y, before_px);
     }
-    // Where most places show other bodies, the few that are left would switch the colour.
+    // Where most places show other bodies, the few that are left must not switch the colour.
     return (found - covered) / max(found, 0.5 * (1.0 + float(PLACES - 1) * believed));
 }
 
@@ -169,12 +169,12 @@ float is_past_both(vec2 center_px, vec2 offset_px, vec2 own, float free) {
     return past == 0.0 ? 0.0 : past * is_past(center_px - offset_px, own, free);
 }
 
-// The distance of the second look at whether the face has ended, relative to the first.
+// The largest distance at which `thinness` looks whether the face has ended, relative to the first one.
 const float FURTHER = 1.2;
 
 // How thin the stroke's own face is, 0..1: the share of directions in which the face ends nearby on both sides. Another
 // face one pixel wide, such as the side of a shutter, is no end. So the stroke's face must have ended at a nearer or a
-// further distance, too.
+// further distance, too. Where it has ended only at the further one, the direction counts half.
 float thinness(vec2 center_px, vec2 own, float free) {
     float around_px = AROUND_PX * max(2.0 * px_scale, 1.0);
     // Nothing is known beyond the picture. Near its border, taps go less far, and what they find counts less.

@@ -1,4 +1,4 @@
-// The last pass: encodes what a style has painted for a display.
+// The last pass: encodes a style's finished picture as sRGB.
 #include "shared/encode.glsl"
 uniform sampler2D picture;     // straight alpha, display-linear
 uniform float exposure;        // a factor

@@ -6,7 +6,7 @@ in float depth_along_gaze;
 uniform float body_id;
 
 layout(location = 0) out vec2 depth_and_id;
-layout(location = 1) out vec4 normal;       // 0: this body is coloured by noise; dropped if there is no target for it
+layout(location = 1) out vec4 normal;       // 0: this body is coloured by noise
 
 void main() {
     cut_out();

@@ -35,7 +35,7 @@ void main() {
     }
     float dry = float(bytes.x >> 24) * BYTE;
     float share = 0.98 * (1.0 - dry) * there;
-    // How far above and below that the ink fades, in the same units: the smaller the stroke, the softer its edge.
+    // Half the width of the soft edge, as a share of full paint: the smaller the stroke, the softer its edge.
     float soft = clamp(2.0 * (size.x + size.y) / (size.x * size.y), 0.03, 0.22);
     ink = vec4((1.0 - resolved.rgb) * fitted.z, mix(1.0 + soft, soft + 0.02, share));
     vec2 along = vec2(cos(place.w), sin(place.w));

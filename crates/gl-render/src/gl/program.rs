@@ -20,7 +20,7 @@ pub(crate) struct ProgramSource<'a> {
     pub uniforms: &'a [&'a [&'static str]],
     /// Further uniforms, in groups, which the shader may leave out; setting one that is left out does nothing.
     pub optional: &'a [&'a [&'static str]],
-    /// Names that are `#define`d for the shaders.
+    /// What is `#define`d for the shaders: names, or a name and its value, as in `LAYER 0`.
     pub defined: &'a [&'static str],
 }
 

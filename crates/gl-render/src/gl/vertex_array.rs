@@ -18,7 +18,7 @@ pub(crate) struct Attribute<'a> {
     pub per_instance: bool,
 }
 
-/// The inputs of a draw call. The buffers must outlive the vertex array.
+/// The inputs of a draw call. The buffers must live as long as anything is drawn with them.
 pub(crate) struct VertexArray {
     gpu: Gpu,
     id: glow::VertexArray,

@@ -1,6 +1,6 @@
-//! Finds where on a mark there is paint, so that less is drawn. Most of a mark's rectangle is room for ragged ends, and
-//! a dry or faint stroke covers even less. A quad that is cut to the painted box looks the same and covers far fewer
-//! pixels.
+//! Finds where on a mark there is paint, so that less is drawn. A part of a mark's rectangle is only room for uneven
+//! edges, and a dry or faint stroke covers even less. A quad that is cut to the painted box looks the same and covers
+//! far fewer pixels.
 
 use impasto_core::brush::SIZE;
 use rayon::prelude::*;

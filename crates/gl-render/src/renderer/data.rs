@@ -10,8 +10,9 @@ use crate::lighting::LightSetup;
 use crate::motion::{MotionPass, MotionPixels};
 
 impl Renderer {
-    /// Says whether the exact pictures drawn from now on also gather what [`Renderer::take_layers`] and
-    /// [`Renderer::read_paint_surface`] return. This changes no picture, and takes time and memory.
+    /// Says whether the pictures drawn from now on also gather what [`Renderer::take_layers`] and
+    /// [`Renderer::read_paint_surface`] return. This changes no picture, and takes time and memory. While paint is
+    /// gathered, a draft in brush strokes is an error.
     pub fn gather_paint(&mut self, gathers: bool) {
         self.gathers = gathers;
     }
@@ -109,8 +110,8 @@ impl Renderer {
         ReferencePixels { depth, body_id }
     }
 
-    /// The paint of the last frame without background: premultiplied, display-linear, top row first. Empty unless
-    /// everything is kept ([`Renderer::keep`]).
+    /// The paint of the last frame without background: premultiplied, display-linear, top row first. Empty in styles
+    /// other than brush strokes, and unless everything is kept ([`Renderer::keep`]).
     pub fn read_paint(&self) -> Vec<[f32; 4]> {
         let (Some(style), Some(painted)) = (self.last_renderer(), &self.painted) else { return Vec::new() };
         top_row_first(style.read_paint(), painted.pass.size_px()[0] as usize)

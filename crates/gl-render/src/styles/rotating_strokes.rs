@@ -1,9 +1,10 @@
 //! Brush strokes that turn with what they lie on.
 //!
-//! Targets: `fine` (depth and body of each sample), `surface` (the same of each pixel), `detail` (where small strokes
-//! are wanted), `paint` (premultiplied, linear), `height` (of the paint), `below` (the picture before a layer),
-//! `soft height`. Passes: coverage (samples, then pixels), detail, spread (twice), resolve (finds colour, presence and
-//! place of each stroke), paint (a billboard per stroke, one layer after the other), soften, finish.
+//! Targets: `surface` (depth and body of each pixel, and how much of the pixel shows something else), `detail` (where
+//! small strokes are wanted), `paint` (premultiplied, linear), `height` (of the paint), `below` (the picture before a
+//! layer), `soft height`. Passes: coverage (from the samples of the reference pass), detail, spread (twice), resolve
+//! (finds colour, presence and place of each stroke), paint (a billboard per stroke, one layer after the other),
+//! soften, finish.
 
 mod canvas;
 mod coverage;
@@ -228,7 +229,7 @@ impl RotatingStrokes {
         self.data.as_mut().filter(|_| input.gathers).map_or(Ok(()), PaintData::end_noting)
     }
 
-    /// Lays the lines of a layer, one after the other.
+    /// Lays all lines of the frame, one after the other. A frame has at most one layer of lines.
     fn paint_lines(
         &mut self,
         input: &StyleInput<'_>,

@@ -84,7 +84,7 @@ pub(crate) fn triangles(
     Ok(triangles)
 }
 
-/// Triangles of `count` corners. Strips and fans are stitched with triangles of no area, which are dropped.
+/// Triangles of `count` corners. Strips and fans are stitched with triangles that repeat a corner; these are dropped.
 pub(crate) fn assembled(mode: Mode, count: usize, vertex: impl Fn(usize) -> u32) -> Vec<[u32; 3]> {
     let has_three = |&[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
     match mode {

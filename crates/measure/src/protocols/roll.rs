@@ -30,7 +30,7 @@ const TENSOR_PX: f64 = 2.0;
 /// Rolls by angles that are not quarter turns, degrees.
 const ODD_DEG: [f64; 3] = [7.0, 30.0, 137.0];
 
-/// With more particles than this, M2 measures each angle at one picture size only.
+/// With more particles than this, M2 measures each roll angle at one picture size only.
 const MANY_PARTICLES: usize = 120_000;
 
 /// How the pictures of a rolled camera differ from the picture of the unrolled camera, turned to match.

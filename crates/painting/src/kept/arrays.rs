@@ -4,13 +4,13 @@
 //! |---|---|
 //! | 16 | `impasto prepared` |
 //! | 4 | the number of the layout |
-//! | 4 | tells the order of bytes in a number |
+//! | 4 | the byte-order mark 0x04030201 |
 //! | 32 | the key |
 //! | 8 | how many arrays there are |
 //! | 8 | how many bytes there are in all |
 //! | 4 | CRC-32 of the header, with this field as 0, and of the table |
 //! | 4 | zero |
-//! | 16 for each array | its length in bytes, its CRC-32, the size of its numbers |
+//! | 16 for each array | its length in bytes, its CRC-32, the size of one element in bytes |
 //! | | the arrays, one after the other |
 
 use std::borrow::Cow;

@@ -53,7 +53,8 @@ const MOST_PARTICLES: u64 = 1 << 31;
 /// Options for preparing a scene.
 #[derive(Clone, Copy)]
 pub struct PrepareOptions<'a> {
-    /// Called between steps: preparing is given up when it returns true.
+    /// Called between steps and, on any thread, before each object's field is solved. Preparing is given up when it
+    /// returns true.
     pub give_up: &'a (dyn Fn() -> bool + Sync),
     /// How much memory the particles may take, bytes; with `None` only their number is limited.
     pub memory_bytes: Option<u64>,
@@ -104,8 +105,9 @@ pub(super) fn fits(
 ) -> Result<(), PrepareError> {
     let particles: u64 = counts.iter().sum();
     let with_lists = matches!(solver, Solver::Horn | Solver::HornExact);
-    let needed_bytes = particles * if with_lists { PEAK_BYTES_WITH_LISTS } else { PEAK_BYTES };
-    let budget_bytes = memory_bytes.unwrap_or(u64::MAX).min(MOST_PARTICLES * PEAK_BYTES);
+    let bytes_each = if with_lists { PEAK_BYTES_WITH_LISTS } else { PEAK_BYTES };
+    let needed_bytes = particles * bytes_each;
+    let budget_bytes = memory_bytes.unwrap_or(u64::MAX).min(MOST_PARTICLES * bytes_each);
     let most = (0..counts.len()).max_by_key(|&index| counts[index]);
     match most {
         Some(most) if needed_bytes > budget_bytes => Err(PrepareError::Memory {

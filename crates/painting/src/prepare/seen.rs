@@ -16,8 +16,8 @@ use crate::view::PictureView;
 /// From where a painting will be seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SeenFrom<'a> {
-    /// By the scene's camera, at every whole frame of its timeline and of its keys. Where no view looks, large surfaces
-    /// have only few particles.
+    /// By the scene's camera at every whole frame from the first to the last of its timeline and keys, and in the
+    /// scene's reference. Where no view looks, large surfaces have only few particles.
     Shot {
         /// Further cameras, each at a frame.
         also: &'a [(CameraPose, f64)],
@@ -54,13 +54,13 @@ impl SeenFrom<'_> {
     }
 }
 
-/// With more frames than this, or with more poses of objects at all frames, a painting is made to be seen from
-/// anywhere.
+/// With more than `MOST_FRAMES` frames, or more than `MOST_POSES` poses of objects over all frames, a painting is made
+/// to be seen from anywhere.
 const MOST_FRAMES: usize = 4096;
 const MOST_POSES: usize = 200_000;
 
-/// The most joints and targets, counted at all frames. Where all objects that the shot bends have more together, each of
-/// them counts as one that may have any shape; where a single object has more, it alone does.
+/// The most joints and targets, summed over all frames. If the shot states more, every object whose vertices move is
+/// taken to have any shape. If a single object has more, it alone is.
 const MOST_JOINTS: usize = 500_000;
 
 /// A view, with the poses of all objects.
@@ -119,7 +119,8 @@ impl<'a> Seen<'a> {
         }
     }
 
-    /// The shape of an object in each of the views, without noise; `None` if there may be others.
+    /// The shape of an object in each of the views, without noise; `None` if there may be others, or if there are more
+    /// than [`MOST_JOINTS`].
     pub(crate) fn shapes_of(&self, object: usize) -> Option<Vec<BodyShape>> {
         let find = || {
             let frames = self.cameras()?.iter().map(|(_, frame)| *frame);

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use impasto_scene::document::{Direction, Falloff, Guide, GuideMode, GuidePoint, ObjectKey, Scene};
+use impasto_scene::document::{Direction, Falloff, Guide, GuideMode, GuidePoint, ObjectKey, Scene, Solver};
 use impasto_scene::load::{LoadOptions, load};
 use impasto_scene::loaded::LoadedScene;
 
@@ -79,4 +79,13 @@ fn a_changed_angle_and_a_guide_turn_the_strokes_of_their_object_alone() {
     let now = preparer.prepare(combed).unwrap();
     assert_eq!(reused(&turned, &now)[1], [true; 3]);
     assert_eq!(reused(&turned, &now)[0][..2], [true; 2]);
+}
+
+#[test]
+fn as_many_particles_can_be_numbered_with_any_solver() {
+    let scene = &start().scene;
+    for solver in [Solver::Tangent, Solver::HornExact] {
+        let fits = |count: u64| super::fits(None, scene, &[count, 1], solver).is_ok();
+        assert!(fits((1 << 31) - 1) && !fits(1 << 31), "{solver:?}");
+    }
 }

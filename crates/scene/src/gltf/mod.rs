@@ -141,7 +141,8 @@ impl GltfFile {
         bend::bends(self, node)
     }
 
-    /// The weights of a node's targets and the transforms of its joints, in the space of its mesh file.
+    /// The weights of a node's targets, and for each of its joints the transform from the space in which the mesh was
+    /// bound into the space of the mesh.
     pub fn bend_pose(&self, node: usize, posed: &Posed) -> BendPose {
         bend::pose(self, node, posed)
     }
@@ -156,8 +157,8 @@ impl GltfFile {
         self.gltf.nodes.iter().position(|node| node.name == name)
     }
 
-    /// A key that is equal for nodes with equal meshes. `None` if there is no such node, if the node has no mesh, or if
-    /// its mesh depends on more than the file's mesh and the stretch.
+    /// A key for the mesh of a node: nodes with equal keys have equal meshes. `None` if there is no such node, if the
+    /// node has no mesh, or if its mesh depends on more than the file's mesh and the stretch.
     pub fn instance_key(&self, name: &str) -> Option<InstanceKey> {
         let index = self.node(name)?;
         let node = &self.gltf.nodes[index];

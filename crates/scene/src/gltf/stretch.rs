@@ -1,11 +1,12 @@
-//! Splits a matrix into a turn and a stretch. This tells a body that only moves from one that changes its shape.
+//! Splits a matrix into a turn and a stretch. A node's mesh gets the stretch, its object's pose the turn.
 
 use glam::DMat3;
 
 /// A stretch counts as an even scale if it differs from an even scale by at most this share.
 const EVEN: f64 = 1e-5;
 
-/// The most steps of the iteration; each doubles the number of correct digits.
+/// The most steps of the iteration. The first ones only bring it near its end; each later one doubles the number of
+/// correct digits.
 const STEPS: usize = 60;
 
 /// The symmetric stretch S of `matrix` = Q S with a turn Q (polar decomposition, Higham 1986). For a mirroring matrix

@@ -100,7 +100,7 @@ impl LoadedScene {
             }
         }
         let doubted: Vec<&str> = self.warnings.iter().map(|warning| &*warning.field_path).collect();
-        // Whether the list of warnings was cut off: then a guide without a warning may be off its surface as well.
+        // Whether the list of warnings was cut off: then guides and dabs without a warning may be off their surfaces.
         let is_cut = self.warnings.iter().any(|warning| {
             warning.field_path.is_empty() && warning.path == self.path && warning.place.is_none()
         });

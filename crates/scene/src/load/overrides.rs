@@ -50,7 +50,7 @@ pub(super) fn apply(
 /// or the item. `path` is for messages only.
 ///
 /// # Errors
-/// The text is no scene, or a value does not fit.
+/// The text is no scene, a path leads nowhere, or a value does not fit or brings a new fatal finding.
 pub fn edited_text(path: &Path, text: &str, values: &[(String, String)]) -> Result<String, Report> {
     let mut parsed = parse::parse(path, text)?;
     let known: Vec<Finding> = fatal_findings(&parsed);

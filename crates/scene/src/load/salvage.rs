@@ -397,7 +397,7 @@ impl Reading<'_> {
 }
 
 /// The range of text to overwrite in order to remove a field. It covers the innermost field or list item on the field's
-/// path that the text states, with the comma behind it. `None` if only spaces are left there.
+/// path that the text states, with the comma behind it. `None` if there is none, or if only spaces are left there.
 fn removable_range(located: &Located, field_path: &str, left: &str) -> Option<std::ops::Range<usize>> {
     let mut node = located.root();
     let mut range = None;

@@ -1,5 +1,5 @@
-//! Scans the text of a scene file into the tree of positions, in one pass over the bytes and at most
-//! [`limits::MAX_NESTING`] calls deep.
+//! Scans the text of a scene file into the tree of positions, in one pass over the bytes. It recurses for nested
+//! brackets, at most [`limits::MAX_NESTING`] deep.
 
 use super::{Field, Inside, Node, Refused};
 use crate::limits;

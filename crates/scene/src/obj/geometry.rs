@@ -13,7 +13,8 @@ use crate::surface::Geometry;
 /// Models that are smaller than this are scaled to a size of 1: their areas would vanish in single precision.
 const LEAST_EXTENT: f64 = 1e-6;
 
-/// Models that are larger than this are scaled to a size of 1 too: a floor for them would exceed the limits of a scene.
+/// Models that are larger than this are scaled to a size of 1 too: the floor and the camera for one much larger would
+/// exceed the limits of a scene.
 const MOST_EXTENT: f64 = 1e7;
 
 /// A model whose middle is farther from the origin than this many times its size is moved to the origin, since single

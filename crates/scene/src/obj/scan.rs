@@ -10,8 +10,8 @@ use rayon::prelude::*;
 
 use super::text::{Lines, finite};
 
-/// The largest coordinate. Far beyond it, areas of triangles would overflow in single precision: the length of a cross
-/// product squares them.
+/// The largest coordinate. At a few times this size, the length of a cross product would overflow in single precision:
+/// under its root stand fourth powers of coordinates.
 pub(super) const MAX_COORDINATE: f64 = 1e9;
 
 /// Texture coordinates of this size or more count as unusable.

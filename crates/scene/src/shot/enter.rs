@@ -6,7 +6,7 @@ use super::Shot;
 use crate::document::{Color, Light, LightKind, Lost, Object, Scene, Stage, Timeline};
 use crate::nearest::nearest;
 
-/// Whether a scene leaves rate and frames to its shot.
+/// Whether a scene states neither a rate nor frames. Then the rate is the shot's.
 fn is_unstated(timeline: &Timeline) -> bool {
     *timeline == Timeline { animation: timeline.animation.clone(), ..Timeline::default() }
 }

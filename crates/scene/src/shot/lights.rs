@@ -42,9 +42,9 @@ fn luma(color: [f64; 3]) -> f64 {
 }
 
 impl Shot {
-    /// The factor from a light's intensity in the file to that in the scene, and the intensity of the ambient light. A
-    /// shot is as bright as in the program that made it, within limits: it is dimmed where whites would burn out, and
-    /// lifted where it is dark.
+    /// The factor from a light's intensity in the file to that in the scene, and the intensity of the light that
+    /// surfaces reflect onto each other. A shot is as bright as in the program that made it, within limits: it is
+    /// dimmed where whites would burn out, and lifted where it is dark.
     pub(super) fn found_exposure(&self) -> (f64, f64) {
         let [suns, lamps] = self.light_at_middle().map(|lux| lux / LUX_PER_WATT * OF_WATT);
         // Ambient light reaches a surface from half of the sphere, which makes π times the radiance.

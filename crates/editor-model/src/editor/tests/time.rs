@@ -393,3 +393,17 @@ fn both_camera_tools_key_this_frame_alone() {
         }
     }
 }
+
+#[test]
+fn a_click_with_the_shot_camera_sets_no_key() {
+    for auto_key in [true, false] {
+        let (mut editor, _) = animating(30.0);
+        editor.session.auto_key = auto_key;
+        editor.session.set_tool(Tool::ShotCamera);
+        let before = (camera_keys(editor.document().scene()), editor.document().undo_count());
+        drag(&mut editor, Button::Left, [DVec2::new(300.0, 200.0); 2], HERE);
+        let after = (camera_keys(editor.document().scene()), editor.document().undo_count());
+        assert_eq!(after, before);
+        assert!(!editor.time().is_loose("shot"));
+    }
+}

@@ -33,8 +33,8 @@ impl OwnKeysText {
         Some(format!("Some of your own keys cannot be read, and are left out: {first}{more}"))
     }
 
-    /// Puts `own` in place of all keys that can be read. Other entries stay, unless `own` replaces them, or frees the keys
-    /// that they were refused for.
+    /// Puts `own` in place of all keys that can be read. Other entries stay, unless `own` replaces them or they would
+    /// take effect now.
     pub fn set(&mut self, own: &OwnKeys) {
         let read = self.keys();
         let mut map = match std::mem::replace(&mut self.0, Value::Unit) {

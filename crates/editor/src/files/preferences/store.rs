@@ -1,4 +1,4 @@
-//! Finds the folders for preferences and for copies of unsaved work; reads and writes preferences.
+//! Finds the folders for preferences, copies of unsaved work and cached pictures; reads and writes preferences.
 
 use std::fs;
 use std::io::Write as _;
@@ -37,8 +37,8 @@ pub fn recovery_folder() -> Option<PathBuf> {
     Some(folder.join("recovery"))
 }
 
-/// The folder for pictures that a window keeps while it is open: `impasto` in the user's cache folder, or `cache` in
-/// `$IMPASTO_CONFIG_DIR`. None if the user has no home.
+/// The folder for pictures that a window keeps while it is open: `cache` in `$IMPASTO_CONFIG_DIR`. If that is not set,
+/// `impasto` in the user's cache folder. None if the user has no home.
 pub fn film_folder() -> Option<PathBuf> {
     match std::env::var_os("IMPASTO_CONFIG_DIR").filter(|folder| !folder.is_empty()) {
         Some(folder) => Some(PathBuf::from(folder).join("cache")),

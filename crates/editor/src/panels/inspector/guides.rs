@@ -19,7 +19,7 @@ pub(super) fn section_of(ui: &mut Ui, asker: &mut Asker<'_, '_>, [region, stored
         _ => None,
     };
     let count = region.guides.len().to_string();
-    // The section opens when a guide is picked in the picture, so that its row is seen.
+    // Unless it was opened or folded by hand, the section is open while a guide is selected, so that its row is seen.
     let open = is_wide(ui) || active.is_some();
     section(ui, "Guides", &count, open, |ui| {
         if region.guides.is_empty() {

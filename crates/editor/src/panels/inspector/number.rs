@@ -71,7 +71,7 @@ impl<'a> Number<'a> {
 
 impl Asker<'_, '_> {
     /// Draws a number that is `shown` now and `stored` in the history, and asks for the user's changes to it. `command`
-    /// gets the new value, or none for the reset icon.
+    /// gets the new value, or `None` for a reset by the icon or a double click.
     pub(super) fn number(
         &mut self,
         ui: &mut Ui,

@@ -183,7 +183,7 @@ pub(super) enum FieldStyle {
     Wrong,
 }
 
-/// A small icon that resets a setting to what it is when nothing is stated for it. Returns whether it was clicked.
+/// A small icon to reset a setting to its default. Returns whether it was clicked.
 pub(super) fn reset(ui: &mut Ui, name: &str) -> bool {
     let (rect, response) = ui.allocate_exact_size(vec2(measure::ROW_END, measure::HIT), Sense::click());
     let tokens = Tokens::of(ui);

@@ -1,5 +1,5 @@
-//! The sections of the inspector for the pose of an object at the frame that is shown, and for the key of an object or
-//! the camera at that frame.
+//! The section of the inspector for the pose of an object at the frame that is shown, and the section and rows for any
+//! key at that frame.
 
 use egui::Ui;
 use impasto_editor_model::command::{Arrange, Command, KeyOf, Pose, PoseField, Time};

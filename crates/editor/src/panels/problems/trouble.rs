@@ -30,8 +30,8 @@ pub enum TroubleOf {
     Open(PathBuf),
     /// What changed on disk was not read.
     ChangedOutside(News),
-    /// A mesh was not imported.
-    Import(PathBuf),
+    /// The mesh at this path was not read for this.
+    Mesh(MeshFor, PathBuf),
     /// The picture at this path could not be used for this.
     Picture(PictureFor, PathBuf),
     /// A preset was not applied to these settings.
@@ -46,6 +46,15 @@ impl TroubleOf {
     pub fn is_settled_by_saving(&self) -> bool {
         matches!(self, Self::Save(_) | Self::Copy | Self::ChangedOutside(News::Scene))
     }
+}
+
+/// What a mesh is read for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum MeshFor {
+    /// To add a new object.
+    Import,
+    /// To replace the mesh of this object.
+    Replace(String),
 }
 
 /// What settles a trouble.

@@ -35,7 +35,9 @@ impl FrameScale {
 
     /// The whole frame under `x`, within the ends.
     pub(in crate::panels) fn frame(self, x: f32) -> f64 {
-        self.place(x).round().clamp(self.first, self.last)
+        // The ends of a zoomed ruler may lie between frames.
+        let (first, last) = (self.first.ceil(), self.last.floor());
+        self.place(x).round().clamp(first, last.max(first))
     }
 
     /// How many frames lie between labels that are at least `points` apart: 1, 2 or 5 times a power of ten.
@@ -175,6 +177,9 @@ mod tests {
         assert_eq!(across.frame(5000.0), 119.0);
         let still = FrameScale { first: 4.0, last: 4.0, ..across };
         assert_eq!(still.frame(600.0), 4.0);
+        // Zoomed in, the ends lie between frames.
+        let zoomed = FrameScale { first: 12.3, last: 30.6, ..across };
+        assert_eq!([0.0, 5000.0].map(|x| zoomed.frame(x)), [13.0, 30.0]);
     }
 
     #[test]

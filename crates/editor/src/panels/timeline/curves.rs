@@ -186,8 +186,8 @@ pub(super) fn curves(ui: &mut Ui, layout: &LaneLayout<'_>, shown: &PanelInput<'_
     ui.data_mut(|data| data.insert_temp(id, memory));
 }
 
-/// Called while keys are shown instead of curves. Takes back the drag of a handle if a shortcut hid the curves during
-/// it.
+/// Called while keys or the folded strip are shown instead of curves. Takes back the drag of a handle if a shortcut hid
+/// the curves during it.
 pub(super) fn leave(ui: &Ui, asks: &mut Vec<Ask>) {
     let id = memory_id();
     let memory = ui.data(|data| data.get_temp::<Memory>(id)).filter(|memory| memory.drag.is_some());
@@ -234,7 +234,7 @@ fn chosen_segment(lane: &Lane, chosen: Option<&KeyAt>, frame: f64) -> Option<Seg
     Some(Segment { left: lane.keys[index], right: lane.keys[index + 1] })
 }
 
-/// The least and the greatest share of all curves of a lane and of the handles that show.
+/// The range of shares that holds all curves of a lane, the handles that show, and 0 and 1.
 fn reach(lane: &Lane, segment: Option<Segment>) -> [f64; 2] {
     let curves = lane.keys.iter().flat_map(|key| key.ease.reach());
     let handles = segment.into_iter().flat_map(|segment| segment.left.ease.handles()).map(|handle| handle[1]);

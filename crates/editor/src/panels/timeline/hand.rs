@@ -13,7 +13,7 @@ use crate::widgets::press_closes_menu;
 /// Where the lanes lie in the window.
 #[derive(Clone, Copy)]
 pub(super) struct LaneLayout<'a> {
-    /// The visible part of the lanes.
+    /// The visible part of the lanes, without their names.
     pub(super) area: Rect,
     /// Y of the top of the first lane.
     pub(super) top: f32,

@@ -30,7 +30,8 @@ pub(super) struct LaneRow {
     pub(super) across: FrameScale,
 }
 
-/// The item whose keys these are; `None` for the scene, whose settings show if nothing is selected.
+/// The item whose keys these are. `None` for the background and the strokes of the scene: these belong to no item, and
+/// their settings show if nothing is selected.
 pub(super) fn item(of: &KeyOf) -> Option<Item> {
     match of {
         KeyOf::Camera => Some(Item::Camera),
@@ -204,7 +205,7 @@ fn mark(painter: &egui::Painter, at: Pos2, ease: Ease, colour: Color32) {
 
 /// The curve from one key to the next, in the shape of the ease.
 fn curve([from, to]: [f32; 2], middle: f32, ease: Ease) -> Vec<Pos2> {
-    // A short curve swings less, so that it is no steeper than a long one.
+    // A short curve swings less, so that it does not get steep.
     let swing = SWING.min((to - from) / 12.0);
     let mut line = ease_line([from, to], [middle + swing, middle - swing], ease);
     // An overshoot stays within the lane.

@@ -1,5 +1,5 @@
-//! Draws the timeline's ruler: labels, the grips of the range, and the frames that playback dropped. Over ruler and
-//! lanes it draws the pin of the reference and the playhead.
+//! Draws the timeline's ruler: labels, the grips of the range, and marks for frames that are cached or that playback
+//! dropped. Over ruler and lanes it draws the pin of the reference and the playhead.
 
 use egui::{Align2, CursorIcon, Rect, Sense, Ui, pos2, vec2};
 use impasto_editor_model::command::{Command, Time};
@@ -73,7 +73,7 @@ pub(super) fn ruler(
     }
 }
 
-/// The grips that drag the ends of the range. Returns whether one is held.
+/// The grips that drag the ends of the range. Returns whether one is held, or was let go in this pass.
 fn grips(ui: &mut Ui, rect: Rect, across: FrameScale, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) -> bool {
     let timeline = &shown.document.shown().scene.timeline;
     let stored = &shown.document.scene().timeline;

@@ -21,7 +21,8 @@ pub(in crate::panels) const FPS: std::ops::RangeInclusive<f64> = 0.001..=1e6;
 /// controls.
 const NARROW: f32 = 1080.0;
 
-/// In a window narrower than this, in points, *Auto key*, *Set key* and the pacing are icons.
+/// In a window narrower than this, in points, *Auto key*, *Set key* and the pacing are icons. The bar also leaves out
+/// the word *Range* and the dropped frames.
 const ICONS_ONLY: f32 = 900.0;
 
 /// In a window narrower than this, in points, *Curves* is an icon.

@@ -1,4 +1,5 @@
-//! Dragging rows of the tree: an object dropped onto another becomes its child; a drop between rows changes the order.
+//! Dragging rows of the tree: an object dropped onto another becomes its child. A drop between rows changes the order,
+//! and gives an object the parent of the object beside it.
 
 use egui::{DragAndDrop, PointerButton, Rect, Response, Stroke, StrokeKind, Ui};
 use impasto_editor_model::Item;

@@ -38,8 +38,8 @@ impl Ink {
         painter.add(Shape::line(points.to_vec(), self.over));
     }
 
-    /// Draws a line in dashes. Only the parts within the painter's area get any: a ring that reaches behind the eye
-    /// has points millions of points away, and dashes all the way there would hold up the window.
+    /// Draws a line in dashes, and only where it lies within the painter's area: a ring that reaches behind the eye has
+    /// vertices millions of points away, and dashes all the way there would hold up the window.
     pub(super) fn dashed(&self, painter: &Painter, points: &[Pos2], dash: f32, gap: f32) {
         for run in runs_in_sight(painter, points) {
             painter.extend(Shape::dashed_line(&run, self.under, dash, gap));

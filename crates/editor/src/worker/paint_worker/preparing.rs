@@ -31,7 +31,8 @@ impl PaintWorker {
         (known.seen_from.as_ref() != Some(&views)).then_some(views)
     }
 
-    /// Prepares an order's scene for these views. During a drag, `views` is `None`.
+    /// Prepares an order's scene for these views. During a drag, `views` is `None`. Returns `None` if preparing was
+    /// given up or failed.
     pub(super) fn prepare_for(
         &mut self,
         order: &Order,
@@ -67,9 +68,11 @@ impl PaintWorker {
             }
             Err(PrepareError::GivenUp) => None,
             Err(error) => {
-                // A painting of this scene that is there already stays in use.
-                if !is_again {
-                    tell(Report::Failed(error.to_string()));
+                match self.prepared.as_mut().filter(|_| is_again) {
+                    // The painting of this scene that is there already stays in use. For these views it is not prepared
+                    // again, which would only fail again.
+                    Some(known) => known.seen_from = views,
+                    None => tell(Report::Failed(error.to_string())),
                 }
                 None
             }

@@ -42,7 +42,7 @@ impl Covered {
         bound.texture("fine", &self.fine).set("samples", self.samples as i32)
     }
 
-    /// Frees the samples. From now on, each pixel counts as one sample.
+    /// Frees the samples, after the last pass that reads them.
     pub(super) fn let_samples_go(&mut self) {
         self.fine = Rc::clone(&self.surface);
         self.samples = 1;

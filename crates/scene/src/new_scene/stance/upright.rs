@@ -11,8 +11,8 @@ const FOOT: f64 = 0.025;
 /// A model would topple if the area that it stands on is less than the square of this share of its height.
 const LEAST_SUPPORT: f64 = 0.06;
 
-/// How far a model's middle may lie outside the area that the model stands on, in square roots of the area of its
-/// shadow. Up to this distance, the model stands less and less well.
+/// A model counts as not stable at all if its middle lies this far outside the area that it stands on, and as partly
+/// stable if it lies less far outside. In square roots of the area of the model's hull as seen from above.
 const LEAN: f64 = 0.15;
 
 /// An axis is surely up when its score is this much above the next best.
