@@ -144,6 +144,34 @@ fn a_missing_texture_is_located_from_the_list_of_problems() {
     assert_eq!(editor.quit(), Some(0));
 }
 
+/// A mesh that is to replace another one is read again for that object, and not as a further object.
+#[test]
+fn a_mesh_that_could_not_replace_another_is_retried_for_the_same_object() {
+    let Some(screen) = Screen::open() else { return };
+    let folder = folder();
+    let mesh = folder.path().join("meshes/other.obj");
+    std::fs::write(&mesh, "v 0 0 0\n").unwrap();
+    let mut editor = EditorWindow::open(&screen, "replace", folder.path(), "apple.ron");
+    let objects = read(folder.path(), "apple.ron").objects.len();
+    editor.click("Arrange");
+    editor.click("Viewport");
+    editor.click("Mesh");
+    editor.click("Replace mesh");
+    editor.control("File name");
+    screen.type_text(&mesh.to_string_lossy());
+    editor.keys(&["Return"]);
+    editor.control("Retry");
+    editor.keep_picture("listed");
+    std::fs::copy(folder.path().join("meshes/apple.obj"), &mesh).unwrap();
+    editor.click("Retry");
+    editor.wait_for_title("apple.ron (edited) - Impasto");
+    editor.keys(&["ctrl+s"]);
+    editor.wait_for_title("apple.ron - Impasto");
+    let scene = read(folder.path(), "apple.ron");
+    assert_eq!(scene.objects.len(), objects);
+    assert_eq!(scene.objects[0].mesh, "meshes/other.obj");
+}
+
 /// Writes a PNG file of four red pixels.
 fn image_of_one_colour(path: &Path) {
     let file = std::fs::File::create(path).unwrap();
