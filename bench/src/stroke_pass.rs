@@ -1,6 +1,7 @@
 //! Times our stroke pass beside a bare instanced draw of the same strokes, in the same process and with the same
-//! targets, blending, brush texture, instances and quads. The bare draw has two simple shaders in place of ours: they
-//! place a quad and colour each pixel with one brush sample times the stroke's colour.
+//! targets, blending, brush texture and instances. The bare draw has two simple shaders in place of ours: they place
+//! whole quads, where ours are cut to the painted part of the mark, and colour each pixel with one brush sample times
+//! the stroke's colour.
 
 use std::sync::Arc;
 

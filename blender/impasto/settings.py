@@ -16,7 +16,7 @@ NO_PRESET = ("NONE", "As the Scene", "As the scene has it, or the oil study")
 # Field, name, description, least, most, default.
 NUMBERS: tuple[tuple[str, str, str, float, float, float], ...] = (
     ("scale", "Stroke Size", "Makes the strokes of all layers larger or smaller", 0.01, 100.0, 1.0),
-    ("coverage", "Coverage", "How many strokes lie over each other; under 1 the ground shows", 0.001, 20.0, 2.7),
+    ("coverage", "Coverage", "How many strokes lie over each other; under 1, what lies below shows", 0.001, 20.0, 2.7),
     ("contour", "Contour", "How far strokes near the limb lie along it", 0.0, 1.0, 0.0),
     ("boil", "Boil", "Lays the strokes anew as the film runs, as painted films do; 0 keeps them still", 0.0, 1.0, 0.0),
     ("boil_on", "Boil On", "For how many frames strokes hold before they are laid anew", 1.0, 1000.0, 2.0),

@@ -64,7 +64,7 @@ fn a_stroke_in_the_middle_of_a_dab_is_as_much_wider_and_those_outside_stay_to_th
     let plain = painted(scene(20_000, Vec::new()), shapes::sheet(20));
     let before = body(&plain);
     // The dab lies on a particle, so that the stroke there shows the whole factor. The first particle near the middle
-    // is taken: its rank is low, so its stroke is present however wide strokes are.
+    // is taken: its rank is low, so its stroke stays when strokes are wider and therefore fewer.
     let half = SIZE_PX.map(|side| side as f32 * 0.5);
     let off = |stroke: &Stroke| (stroke.center_px[0] - half[0]).hypot(stroke.center_px[1] - half[1]);
     let middle = *before.iter().find(|(_, stroke)| off(stroke) < 30.0).unwrap().0;

@@ -18,7 +18,7 @@ use impasto_scene::document::{Ease, ObjectKey, Scene};
 use impasto_tests::command::{impasto, root};
 use impasto_tests::{pictures, scenes, shapes};
 
-/// A picture and its channels by name.
+/// A picture and its channels by name; `ids` is the channel `stroke.id.X`.
 struct Shot {
     picture: Picture,
     planes: BTreeMap<String, Vec<f32>>,
@@ -73,7 +73,8 @@ fn shot(renderer: &mut Renderer, painting: &Painting, number: f64, options: &Fra
     Shot { picture, planes, ids }
 }
 
-/// A sheet of side 2 at the origin, facing the camera, which is 4 units away. It has the strokes of `shapes::scene`.
+/// A sheet of side 2 at the origin, facing the camera, which is 4 units away. Of the layers of `shapes::scene`, it has
+/// the body layer alone.
 fn facing_sheet(change: impl FnOnce(&mut Scene)) -> Painting {
     let mut scene = shapes::scene(vec![shapes::object("Sheet", 3000)]);
     scene.strokes.layers = shapes::body_layer_alone();
@@ -109,11 +110,9 @@ fn colour_and_layers_give_the_picture_which_no_data_changes() {
             for channel in 0..3 {
                 let linear = if alpha > 0.0 { planes[channel][index] / alpha } else { 0.0 };
                 let encoded = srgb_from_linear(linear) * 255.0;
-                // Where alpha is small, 16 bits of a premultiplied colour are coarse.
-                let most = if alpha > 0.1 { 1.0 } else { 8.0 };
                 let off = (encoded - f32::from(pixel[channel])).abs();
                 assert!(
-                    off <= most || alpha < 0.01,
+                    off <= 1.0 || alpha < 0.01,
                     "{name}, pixel {index}: {encoded} for {}",
                     pixel[channel]
                 );

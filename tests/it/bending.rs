@@ -7,12 +7,13 @@ use std::sync::Arc;
 use glam::{DAffine3, DMat3, DVec3};
 use impasto_core::TriangleMesh;
 use impasto_measure::truth::{BodyView, PointMotion, ScreenTurn, SurfacePoint, TrueView};
-use impasto_painting::frame::{Frame, LayerKind};
+use impasto_painting::frame::{Frame, LayerKind, Stroke, StrokeSource};
 use impasto_painting::{FrameOptions, Painting, Rotation, prepare};
 use impasto_scene::document::{
     Direction, Ease, ObjectKey, Region, Rest, Scale, Scene, Selector, Solver, Style,
 };
 use impasto_scene::load::{LoadOptions, load};
+use impasto_scene::mesh_file::MeshFile;
 use impasto_scene::motion;
 use impasto_tests::shapes;
 
@@ -61,7 +62,7 @@ fn morphing_scene(angle_deg: f64) -> Scene {
     scene
 }
 
-/// The angle of each stroke of the body layer that faces the eye, by particle.
+/// The angle, in radians, of each stroke of the body layer that faces the eye, by particle.
 fn angles(frame: &Frame, least_facing: f32) -> BTreeMap<u32, f64> {
     let run = frame.layers.iter().find(|run| run.kind == LayerKind::Body).expect("a body layer");
     (run.first as usize..(run.first + run.count) as usize)
@@ -149,6 +150,32 @@ fn strokes_turn_as_closed_forms_of_bending_say() {
                 println!("{name}, {angle_deg} from frame {reference}: p95 {p95:.3}, max {max:.3} degrees");
                 assert!(p95 <= most[0] && max <= most[1], "{name}, {angle_deg}: p95 {p95}, max {max}");
             }
+        }
+    }
+}
+
+/// A sheet that stretches to 1.5 times its size: strokes that follow it grow by as much, or by the root of that.
+#[test]
+fn strokes_that_follow_the_size_grow_with_a_body_that_stretches() {
+    for (follow, grown) in [(1.0, 1.5), (0.5, 1.5f64.sqrt()), (0.0, 1.0)] {
+        let mut scene = morphing_scene(30.0);
+        scene.strokes.size_follow = Some(follow);
+        // From afar, so that the depth of a place hardly changes.
+        scene.camera.keys[0] = shapes::camera_key(0.0, [0.0, 0.0, 40.0], [0.0; 3]);
+        let target = shapes::moved(&shapes::sheet(16), |at| at * 1.5);
+        let painting = prepare(shapes::morphing(scene, [shapes::sheet(16), target])).expect("good");
+        let lengths = |frame: f64| -> BTreeMap<u32, f64> {
+            let frame = painting.at(frame, &FrameOptions::new(SIZE_PX));
+            let stroke =
+                |(source, stroke): (&StrokeSource, &Stroke)| (source.particle, f64::from(stroke.length_px));
+            frame.sources.iter().zip(frame.strokes.iter()).map(stroke).collect()
+        };
+        let (before, after) = (lengths(0.0), lengths(10.0));
+        let both: Vec<f64> =
+            before.iter().filter_map(|(particle, length)| Some(after.get(particle)? / length)).collect();
+        assert!(both.len() > 30, "{}", both.len());
+        for ratio in both {
+            assert!((ratio / grown - 1.0).abs() < 0.02, "{follow}: {ratio} times, not {grown}");
         }
     }
 }
@@ -366,6 +393,43 @@ fn the_place_of_a_skinned_node_is_passed_over() {
         }
     });
     assert!(count > 0 && positions() == before);
+}
+
+/// In a skinned mesh, a primitive without joints moves with the first joint. At rest, the mesh as it was read and the
+/// mesh as joints bend it are the same.
+#[test]
+fn a_primitive_without_joints_moves_with_the_first() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("parade.glb");
+    std::fs::copy(impasto_tests::command::root().join("scenes/meshes/parade.glb"), &path).expect("copied");
+    let scene = folder.path().join("s.ron");
+    std::fs::write(&scene, "(version: 1, shot: \"parade.glb\")").expect("written");
+    let giant = || {
+        let loaded = load(&scene, &LoadOptions::default()).unwrap_or_else(|report| panic!("{report}"));
+        let is_skinned = |file: &&Arc<MeshFile>| file.bend.as_ref().is_some_and(|bend| bend.skin.is_some());
+        let mut skinned = loaded.meshes.values().filter(is_skinned);
+        let giant = Arc::clone(skinned.next().expect("the giant has joints"));
+        assert!(skinned.next().is_none());
+        giant
+    };
+    let before = giant();
+    impasto_tests::glb::edit(&path, |root, _| {
+        let meshes = root["meshes"].as_array_mut().expect("meshes");
+        let body = meshes.iter_mut().find(|mesh| mesh["name"] == "body").expect("the giant's");
+        let attributes = body["primitives"][0]["attributes"].as_object_mut().expect("attributes");
+        assert!(attributes.remove("JOINTS_0").is_some() && attributes.remove("WEIGHTS_0").is_some());
+    });
+    let after = giant();
+    let bend = after.bend.as_ref().expect("it still bends");
+    let bent = bend.at(&bend.rest);
+    assert_eq!(after.mesh.positions.len(), bent.positions.len());
+    for (vertex, (at, bent)) in after.mesh.positions.iter().zip(&bent.positions).enumerate() {
+        assert!(at.distance(*bent) < 1e-5, "vertex {vertex} is read at {at} and bent to {bent}");
+    }
+    // At rest, the first joint carries the primitive to where its own joints had carried it: nothing is left behind.
+    let far = |(a, b): (&glam::Vec3, &glam::Vec3)| a.distance(*b) > 0.3;
+    assert_eq!(before.mesh.positions.len(), after.mesh.positions.len());
+    assert!(!before.mesh.positions.iter().zip(&after.mesh.positions).any(far));
 }
 
 fn bytes_of<'a>(root: &serde_json::Value, bin: &'a mut [u8], accessor: &serde_json::Value) -> &'a mut [u8] {

@@ -130,7 +130,7 @@ fn shots_stand_where_blender_has_them() {
 }
 
 /// The shots of `tests/blender/extension/shots.py`, as the extension exports them: with point caches, cuts, lens shift
-/// and instances.
+/// and instances. How far vertices are off in the world is printed, and not checked.
 #[test]
 fn what_the_extension_exports_stands_where_blender_has_it() {
     let Some(python) = std::env::var_os("IMPASTO_BPY") else {

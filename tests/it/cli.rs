@@ -100,6 +100,31 @@ fn render_writes_whole_frames_by_their_pattern() {
     assert_eq!(frames, [0, 2]);
 }
 
+/// Programs hear of each frame of an animation as they hear of single frames; where the picture itself goes to standard
+/// output, lines for programs are refused.
+#[test]
+fn frames_of_one_file_are_reported_too() {
+    let folder = Folder::new();
+    std::fs::write(folder.path("scene.ron"), SCENE).unwrap();
+    let lines = ["--json", "--progress", "openjd", "-q"];
+    let output = folder.run(&[&["render", "scene.ron", "-o", "all.png", "--apng"], &lines[..]].concat());
+    assert_eq!(code(&output), 0, "{}", words(&output.stderr));
+    let said = words(&output.stdout);
+    let events: Vec<serde_json::Value> =
+        said.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
+    assert_eq!(events[0]["event"], "context");
+    let frames: Vec<String> =
+        events[1..].iter().map(|event| format!("{} {}", event["frame"], event["path"])).collect();
+    assert_eq!(frames, [0, 1, 2].map(|frame| format!("{frame} \"all.png\"")));
+    let progress: Vec<&str> = said.lines().filter(|line| line.starts_with("openjd_progress")).collect();
+    assert_eq!(progress, ["openjd_progress: 33.3", "openjd_progress: 66.7", "openjd_progress: 100.0"]);
+    for refused in [&lines[..1], &lines[1..3]] {
+        let output = folder.run(&[&["render", "scene.ron", "-o", "-", "--frames", "0"], refused].concat());
+        assert_eq!(code(&output), 2, "{}", words(&output.stderr));
+        assert!(output.stdout.is_empty() && words(&output.stderr).contains("--json"));
+    }
+}
+
 /// Whether one thread paints the frames or three do, the files have the same bytes and frames are reported in order.
 #[test]
 fn frames_do_not_depend_on_how_many_draw_them() {
@@ -331,7 +356,7 @@ fn a_wrong_command_line_ends_with_2() {
     assert_eq!(code(&folder.run(&["--help"])), 0);
 }
 
-/// Angle of each stroke by id, layer and length, from CSV.
+/// The angle in degrees of each stroke, by id, layer and length, from CSV.
 fn angles(text: &str) -> BTreeMap<(String, String), f64> {
     // The object's name holds a comma and quotes, so fields are counted from the end.
     let row = |line: &str| -> ((String, String), f64) {

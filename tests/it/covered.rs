@@ -19,7 +19,8 @@ fn dab(x: f64, radius: f64, take_away: bool) -> Dab {
     Dab { at: [x, 0.0, 0.0], normal: [0.0, 0.0, 1.0], radius, take_away }
 }
 
-/// For each particle on the front of a sheet (from −1 to 1): its position, and whether the region `on` covers it.
+/// For each stroke on the front of a sheet (from −1 to 1): its particle's position, and whether the region `on`
+/// covers it.
 fn on_a_sheet(on: Selector) -> Vec<(Vec3, bool)> {
     let mut scene = shapes::scene(vec![shapes::object("thing", 6000)]);
     scene.regions = vec![Region { direction: Direction::Angle(20.0), ..Region::new("on", on) }];

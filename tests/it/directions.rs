@@ -18,7 +18,7 @@ use impasto_tests::shapes;
 
 pub(crate) const SIZE_PX: [u32; 2] = [640, 360];
 
-/// A stroke of the body layer.
+/// A stroke of the body layer. Its centre `at_px` is counted from the middle of the picture, Y up.
 #[derive(Clone, Copy)]
 pub(crate) struct Seen {
     pub(crate) at_px: DVec2,
@@ -224,7 +224,8 @@ fn a_later_gesture_goes_over_an_earlier_one() {
     assert!(middle.len() >= 3 && middle.iter().all(|&error| error < 1.0), "{middle:?}");
 }
 
-/// The largest step of the angle between neighbours on a sheet whose right half is covered by dabs of another region.
+/// The largest angle, in degrees, between strokes less than 3 pixels apart, on a sheet whose right half is covered by
+/// dabs of another region.
 fn step_over_a_seam(seam: Seam) -> f64 {
     let dabs: Vec<Dab> = (0..40)
         .map(|index| Dab {

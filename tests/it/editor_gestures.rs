@@ -45,7 +45,7 @@ fn scene(direction: Direction, guides: Vec<Guide>) -> Scene {
     scene
 }
 
-/// Only strokes this near to a drag are judged: there a brush of 45 px still has 0.99 of its strength.
+/// Only strokes this near to a drag are judged: there a brush with a radius of 45 px still has 0.99 of its strength.
 const CORE_PX: f64 = 2.5;
 
 /// A prepared scene, and the picker that finds its points under the mouse.
@@ -144,7 +144,7 @@ fn errors(strokes: &[(DVec2, f64)], drag: impl Fn(f64) -> DVec2, reach_px: f64) 
         .collect()
 }
 
-/// The shot's view, and free views that are turned from it, sideways and upwards.
+/// The shot's view, and free views that are turned from it, sideways and upwards; the last in parallel projection.
 fn views(shot: &CameraPose, about: DVec3) -> Vec<(&'static str, View)> {
     let turned = |drag_px: [f64; 2]| {
         let mut free = FreeView::new(shot.clone());

@@ -7,7 +7,7 @@ use impasto_tests::screen::{EditorWindow, Screen, wait_for};
 
 use crate::editor_window::{folder, read};
 
-/// Makes the apple's material name a texture that does not exist, `skin.png`.
+/// Gives the apple's material a texture whose file, `skin.png`, does not exist.
 fn with_a_missing_texture(folder: &Path) {
     let mtl = folder.join("meshes/apple.mtl");
     let text = std::fs::read_to_string(&mtl).unwrap();
@@ -72,7 +72,7 @@ fn an_edited_text_outlives_a_kill() {
     std::fs::write(folder.path().join("apple.ron"), &broken).unwrap();
     copied_after_a_second(folder.path());
     let mut editor = EditorWindow::open(&screen, "text", folder.path(), "apple.ron");
-    // The text is wider than the panel and scrolled: only its corner is seen.
+    // The text is wider than its panel, which scrolls, so the click goes to the upper left corner, which is seen.
     let text = editor.control("Source");
     screen.click(text.at([0.02, 0.12]));
     editor.keys(&["ctrl+Home"]);

@@ -10,7 +10,8 @@ use impasto_scene::load::{LoadOptions, load};
 use impasto_tests::command::{impasto, root};
 use impasto_tests::screen::{ControlRect, EditorWindow, Screen};
 
-/// A folder with a scene of the apple alone. It has few particles, so that it is painted quickly, and no jitter.
+/// A folder with a scene of the apple alone. It has few particles, so that it is painted quickly, and its strokes lie
+/// exactly along their directions.
 pub(crate) fn folder() -> tempfile::TempDir {
     let (folder, alone) = apple_alone(12_000);
     let strokes = "    strokes: (angle_jitter_deg: 0, swing_deg: 0, contour: 0),\n";
@@ -57,7 +58,7 @@ fn in_picture(at: [i32; 2], viewport: &ControlRect, size: (u32, u32)) -> DVec2 {
     size * 0.5 + from_middle * DVec2::new(1.0, -1.0) * px_per_point
 }
 
-/// Place in pixels and angle in degrees of the apple's strokes, as `impasto strokes` prints them.
+/// Place in pixels and angle in degrees of the apple's strokes in three layers, as `impasto strokes` prints them.
 fn strokes(folder: &Path, file: &str) -> Vec<(DVec2, f64)> {
     let mut command = Command::new(impasto());
     command.args(["strokes", file, "--frame", "0", "--format", "csv"]).current_dir(folder);

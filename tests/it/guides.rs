@@ -225,8 +225,8 @@ fn a_region_turns_all_its_directions_as_seen_in_the_reference() {
             let off = |(particle, seen): (&u32, &Seen)| {
                 apart(after[particle].angle_rad, seen.angle_rad + turn_deg.to_radians(), 2.0 * PI)
             };
-            // The turn is exact where the reference sees the surface from the front. Near the outline, the stated
-            // direction is blended with that of another view.
+            // The turn is exact where `facing` is at least 0.5 in the reference. Nearer to the outline, the reference's
+            // view is blended with that of a camera that looks straight at the surface.
             let faced = before.iter().filter(|(_, seen)| seen.facing > 0.5).map(off);
             let worst = faced.fold(0.0, f64::max);
             println!("{direction:?} turned by {turn_deg}: {worst:.4} off");

@@ -10,13 +10,13 @@ use impasto_tests::shapes;
 
 const SIZE_PX: [u32; 2] = [640, 360];
 
-/// A grey ball as it is seen in the light of one sun behind the eye.
+/// A grey ball as it is seen in the light of one sun behind the eye. Green is linear.
 struct Seen {
     /// The green of the brightest pixel of the plain render.
     plain: f32,
     /// The green of the brightest stroke of the layers of body, form and accents.
     below: f32,
-    /// The green of the brightest stroke of highlights, and the greatest presence of one.
+    /// The green of the brightest stroke of highlights, and the greatest alpha of one.
     highlight: [f32; 2],
 }
 

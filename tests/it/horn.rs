@@ -1,5 +1,5 @@
-//! Tests of `horn`, the solver that bakes the paper's sum over neighbours into each particle, against that sum computed
-//! directly.
+//! Tests of `horn`, the solver that bakes the paper's sum over neighbours, weighted by depth, into each particle. It
+//! equals the weighted sum computed directly, and is close to the paper's own.
 
 use glam::{DAffine3, DMat4, DQuat, DVec2, DVec3, Vec3};
 use impasto_core::hash;

@@ -1,6 +1,6 @@
-//! Tests of scenes whose regions, guides, painted amounts, reference frame or morphs are wrong: out of range, against each
-//! other, off the surface, or about what is missing. Each is reported with its place, and those that only warn still give
-//! a picture.
+//! Tests of scenes whose regions, guides, painted amounts, reference frame or morphs are wrong: out of range, in
+//! conflict, off the surface, or naming what is not there. Each is reported with its place, and those that only warn
+//! still give a picture.
 
 use std::fs;
 

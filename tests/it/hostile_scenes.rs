@@ -30,7 +30,7 @@ use Outcome::{Limit, Ok as Good, Reject, Warn};
 /// A scene and what should become of it.
 struct Case {
     name: &'static str,
-    /// The fields of the scene; camera and objects are added where they are left out.
+    /// The fields of the scene; version, camera and objects are added where they are left out.
     fields: &'static str,
     expected: Outcome,
     /// Text that the report must contain, in most cases with line and column; empty where there is no report.

@@ -9,7 +9,7 @@ use impasto_tests::scenes::painting_with;
 
 const SIZES_PX: [[u32; 2]; 2] = [[160, 91], [121, 70]];
 
-/// All data that can be read back of a picture, whatever was kept.
+/// The data of a picture that can be read back in any case, however little was kept.
 #[derive(PartialEq)]
 struct Told {
     rgba8: Vec<u8>,

@@ -9,12 +9,13 @@ use std::sync::{Arc, Mutex};
 use glam::Vec3;
 use impasto_core::TriangleMesh;
 use impasto_painting::{
-    FindKept, FrameOptions, Kept, KeptBytes, KeptKey, Painting, PrepareOptions, Preparer,
+    FindKept, FrameOptions, Kept, KeptBytes, KeptKey, Painting, PrepareOptions, Preparer, SeenFrom,
 };
 use impasto_scene::document::{Solver, Style};
 use impasto_scene::load::{LoadOptions, load};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::mesh_file::Texture;
+use impasto_scene::motion::{self, CameraPose};
 use impasto_tests::command::{impasto, root};
 use impasto_tests::shapes;
 
@@ -154,7 +155,8 @@ fn ink_morphs_noise_joints_caches_shots_and_every_solver_come_back_as_they_were(
     }
 }
 
-/// Eight squares on each other: an order with fewer particles than are wanted, and with ordinals from early on.
+/// Eight squares on each other have room for fewer particles than are wanted, and from early on a particle's ordinal is
+/// not its index.
 #[test]
 fn faces_on_each_other_come_back_as_they_were_and_are_edited_to_the_same_bits() {
     let mut pile = TriangleMesh::default();
@@ -234,6 +236,35 @@ fn small(solver: Solver) -> Arc<LoadedScene> {
     shapes::loaded(scene, [shapes::sphere(12, 6)])
 }
 
+/// A painting that is made for further cameras, or for wider pictures, is never taken for another one.
+#[test]
+fn what_further_cameras_and_wider_pictures_need_has_a_key_of_its_own() {
+    let loaded = small(Solver::Tangent);
+    let camera = |x: f64| {
+        let mut pose = motion::camera_at(&loaded.scene, 0.0);
+        pose.eye.x += x;
+        [(pose, 0.0)]
+    };
+    let key = |seen_from: SeenFrom<'_>| {
+        let options = PrepareOptions { kept: Some(&|_| None), seen_from, ..PrepareOptions::default() };
+        let painting = Preparer::default().prepare_with(Arc::clone(&loaded), &options).unwrap();
+        let Kept::NotThere(key) = painting.kept() else { panic!("it could be kept") };
+        *key
+    };
+    let shot = |also: &[(CameraPose, f64)], margin: f64| key(SeenFrom::Shot { also, margin });
+    let keys = [
+        key(SeenFrom::SHOT),
+        shot(&camera(0.5), SeenFrom::MARGIN),
+        shot(&camera(1.5), SeenFrom::MARGIN),
+        shot(&[], 3.0),
+        shot(&camera(0.5), 3.0),
+    ];
+    for (index, key) in keys.iter().enumerate() {
+        assert!(!keys[..index].contains(key), "key {index}");
+    }
+    assert!(keys[1] == shot(&camera(0.5), SeenFrom::MARGIN));
+}
+
 #[test]
 fn bytes_that_are_cut_changed_or_foreign_are_made_anew() {
     let loaded = small(Solver::Horn);
@@ -254,7 +285,7 @@ fn bytes_that_are_cut_changed_or_foreign_are_made_anew() {
     let mut longer = whole.clone();
     longer.push(0);
     assert!(unfit("longer", longer).0.contains("damaged"));
-    // Flipped bits: spread over all bytes, and one in every byte of the header.
+    // Flipped bits: spread over all bytes, and one in every byte of the header and of the first array's length.
     let spread = (0..200).map(|number| (number * 7919 * 64 + number * 31) % (whole.len() * 8));
     for bit in spread.chain((0..88).map(|byte| byte * 8 + byte % 8)) {
         let mut flipped = whole.clone();

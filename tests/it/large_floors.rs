@@ -8,14 +8,17 @@ use glam::{DVec2, DVec3};
 use impasto_core::presence;
 use impasto_gl_render::context::Driver;
 use impasto_painting::{FrameOptions, Painting, PrepareOptions, Preparer, SeenFrom, prepare};
-use impasto_scene::document::{Color, Lens, Light, LightKind, MaterialOverride, ObjectKey, Scene, Style};
+use impasto_scene::document::{
+    Color, Lens, Light, LightKind, MaterialOverride, ObjectKey, Region, Scene, Selector, Style,
+};
 use impasto_scene::motion::{self, CameraPose};
 use impasto_tests::pictures::renderer;
 use impasto_tests::shapes;
 
 const SIZE_PX: [u32; 2] = [640, 360];
 
-/// A scene for a level floor. The eye is 1.6 units above it and 5 units from its middle; the view reaches `far` units.
+/// A scene for a level floor. The eye is 1.6 units above it and, along Z, 5 units from its middle. The view reaches
+/// `far` units.
 fn floor_scene(far: f64) -> Scene {
     let mut scene = shapes::scene(vec![shapes::object("floor", 1)]);
     scene.objects[0].particles = None;
@@ -32,13 +35,14 @@ fn floor(size: f64, cells: u32) -> impasto_core::TriangleMesh {
     shapes::moved(&shapes::sheet(cells), move |at| DVec3::new(at.x, 0.0, -at.y) * f64::from(half))
 }
 
-/// How many times over strokes would cover each of four bands of the picture, from the horizon down.
+/// How many times over strokes would cover each of four bands of 40 rows. The bands are the lowest 160 rows of the
+/// picture, from the top down.
 fn covered(painting: &Painting, frame: f64) -> [f64; 4] {
     let frame = painting.at(frame, &FrameOptions::new(SIZE_PX));
     let mut covered = [0.0; 4];
     for stroke in frame.strokes.iter() {
         let [x, y] = stroke.center_px;
-        // Y runs up; the floor fills the lower half.
+        // Y runs up. The floor fills the lowest 160 rows in every scene here.
         if !(0.0..640.0).contains(&x) || !(0.0..160.0).contains(&y) {
             continue;
         }
@@ -65,6 +69,30 @@ fn a_floor_is_painted_alike_however_far_it_runs() {
                 (large / small - 1.0).abs() < 0.15,
                 "{size}, {cells} cells, band {band}: {large}, not {small}"
             );
+        }
+    }
+}
+
+/// Strokes grow with the floor that they lie on, or are lifted off it, while the camera comes nearer and looks aside.
+#[test]
+fn strokes_that_follow_the_size_or_are_lifted_have_particles_where_they_are_seen() {
+    for (follow, offset) in [(0.6, 0.0), (1.0, 0.0), (0.0, 0.8), (0.6, 0.5)] {
+        let mut scene = floor_scene(5000.0);
+        scene.camera.keys.push(shapes::camera_key(9.0, [0.4, 1.0, 2.5], [1.4, 0.7, -1.0]));
+        scene.timeline.last = 9;
+        (scene.strokes.size_follow, scene.strokes.offset) = (Some(follow), Some(offset));
+        let of = |size: f64| {
+            let painting = prepare(shapes::loaded(scene.clone(), [floor(size, 1)])).unwrap();
+            let covered = [0.0, 5.0, 9.0].map(|frame| covered(&painting, frame));
+            (covered, painting.particle_total(), painting.is_partial())
+        };
+        let (small, ..) = of(40.0);
+        let (large, particles, is_partial) = of(1000.0);
+        // Half of what lies everywhere on a floor of this size, and some more.
+        assert!(is_partial && particles < 250_000, "{follow}, {offset}: {particles} particles");
+        for (small, large) in small.iter().flatten().zip(large.iter().flatten()) {
+            assert!(*small > 2.4, "{small}");
+            assert!((large / small - 1.0).abs() < 0.1, "{follow}, {offset}: {large}, not {small}");
         }
     }
 }
@@ -155,6 +183,33 @@ fn a_free_camera_finds_particles_where_it_was_announced() {
     assert_eq!(strokes(SeenFrom::SHOT), (shot, without));
 }
 
+#[test]
+fn an_edit_of_the_strokes_on_a_large_floor_gives_the_bits_of_a_cold_prepare() {
+    let mut preparer = Preparer::default();
+    let mut loaded = shapes::loaded(floor_scene(500.0), [floor(300.0, 1)]);
+    let mut last = preparer.prepare(Arc::clone(&loaded)).unwrap().particle_total();
+    let edits: [fn(&mut Scene); 4] = [
+        |scene| scene.strokes.length_px = Some(30.0),
+        |scene| scene.strokes.coverage = Some(1.1),
+        |scene| scene.strokes.offset = Some(0.3),
+        |scene| {
+            let mut region = Region::new("floor", Selector::Object("floor".to_owned()));
+            region.strokes.width_px = Some(30.0);
+            scene.regions.push(region);
+        },
+    ];
+    for (index, edit) in edits.into_iter().enumerate() {
+        edit(&mut Arc::make_mut(&mut loaded).scene);
+        let warm = preparer.prepare(Arc::clone(&loaded)).unwrap();
+        let cold = prepare(Arc::clone(&loaded)).unwrap();
+        assert!(cold.is_partial() && cold.particle_total() != last, "edit {index} changes nothing");
+        last = cold.particle_total();
+        assert_eq!(warm.particle_counts(), cold.particle_counts(), "edit {index}");
+        let [warm, cold] = [warm, cold].map(|painting| painting.at(0.0, &FrameOptions::new(SIZE_PX)));
+        assert!(warm.strokes == cold.strokes && warm.sources == cold.sources, "edit {index}");
+    }
+}
+
 /// A floor swells into hills while the camera drives over it, so that it bends, grows and turns away.
 #[test]
 fn a_floor_that_bends_has_the_same_strokes_with_fewer_particles() {
@@ -170,7 +225,8 @@ fn a_floor_that_bends_has_the_same_strokes_with_fewer_particles() {
         let [along, across] = [0.7 * at.x, 0.9 * at.z + 0.4].map(f64::sin);
         DVec3::new(at.x + 0.4 * across, at.y + 1.1 * along * across, at.z + 0.3 * along)
     };
-    // Strokes that lie below the floor show longer when it turns away. Large faces reach past the camera.
+    // Strokes that are offset to below the floor face the eye for longer when it turns away. Large faces reach past the
+    // camera.
     for (lens, offset, faces) in [
         (scene.camera.lens.clone(), None, 54),
         (scene.camera.lens.clone(), Some(-0.3), 54),
@@ -242,7 +298,7 @@ fn a_wide_picture_of_a_tall_scene_is_painted_to_its_borders() {
         let painting = Preparer::default().prepare_with(loaded, &options).unwrap();
         assert!(painting.is_partial() && painting.particle_total() < 200_000, "{width_px} pixels wide");
         let frame = painting.at(0.0, &FrameOptions::new(SIZE_PX));
-        // Eight parts of the floor's half of the picture, from the left to the right.
+        // Eight parts of the lowest 160 rows, from the left to the right.
         let mut strokes = [0; 8];
         for [x, y] in frame.strokes.iter().map(|stroke| stroke.center_px) {
             if (0.0..640.0).contains(&x) && (0.0..160.0).contains(&y) {

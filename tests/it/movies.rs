@@ -8,7 +8,7 @@ use png::{BitDepth, ColorType};
 
 const SIZE_PX: [u32; 2] = [64, 36];
 
-/// The frames' colours by their number, in sRGB.
+/// The colours of frames 1 to 3, in sRGB.
 const COLORS: [[u8; 3]; 3] = [[200, 30, 30], [0, 160, 0], [20, 40, 220]];
 
 struct Folder(tempfile::TempDir);

@@ -164,7 +164,8 @@ fn along_the_normal_the_first_channel_moves() {
     }
 }
 
-/// The depth of the nearest triangle at each pixel's centre, seen from z = 4 along −Z without perspective.
+/// The depth of the nearest triangle at each pixel's centre, seen from z = 4 along −Z without perspective. Infinite
+/// where there is none.
 fn nearest_depths(triangles: &[[DVec3; 3]], size: usize, units_per_px: f64) -> Vec<f64> {
     let mut nearest = vec![f64::INFINITY; size * size];
     let to_px = |at: DVec3| {

@@ -26,7 +26,7 @@ fn texts(text: &str) -> ShaderTexts {
     texts
 }
 
-/// A shader that paints red is used for files and for drafts; a broken shader changes nothing.
+/// A shader that paints red is used for exact pictures and for drafts; a broken shader changes nothing.
 #[test]
 fn a_text_takes_the_place_of_a_file_and_a_broken_one_leaves_the_last_good() {
     let painting = painting();

@@ -222,12 +222,12 @@ fn extreme_settings_still_give_a_picture() {
 
 /// The standard deviation of green from its mean over 9 × 9 pixels, over the pixels where `inside` holds.
 fn roughness(rgba8: &[u8], width: usize, inside: impl Fn(usize, usize) -> bool) -> f64 {
-    let luma = |x: usize, y: usize| f64::from(rgba8[(y * width + x) * 4 + 1]);
+    let green = |x: usize, y: usize| f64::from(rgba8[(y * width + x) * 4 + 1]);
     let (mut sum, mut count) = (0.0, 0.0);
     for (x, y) in (4..rgba8.len() / 4 / width - 4).flat_map(|y| (4..width - 4).map(move |x| (x, y))) {
         if inside(x, y) {
-            let mean = (0..81).map(|at| luma(x + at % 9 - 4, y + at / 9 - 4)).sum::<f64>() / 81.0;
-            sum += (luma(x, y) - mean).powi(2);
+            let mean = (0..81).map(|at| green(x + at % 9 - 4, y + at / 9 - 4)).sum::<f64>() / 81.0;
+            sum += (green(x, y) - mean).powi(2);
             count += 1.0;
         }
     }

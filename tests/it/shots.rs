@@ -32,7 +32,8 @@ impl Home {
         self.0.path().join(name)
     }
 
-    /// Writes the shot: `Ball` is this mesh and turns by 90 degrees; nodes stand in the order of `names`.
+    /// Writes the shot, with nodes in the order of `names`. `Box` is a cube, all others are the mesh `ball`. `Ball`
+    /// turns by 90 degrees.
     fn export(&self, ball: &TriangleMesh, names: [&str; 3]) {
         let cube = shapes::cube();
         let nodes = names.map(|name| {

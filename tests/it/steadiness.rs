@@ -12,7 +12,8 @@ use impasto_tests::shapes;
 
 const OPTIONS: FrameOptions = FrameOptions::new([640, 360]);
 
-/// The share of strokes that pop, and the largest step of presence. Nothing is drawn, so occlusion has no effect.
+/// The area of strokes that pop as a share of the area shown, and the largest step of presence. Nothing is drawn, so
+/// occlusion has no effect.
 fn popping(before: &Frame, after: &Frame) -> (f64, f64) {
     let found = measure::popping(&strokes_by_key(before, &[]), &strokes_by_key(after, &[]), OPTIONS.size_px);
     (found.share, found.largest_step)

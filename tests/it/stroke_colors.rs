@@ -13,8 +13,8 @@ use impasto_scene::mesh_file::{Material, MeshFile};
 use impasto_tests::pictures::renderer;
 use impasto_tests::shapes;
 
-/// A white sheet and, 13 to 21 pixels behind it, a black strip of the same body at 45 degrees to the gaze. No pixel
-/// shows the strip. The left border of the picture cuts both.
+/// A white sheet and, 0.09 to 0.15 units behind it (13 to 21 pixels at its scale), a black strip of the same body at 45
+/// degrees to the gaze. No pixel shows the strip. The left border of the picture cuts both.
 fn strip_behind_a_sheet() -> LoadedScene {
     let mut mesh = shapes::sheet(8);
     let to_strip = |at: DVec3| DVec3::new(0.8 * at.x, 0.3 + 0.03 * at.y, -0.12 + 0.03 * at.y);

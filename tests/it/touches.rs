@@ -244,6 +244,23 @@ fn a_curved_touch_is_one_stroke_without_gaps_on_either_driver() {
     assert!(egl.rgba8 == osmesa.rgba8, "EGL and OSMesa differ");
 }
 
+/// In a picture twice as large, a touch is twice as wide and lies at the same part of the picture.
+#[test]
+fn a_touch_is_as_large_as_its_picture() {
+    let painting = painted(scene(vec![curved()]), shapes::sheet(9));
+    let view = camera([0.0, 0.0, 4.0], [0.0; 3]);
+    let [small, large] = [1, 2].map(|times| {
+        let frame = painting.seen_by(&view, 0.0, &FrameOptions::new(SIZE_PX.map(|side| side * times)));
+        let at = |vertex: &LineVertex| DVec2::from(vertex.at_px.map(f64::from));
+        let widths = frame.lines.vertices.chunks(2).map(|pair| at(&pair[0]).distance(at(&pair[1])));
+        let widest = widths.fold(0.0, f64::max);
+        let line = middle(&frame);
+        (widest, line[line.len() / 2])
+    });
+    assert!((large.0 / small.0 - 2.0).abs() < 0.05, "{} and {} pixels wide", small.0, large.0);
+    assert!(large.1.distance(small.1 * 2.0) < 6.0, "{} and {}", small.1, large.1);
+}
+
 #[test]
 fn what_is_in_front_hides_a_touch_and_a_planted_fault_is_noticed() {
     let mut scene = shapes::scene(vec![shapes::object("thing", 4000), shapes::object("cover", 500)]);

@@ -153,7 +153,7 @@ pub(crate) struct Version {
     pub(crate) cold: Painting,
 }
 
-/// The scene after each edit, prepared once for all tests.
+/// The scene after each edit, with all edits before it, prepared once for all tests.
 pub(crate) fn versions() -> &'static [Version] {
     static VERSIONS: OnceLock<Vec<Version>> = OnceLock::new();
     VERSIONS.get_or_init(|| {
@@ -210,8 +210,8 @@ fn preparing_again_after_giving_up_gives_the_same_bits() {
     assert!(given_up > 15, "only {given_up} were given up");
 }
 
-/// Of a style without strokes, pictures are the same without particles; and the same preparer then makes the strokes of
-/// other styles.
+/// A style without strokes gives the same picture without particles. The same preparer then makes the strokes of other
+/// styles.
 #[test]
 fn what_only_draws_makes_no_particles_where_none_show() {
     let ink = |rule: InkRule, drawing: InkDrawing| Style::SumiE(SumiE { rule, drawing, ..SumiE::default() });

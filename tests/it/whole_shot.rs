@@ -55,8 +55,8 @@ fn drawn(renderer: &mut Renderer, frame: Frame) -> Drawn {
     Drawn { luma, strokes, reference: renderer.read_reference(), frame }
 }
 
-/// Chatter in percent, steps, and flickering pixels in percent over eight frames. `fault` may change the frames with
-/// odd numbers.
+/// Over eight frames: chatter in percent, the number of steps, and flickering pixels in percent. `fault` may change the
+/// frames with odd numbers.
 fn found(painting: &Painting, fault: impl Fn(&mut Frame)) -> [f64; 3] {
     let mut renderer = renderer(Driver::Egl);
     let (mut chatter, mut steps, mut flicker) = (Chatter::default(), Steps::default(), Flicker::default());
@@ -161,14 +161,18 @@ fn boil_lays_strokes_anew_on_twos_and_lets_none_come_or_go() {
     let at = |frame: f64| by_key(&boiling, frame);
     assert_eq!(at(4.0), at(5.0), "a drawing holds for two frames");
     let (first, second, unmoved) = (at(5.0), at(6.0), by_key(&calm, 6.0));
-    let (mut moved, mut most_px) = (0, 0.0f32);
+    let (mut moved, mut recoloured, mut most_px) = (0, 0, 0.0f32);
     for (key, stroke) in &unmoved {
         let (Some(before), Some(now)) = (first.get(key), second.get(key)) else { continue };
         assert_eq!((now.supply_ln, now.facing_fade), (stroke.supply_ln, stroke.facing_fade));
         let [dx, dy] = [0, 1].map(|axis| now.center_px[axis] - stroke.center_px[axis]);
         most_px = most_px.max(dx.hypot(dy) / stroke.length_px);
         moved += usize::from(before.center_px != now.center_px);
+        // The lightness of a stroke changes a little, and its hue does not.
+        assert_eq!(now.drift[1], stroke.drift[1]);
+        recoloured += usize::from(before.drift[0] != now.drift[0]);
     }
+    assert!(recoloured > 400, "{recoloured}");
     assert!(moved > 400 && first.len().abs_diff(unmoved.len()) < unmoved.len() / 20, "{moved}");
     assert!(most_px > 0.02 && most_px < 0.5, "{most_px}");
     // A scene that is prepared to be measured has no boil.

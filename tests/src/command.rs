@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
-/// The path of the command's binary, in the same target folder as the running tests. The binary is built first, with
-/// the features of the whole workspace. After `cargo test --workspace` nothing is left to build; in a run of fewer
-/// packages this brings it up to date.
+/// The path of the command's binary, in the same target folder as the running tests. The binary is built first, in the
+/// profile of the tests and with the features of the whole workspace. After `cargo test --workspace` nothing is left to
+/// build; in a run of fewer packages this brings it up to date.
 ///
 /// # Panics
 /// When it cannot be built.
@@ -20,6 +20,9 @@ pub fn impasto() -> &'static Path {
         // The command line's test `binary` needs the command, so this builds it.
         build.args(["test", "--quiet", "--no-run", "--workspace", "--test", "binary"]).arg("--target-dir");
         build.arg(folder.parent().expect("a profile's folder lies in the target folder"));
+        if folder.ends_with("release") {
+            build.arg("--release");
+        }
         build.current_dir(root());
         assert!(build.status().expect("cargo runs").success(), "impasto does not build");
         folder.join(format!("impasto{}", std::env::consts::EXE_SUFFIX))

@@ -21,7 +21,7 @@ pub enum Outcome {
 
 /// A file and what should become of it.
 pub struct Case {
-    /// What is odd about it.
+    /// A short name; in the large corpus, its id.
     pub name: String,
     /// The scene or model.
     pub file: PathBuf,

@@ -17,7 +17,7 @@ pub fn camera(eye: [f64; 3], target: [f64; 3]) -> CameraPose {
 }
 
 /// A straight gesture of 24 points on the mesh, from one place of the picture to another (pixels from its centre, Y
-/// up); `None` if a ray misses.
+/// up); `None` if a ray misses. The lens must be that of [`camera`].
 pub fn drag(mesh: &TriangleMesh, camera: &CameraPose, height_px: f64, ends_px: [DVec2; 2]) -> Option<Guide> {
     let world_from_view: DMat4 = camera.view_from_world().inverse();
     let focal_px = 0.5 * height_px / 17.5f64.to_radians().tan();

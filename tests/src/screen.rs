@@ -232,7 +232,7 @@ impl<'a> EditorWindow<'a> {
     /// editor's preferences. Names of saved pictures begin with `name`.
     ///
     /// # Panics
-    /// When the window does not come.
+    /// When the window does not come, or is never painted.
     pub fn open(screen: &'a Screen, name: &'static str, folder: &Path, file: &str) -> Self {
         let mut editor = Self::start(screen, name, folder, &[file]);
         editor.rest_after(0);

@@ -256,7 +256,7 @@ impl Cell {
     }
 }
 
-/// Three digits, and at most three decimals.
+/// About three digits, with at most three decimals; numbers from 1000 on in full. `None` for one that is not finite.
 fn short(value: f64) -> Option<String> {
     let size = value.abs();
     Some(match size {

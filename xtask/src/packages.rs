@@ -1,5 +1,6 @@
-//! Makes sure that the system has what rendering and the tests need. It looks for the files of libraries and programs,
-//! not for installed packages. If some are missing, it installs their packages with apt-get, where the system has it.
+//! Makes sure that the system has what rendering, tests and packaging need. It looks for the files of libraries and
+//! programs, not for installed packages. If some are missing, it installs their packages with apt-get, where the system
+//! has it.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -102,7 +103,7 @@ const MODELS: &[Need] = &[Need {
     retired: false,
 }];
 
-/// What `cargo xtask test` and `ci` need.
+/// What `cargo xtask test`, `ci`, `same` and `strange` need.
 pub const FOR_TESTS: &[&[Need]] = &[TESTS, WINDOW_TESTS, MOVIE_TESTS, MODELS];
 
 /// Makes sure that everything in `needs` is there, or says how to get it.

@@ -73,7 +73,7 @@ pub fn bamboo() -> PolyMesh {
     mesh
 }
 
-/// A stalk of sections that swell a little at their ends; returns the curve of its middle line.
+/// A stalk of sections that swell a little at their ends; returns the points that its middle line goes through.
 fn stalk(mesh: &mut PolyMesh, through: [[f64; 3]; 3], radius: f64, look: Look) -> [DVec3; 3] {
     const SECTIONS: usize = 6;
     let path = through.map(DVec3::from);

@@ -134,7 +134,7 @@ pub fn poplar() -> PolyMesh {
     mesh
 }
 
-/// A bush of five clumps, about 1 unit high and 1.8 wide.
+/// A bush of five clumps, about 1 unit high and 1.9 wide.
 pub fn bush() -> PolyMesh {
     let mut mesh = PolyMesh::new("bush", "A bush about 1 unit high.", &PALETTE);
     let clumps = [

@@ -25,11 +25,11 @@ pub(crate) enum Command {
     /// Open the editor's window: paint directions on a scene or a mesh, move things, animate them.
     #[cfg(feature = "editor")]
     Edit(EditArguments),
-    /// Paint frames of a scene, or any OBJ model from a sensible camera.
+    /// Paint frames of a scene or a shot, or an OBJ model from a sensible camera.
     Render(RenderArguments),
-    /// Make a movie of frames that are there, painted or touched up; by ffmpeg, where that is installed.
+    /// Make a movie of PNG frames on the disk, as painted or touched up; needs ffmpeg.
     Movie(MovieArguments),
-    /// Write the scene that `render MODEL` would use to a file.
+    /// Write a scene file for a model: the scene that `render MODEL` paints.
     New(NewArguments),
     /// Put everything that a shot needs into one file or folder.
     Pack(PackArguments),
@@ -71,7 +71,7 @@ pub(crate) enum Command {
 #[derive(Args, Clone, Copy, Debug)]
 pub(crate) struct Talk {
     /// Say more: which driver and why, the steps of preparing, and for each frame its strokes, overdraw, memory and
-    /// passes.
+    /// passes. Rendering is slower then.
     #[arg(short, long, action = clap::ArgAction::Count)]
     pub(crate) verbose: u8,
     /// Say nothing but errors.
@@ -142,7 +142,7 @@ pub(crate) enum EditDriver {
 pub(crate) struct EditArguments {
     /// A scene (.ron), or a model or shot (.obj, .glb, .gltf) to begin one with.
     pub(crate) scene: Option<PathBuf>,
-    /// What draws the paintings; the preferences say when left out.
+    /// What draws the paintings; left out, what the preferences say.
     #[arg(long, value_enum)]
     pub(crate) driver: Option<EditDriver>,
     /// A folder of shaders that stand in for the program's own, read again whenever they change.
@@ -169,10 +169,11 @@ pub(crate) struct RenderArguments {
     /// a movie, by ffmpeg.
     #[arg(short, long, default_value = "out/frame_####.png")]
     pub(crate) output: String,
-    /// Which frames: a-b, a..b, a-bxN and a-b:N (every Nth), commas; left out, the scene's own.
+    /// Which frames: a, a-b or a..b, with xN or :N behind for every Nth; commas between several. Left out, the scene's
+    /// own.
     #[arg(short, long, allow_hyphen_values = true)]
     pub(crate) frames: Option<String>,
-    /// Width x height in pixels, such as 1280x720; strokes scale with the height.
+    /// Width x height in pixels, such as 1280x720; the scene's own when left out. Strokes scale with the height.
     #[arg(long, value_parser = parse_size)]
     pub(crate) size: Option<[u32; 2]>,
     /// Which library to take OpenGL from.
@@ -181,7 +182,7 @@ pub(crate) struct RenderArguments {
     /// A folder of shaders that stand in for the program's own.
     #[arg(long, value_name = "DIR")]
     pub(crate) shaders: Option<PathBuf>,
-    /// Leave what is not painted transparent: in PNG files, and in .mov and .webm movies.
+    /// Leave what is not painted transparent: in PNG and EXR files, and in .mov and .webm movies.
     #[arg(long)]
     pub(crate) alpha: bool,
     /// A style in place of the scene's own.
@@ -194,7 +195,7 @@ pub(crate) struct RenderArguments {
     /// What strokes are coloured by: the scene, or how far their turn can be trusted.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) colors: ColorsChoice,
-    /// Go once round instead of rendering the scene's own shot: a degree a frame.
+    /// Let the camera go once round instead of rendering the scene's own shot: a degree a frame.
     #[arg(long)]
     pub(crate) turntable: bool,
     /// Keep strokes at their size in pixels, whatever the size of the picture.
@@ -203,7 +204,7 @@ pub(crate) struct RenderArguments {
     /// Skip frames whose files exist and are whole.
     #[arg(long)]
     pub(crate) skip_existing: bool,
-    /// Also write a sheet of small copies of all frames, beside the frames.
+    /// Also write a sheet of small copies of the frames beside them: of all, or of every Nth if there are over 144.
     #[arg(long)]
     pub(crate) contact_sheet: bool,
     /// Write one animated PNG instead of single frames.
@@ -211,7 +212,7 @@ pub(crate) struct RenderArguments {
     pub(crate) apng: bool,
     #[command(flatten)]
     pub(crate) picture: PictureArguments,
-    /// Print a line of JSON per frame.
+    /// Print a line of JSON for the driver, and one per frame that is painted.
     #[arg(long)]
     pub(crate) json: bool,
     /// How to show progress: a bar in a terminal, or the lines that runners of Open Job Descriptions read.
@@ -232,8 +233,8 @@ pub(crate) struct MovieArguments {
     /// The movie: .mp4, .mkv (H.264), .mov (ProRes 4444) or .webm (VP9).
     #[arg(short, long, value_name = "MOVIE")]
     pub(crate) output: PathBuf,
-    /// Which frames, in which order: a-b, a..b, a-bxN and a-b:N (every Nth), commas; left out, all that are there,
-    /// without gaps.
+    /// Which frames, in which order: a, a-b or a..b, with xN or :N behind for every Nth; commas between several. Left
+    /// out, all that are there; a gap between them is refused.
     #[arg(short = 'f', long = "frames", value_name = "LIST", allow_hyphen_values = true)]
     pub(crate) list: Option<String>,
     /// Frames a second, such as 25, 23.976 or 24000/1001.
@@ -261,7 +262,7 @@ fn parse_fps(text: &str) -> Result<f64, String> {
 
 #[derive(Args, Debug)]
 pub(crate) struct NewArguments {
-    /// The model.
+    /// A model (.obj) or a shot (.glb, .gltf).
     pub(crate) model: PathBuf,
     /// The scene file to write.
     #[arg(short, long)]
@@ -290,7 +291,7 @@ pub(crate) struct SetArguments {
 pub(crate) struct ServeArguments {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
-    /// What draws.
+    /// Which library to take OpenGL from.
     #[arg(long, value_enum, default_value_t = DriverChoice::Auto)]
     pub(crate) driver: DriverChoice,
 }
@@ -333,10 +334,10 @@ pub(crate) enum StrokeFormat {
 pub(crate) struct StrokesArguments {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
-    /// Which frame; the timeline's first when left out.
+    /// Which frame, whole or not; the timeline's first when left out.
     #[arg(long, allow_hyphen_values = true)]
     pub(crate) frame: Option<f64>,
-    /// Width x height in pixels.
+    /// Width x height in pixels; the scene's own when left out.
     #[arg(long, value_parser = parse_size)]
     pub(crate) size: Option<[u32; 2]>,
     /// How they are written.
@@ -364,10 +365,11 @@ pub(crate) struct MeasureArguments {
     /// How many threads work; all cores when left out. The result is the same.
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<usize>,
-    /// Go once round instead of measuring the scene's own shot: for scenes without motion, and for models.
+    /// Let the camera go once round instead of measuring the scene's own shot: for scenes without motion, and for
+    /// models.
     #[arg(long)]
     pub(crate) turntable: bool,
-    /// Only these metrics, such as M4,M5.
+    /// Only these of the metrics M1 to M17, such as M4,M5.
     #[arg(long, value_name = "METRICS", value_delimiter = ',')]
     pub(crate) only: Vec<Metric>,
     /// Width x height of the pictures in pixels; half the scene's own when left out.
@@ -376,7 +378,8 @@ pub(crate) struct MeasureArguments {
     /// Print a line of JSON per scene.
     #[arg(long)]
     pub(crate) json: bool,
-    /// Draw angle error, popping and shower door over the frames of the shot into this SVG file.
+    /// Draw what was measured frame by frame (angle error, popping, shower door, chatter, steps, flicker) into this SVG
+    /// file; for one scene.
     #[arg(long, value_name = "FILE.svg")]
     pub(crate) plot: Option<PathBuf>,
     /// Which library to take OpenGL from.
@@ -389,7 +392,7 @@ pub(crate) struct MeasureArguments {
 
 #[derive(Args, Debug)]
 pub(crate) struct BrushesArguments {
-    /// Pictures that serve as brushes too: light is paint.
+    /// Your own pictures as brushes: light is paint, or dark on a light background.
     pub(crate) pictures: Vec<PathBuf>,
     /// The sheet, a PNG file.
     #[arg(short, long, default_value = "out/brushes.png")]
@@ -400,7 +403,7 @@ pub(crate) struct BrushesArguments {
 pub(crate) struct RelightArguments {
     /// An EXR file that was rendered with --aov paint.color,paint.normal.
     pub(crate) frame: PathBuf,
-    /// Where the light stands, seen from the picture: right, up, towards you.
+    /// Direction to the light, such as -1,1,1: right, up, towards you; the last is more than 0.
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = crate::relight::direction)]
     pub(crate) light: [f32; 3],
     /// The picture, a PNG file.
@@ -410,7 +413,7 @@ pub(crate) struct RelightArguments {
 
 #[derive(Args, Debug)]
 pub(crate) struct DoctorArguments {
-    /// Print JSON.
+    /// Print a line of JSON for each driver, and one for the window.
     #[arg(long)]
     pub(crate) json: bool,
 }

@@ -31,8 +31,8 @@ pub(crate) struct CacheArguments {
 #[derive(Clone)]
 pub(crate) struct Cache {
     folder: KeptFolder,
-    /// The most memory that this process may take, in bytes: a larger file of the folder is not read. `None` for no
-    /// limit.
+    /// The memory that may be allocated, as `--memory` or the system limits it, in bytes: a larger file of the folder
+    /// is not read. `None` where no limit is known.
     memory_bytes: Option<u64>,
     verbose: bool,
     /// Whether a warning was printed: only the first one is.

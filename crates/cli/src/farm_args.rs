@@ -22,7 +22,8 @@ pub(crate) struct FarmArguments {
     /// Where frames go, as the machines find it: #### stands for the frame number.
     #[arg(short, long, default_value = "out/frame_####.png")]
     pub(crate) output: String,
-    /// Which frames: a-b, a..b, a-bxN and a-b:N (every Nth), commas; left out, the scene's own.
+    /// Which frames: a, a-b or a..b, with xN or :N behind for every Nth; commas between several. Left out, the scene's
+    /// own.
     #[arg(short, long, allow_hyphen_values = true)]
     pub(crate) frames: Option<String>,
     /// Then make this movie of the frames: .mp4, .mkv, .mov or .webm.
@@ -31,7 +32,7 @@ pub(crate) struct FarmArguments {
     /// Write the job into this file; left out, it goes to standard output.
     #[arg(long, value_name = "FILE")]
     pub(crate) job: Option<PathBuf>,
-    /// Further arguments of impasto render, after --, such as -- --size 1920x1080 --samples 3.
+    /// Further arguments of impasto render, after --, such as -- --size 1920x1080 --cache /share/cache.
     #[arg(last = true, value_name = "RENDER ARGUMENTS")]
     pub(crate) more: Vec<String>,
 }
@@ -40,7 +41,7 @@ pub(crate) struct FarmArguments {
 pub(crate) struct SlurmArguments {
     #[command(flatten)]
     pub(crate) farm: FarmArguments,
-    /// How many frames a task paints.
+    /// How many frames a task paints; left out, 10, or more where that would make over 1000 tasks.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) chunk: Option<u32>,
 }
@@ -55,7 +56,7 @@ pub(crate) struct PackArguments {
     /// The pack: a .tar file, or a new folder.
     #[arg(short, long, required_unless_present = "check")]
     pub(crate) output: Option<PathBuf>,
-    /// Compare a folder with the list in it.
+    /// Check that a packed folder is as it was packed, by this version of impasto; nothing is written.
     #[arg(long, conflicts_with_all = ["output", "asset_dirs"])]
     pub(crate) check: bool,
     /// Say nothing but errors.

@@ -24,7 +24,7 @@ use crate::args::{ColorsChoice, RenderArguments, RotationChoice};
 use crate::cache::Storing;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
-use crate::progress::{Progress, progress_bar};
+use crate::progress::{FrameLines, Progress, progress_bar};
 use crate::session::{self, Prepared};
 use crate::sheet::Sheet;
 
@@ -221,6 +221,10 @@ fn destination(arguments: &RenderArguments, frames: &FrameList) -> Result<Destin
             let words = "-o - writes one PNG to standard output: name one frame with --frames";
             return Err(Failure::Usage(words.to_owned()));
         }
+        if arguments.json || arguments.progress == Progress::Openjd {
+            let words = "-o - writes a PNG to standard output: leave --json and --progress openjd out";
+            return Err(Failure::Usage(words.to_owned()));
+        }
         return Ok(Destination::Stream);
     }
     if let Some(kind) = Kind::of(Path::new(&arguments.output)) {
@@ -262,15 +266,12 @@ impl Plan {
         let Self { sequence, renderer, frames, .. } = self;
         let bar = progress_bar(frames.count(), arguments.talk.quiet);
         let mut sheet = arguments.contact_sheet.then(|| Sheet::new(frames.count(), sequence.options.size_px));
-        let (mut done, mut kept, mut failed, mut passed, start) = (0, 0, 0, 0, Instant::now());
+        let (mut done, mut kept, mut failed, start) = (0, 0, 0, Instant::now());
         // Files that existed already and do not say from which state they were painted.
         let mut foreign = Vec::new();
         let sheet_provenance = sequence.provenance("sheet", renderer);
-        if arguments.json {
-            let driver = renderer.report().to_string();
-            let line = serde_json::json!({ "version": 1, "event": "context", "driver": driver });
-            writeln!(std::io::stdout(), "{line}")?;
-        }
+        let mut lines = FrameLines::new(arguments.json, arguments.progress, frames.count());
+        lines.begin(renderer)?;
         let files = FrameFiles {
             frames,
             path: &|frame_number| pattern.path(frame_number),
@@ -324,24 +325,11 @@ impl Plan {
                                 );
                             });
                         }
-                        if arguments.json {
-                            let line = serde_json::json!({
-                                "version": 1,
-                                "event": "frame",
-                                "frame": frame_number,
-                                "path": path,
-                                "strokes": drawn.painted_strokes,
-                                "seconds": drawn.seconds,
-                            });
-                            writeln!(std::io::stdout(), "{line}")?;
-                        }
+                        lines.painted(frame_number, &path, &drawn)?;
                     }
                 }
                 bar.inc(1);
-                if arguments.progress == Progress::Openjd {
-                    passed += 1;
-                    Progress::tell_openjd(passed, frames.count(), frame_number)?;
-                }
+                lines.passed(frame_number)?;
                 Ok::<(), Failure>(())
             })?;
         let Ending::Done(fault) = ending else { return Err(Failure::Interrupted { done }) };
@@ -389,7 +377,7 @@ impl Plan {
         let size_px = self.sequence.options.size_px;
         let mut writer =
             picture_file::begin_animation(&mut file, size_px, count, fps, &provenance).map_err(of_file)?;
-        let fault = self.pictures(arguments, interrupt, |rgba8| {
+        let fault = self.pictures(arguments, path, interrupt, |rgba8| {
             writer.write_image_data(rgba8).map_err(|error| of_file(error.into()))
         })?;
         writer.finish().map_err(|error| of_file(error.into()))?;
@@ -411,7 +399,7 @@ impl Plan {
             fps: self.sequence.painting.scene().timeline.fps,
         };
         let mut movie = Movie::start(path, encoding, frames)?;
-        let fault = self.pictures(arguments, interrupt, |rgba8| Ok(movie.add(rgba8)?))?;
+        let fault = self.pictures(arguments, path, interrupt, |rgba8| Ok(movie.add(rgba8)?))?;
         movie.finish()?;
         self.tell_done(arguments, path);
         Ok(fault)
@@ -427,20 +415,28 @@ impl Plan {
         of_all(ending)
     }
 
-    /// Hands the pixels of all frames to `take_in`, in order, until one fails or a signal comes.
+    /// Hands the pixels of all frames of the file `path` to `take_in`, in order, until one fails or a signal comes.
     fn pictures(
         &mut self,
         arguments: &RenderArguments,
+        path: &Path,
         interrupt: &Interrupt,
         mut take_in: impl FnMut(&[u8]) -> Result<(), Failure>,
     ) -> Result<Fault, Failure> {
         let Self { sequence, renderer, frames, .. } = self;
         let bar = progress_bar(frames.count(), arguments.talk.quiet);
+        let mut lines = FrameLines::new(arguments.json, arguments.progress, frames.count());
+        lines.begin(renderer)?;
+        let mut numbers = frames.iter();
         let ending = sequence.render(renderer, frames, &|| interrupt.came(), |drawn| {
             if let Some(picture) = &drawn.picture {
                 take_in(&picture.rgba8)?;
             }
             bar.inc(1);
+            if let Some(frame_number) = numbers.next() {
+                lines.painted(frame_number, path, &drawn)?;
+                lines.passed(frame_number)?;
+            }
             Ok::<(), Failure>(())
         });
         bar.finish_and_clear();

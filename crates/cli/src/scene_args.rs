@@ -40,10 +40,11 @@ pub(crate) struct PlacingArguments {
     /// Which axis of a model's file points up; found out when left out. A scene says it itself.
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = named(&UP_CHOICES))]
     up: Option<UpChoice>,
-    /// From which side a model is seen; auto takes the three-quarter view that shows the most of its form.
+    /// From which side a model is seen; auto, the default, takes the three-quarter view that shows the most of its
+    /// form.
     #[arg(long, value_name = "SIDE", value_parser = named(&ViewFrom::ALL))]
     view: Option<ViewFrom>,
-    /// What a model stands on: a floor and a wall, a patch of floor, or nothing.
+    /// What a model stands on: backdrop is a floor and a wall (the default), vignette a patch of floor, plain nothing.
     #[arg(long, value_name = "GROUND", value_parser = named(&Ground::ALL))]
     ground: Option<Ground>,
 }

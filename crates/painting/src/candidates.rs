@@ -8,8 +8,9 @@ use rayon::prelude::*;
 use crate::frame::{LayerRun, Lines, Quality, Stroke, StrokeSource, Strokes};
 use crate::looks::Looks;
 use crate::order::{OrderEntry, PaintingOrder};
-use crate::painting_view::{CoatView, MOST_GROWTH, PaintingView};
+use crate::painting_view::{CoatView, PaintingView};
 use crate::recall::Recall;
+use crate::size_follow::MOST_GROWTH;
 use crate::stroke::Candidate;
 use crate::surface::HOLE;
 

@@ -15,6 +15,7 @@ use crate::context::{Context, ObjectInputs};
 use crate::particle_count::{self, Found, Sighting};
 use crate::parts::{BodyParts, Cap, fit_of, wanted_where_small};
 use crate::regions::BodyRegions;
+use crate::size_follow::Following;
 use crate::stroke_size::reach_px;
 use crate::view::PictureView;
 
@@ -200,7 +201,7 @@ impl CountInputs {
 }
 
 /// Whether particles of a body may be left out where no view needs them. A stroke's size and presence must follow from
-/// its ordinal and the view.
+/// its ordinal, the view and, where its size follows that of the surface, the reference.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Unneeded {
     /// They may not.
@@ -217,7 +218,9 @@ pub(crate) enum Unneeded {
 impl Unneeded {
     fn of(context: &Context<'_>, object: ObjectInputs<'_>, surface: &BodySurface) -> Self {
         let follows = |rule: &u16| context.rules[usize::from(*rule)].strokes.size_follow > 0.0;
-        if context.solver != Solver::Tangent || context.paper || object.used.iter().any(follows) {
+        let follow = object.used.iter().any(follows);
+        let has_several_references = follow && Following::of(context, object).is_none();
+        if context.solver != Solver::Tangent || context.paper || has_several_references {
             return Self::None;
         }
         let mut shapes = context.shapes.iter().map(|shapes| &shapes[object.index]);
@@ -225,8 +228,9 @@ impl Unneeded {
         if !surface.bends() && noise.is_none() && shapes.all(|shape| surface.is_at_rest(shape)) {
             return Self::AtRest;
         }
-        // The key of a kept painting has the positions of a point cache at a few frames only, not in every view.
-        if surface.has_cache() {
+        // How far strokes grow with a surface that bends is not known. And the key of a kept painting has the positions
+        // of a point cache at a few frames only, not in every view.
+        if follow || surface.has_cache() {
             return Self::None;
         }
         // Noise moves a vertex along each of three axes.

@@ -8,9 +8,13 @@ use crate::own_depths::OwnDepths;
 use crate::particle_count::{Reach, Sighting};
 use crate::presence_bound::LEAST_COUNTED_FADE;
 use crate::seen_part::SeenPart;
+use crate::size_follow::{Following, px_per_unit};
 
 /// The parts of a cell count as alike while the cell's radius is at most this share of its depth.
 const EVEN: f64 = 0.1;
+
+/// The parts of a cell count as alike while strokes on it grow by factors that differ by at most this one.
+const EVEN_GROWTH: f64 = 1.25;
 
 /// A cell that is not wholly inside the view is cut while its radius in pixels is more than this share of half the
 /// picture's shorter side.
@@ -30,11 +34,23 @@ fn is_beyond(planes: &Planes, center: DVec3, radius: f64) -> bool {
     planes.iter().any(|(plane, length)| plane.dot(center.extend(1.0)) > length * radius)
 }
 
+/// A sphere that holds all strokes of a cell, and how far they reach from its centre along the cell's normal or against
+/// it, model units.
+struct Lifted {
+    center: DVec3,
+    radius: f64,
+    thickness: f64,
+}
+
 /// A view of a body, ready to ask how densely it sees a cell.
 pub(crate) struct Eye {
     map: ScreenMap,
     /// Nothing is seen where any of these is positive.
     planes: Planes,
+    /// For strokes whose size follows that of the surface: how it does, and how far those of the stated size reach.
+    following: Option<(Following, f64)>,
+    /// Half the picture with the margin round it, pixels.
+    half_margin_px: DVec2,
     /// The same for the picture alone, without a margin round it.
     picture: Planes,
     half_px: DVec2,
@@ -45,6 +61,10 @@ pub(crate) struct Eye {
     w3_to_eye: DAffine3,
     /// How much `w3_to_eye` changes at most for each unit that the point moves.
     w3_to_eye_change: f64,
+    /// How far strokes are lifted along the normal: halfway between the least and the most, half of the difference, and
+    /// the greatest distance from the surface.
+    mid_offset: f64,
+    half_offsets: f64,
     most_offset: f64,
     /// The body's own depths, which tell what it hides of itself; `None` unless it is a heap.
     pub(crate) own: Option<OwnDepths>,
@@ -53,20 +73,10 @@ pub(crate) struct Eye {
 impl Eye {
     /// The eye of a view. `Reach` says how far round the picture there are particles, and how far from them there may
     /// be paint.
-    pub(crate) fn new(sighting: &Sighting, Reach { margin, reach_px, most_offset }: Reach) -> Self {
+    pub(crate) fn new(sighting: &Sighting, reach: Reach) -> Self {
+        let Reach { margin, reach_px, following, offsets: [least_offset, most_offset] } = reach;
         let map = &sighting.map;
-        let planes = |margin: f64, reach_px: f64| {
-            let half_px = sighting.half_size_px * margin + DVec2::splat(reach_px);
-            let side = |row: DVec4, half_px: f64| row - map.row_w * half_px;
-            let sides = [
-                side(map.row_x, half_px.x),
-                side(-map.row_x, half_px.x),
-                side(map.row_y, half_px.y),
-                side(-map.row_y, half_px.y),
-                DVec4::W * sighting.near - map.row_depth,
-            ];
-            sides.map(|plane| (plane, plane.truncate().length()))
-        };
+        let half_margin_px = sighting.half_size_px * margin;
         let w3_to_eye = w3_to_eye(map);
         Self {
             w3_to_eye_change: w3_to_eye
@@ -77,20 +87,47 @@ impl Eye {
                 .sum::<f64>()
                 .sqrt(),
             w3_to_eye,
-            planes: planes(margin, 2.0 * reach_px),
-            picture: planes(1.0, 0.0),
+            planes: planes(map, sighting.near, half_margin_px + 2.0 * reach_px),
+            following: following.map(|following| (following, reach_px)),
+            half_margin_px,
+            picture: planes(map, sighting.near, sighting.half_size_px),
             half_px: sighting.half_size_px,
             near: sighting.near,
             row_w_length: map.row_w.truncate().length(),
             map: *map,
-            most_offset,
+            mid_offset: 0.5 * (least_offset + most_offset),
+            half_offsets: 0.5 * (most_offset - least_offset),
+            most_offset: reach.most_offset(),
             own: None,
         }
     }
 
     /// Whether a cell may be in the picture.
     pub(crate) fn has_in_picture(&self, cell: &Cell) -> bool {
-        !is_beyond(&self.picture, cell.center, cell.radius + self.most_offset)
+        let Lifted { center, radius, .. } = self.lifted(cell);
+        !is_beyond(&self.picture, center, radius)
+    }
+
+    /// Where the strokes of a cell may lie. Their particles' normals differ from the cell's by at most its spread, so
+    /// this is the cell moved along its normal, and a little larger; or, if that is smaller, all that is near the cell.
+    fn lifted(&self, cell: &Cell) -> Lifted {
+        let apart = self.half_offsets + self.most_offset * cell.spread;
+        let (moved, apart) = if apart < self.most_offset {
+            (cell.normal * self.mid_offset, apart)
+        } else {
+            (DVec3::ZERO, self.most_offset)
+        };
+        Lifted { center: cell.center + moved, radius: cell.radius + apart, thickness: cell.thickness + apart }
+    }
+
+    /// The least and the greatest growth of the strokes in a sphere at this w.
+    fn growth(&self, center: DVec3, radius: f64, w: f64) -> [f64; 2] {
+        let Some((following, _)) = &self.following else { return [1.0; 2] };
+        let apart = self.row_w_length * radius;
+        // With perspective, w is the depth.
+        let near = if self.row_w_length > 0.0 { self.near } else { f64::MIN_POSITIVE };
+        let now = [w + apart, w - apart].map(|w| px_per_unit(&self.map, w, near));
+        following.growth_in(center, radius, now)
     }
 
     /// The part of a triangle on which the view may have particles.
@@ -158,21 +195,33 @@ impl Eye {
     }
 
     /// First, an upper bound on the pixels that a unit of a cell's surface fills in this view, divided by the fade of
-    /// strokes near an outline; 0 where the view does not see the cell. Second, whether the cell's parts may differ
+    /// strokes near an outline and by the square of their growth; 0 where the view does not see the cell. Second, whether the cell's parts may differ
     /// much: it is large beside its depth, or it is a large part of the picture and not all inside.
     pub(crate) fn most_per_area(&self, cell: &Cell) -> (f64, bool) {
-        let radius = cell.radius + self.most_offset;
-        if is_beyond(&self.planes, cell.center, radius) {
+        let Lifted { center, radius, thickness } = self.lifted(cell);
+        let w = self.map.row_w.dot(center.extend(1.0));
+        let [least_growth, most_growth] = self.growth(center, radius, w);
+        let grown;
+        let planes = match self.following {
+            Some((_, reach_px)) if most_growth > 1.0 => {
+                let half_px = self.half_margin_px + 2.0 * reach_px * most_growth;
+                grown = planes(&self.map, self.near, half_px);
+                &grown
+            }
+            _ => &self.planes,
+        };
+        if is_beyond(planes, center, radius) {
             return (0.0, false);
         }
-        let w = self.map.row_w.dot(cell.center.extend(1.0));
+        // The larger the strokes are, the fewer are needed.
+        let fewer = least_growth.powi(-2);
         if self.row_w_length > 0.0 && w - self.row_w_length * radius <= self.near {
             // Nothing nearer than the near plane is seen.
-            let towards_eye = self.w3_to_eye.transform_point3(cell.center).length();
+            let towards_eye = self.w3_to_eye.transform_point3(center).length();
             let w3_px = towards_eye + self.w3_to_eye_change * radius;
-            return (self.most_at(self.near, 1.0, w3_px), true);
+            return (fewer * self.most_at(self.near, 1.0, w3_px), true);
         }
-        let [along_x, along_y] = self.map.jacobian(cell.center);
+        let [along_x, along_y] = self.map.jacobian(center);
         let to_eye = along_x.cross(along_y);
         // The pixels that a unit of surface fills at the centre if it faces the eye.
         let px_per_area = to_eye.length();
@@ -180,7 +229,7 @@ impl Eye {
         // A unit of surface that is nearer than the centre, and seen in another direction, may fill up to this many
         // times as many pixels.
         let nearer = (1.0 + radius_per_depth) / (1.0 - radius_per_depth).powi(3);
-        let thickness = (cell.thickness + self.most_offset) / cell.radius * radius_per_depth;
+        let thickness = thickness / radius * radius_per_depth;
         // The cosine between the normal and the direction to the eye, at most: the eye's distance from the cell's
         // plane, over its least or greatest distance from a point of the cell.
         let above = cell.normal.dot(to_eye) / px_per_area + thickness;
@@ -189,12 +238,27 @@ impl Eye {
         if facing <= 0.0 {
             return (0.0, false);
         }
-        let most = px_per_area * nearer * most_over_fade(facing.min(1.0), self.map.uneven.is_some());
+        let most = fewer * px_per_area * nearer * most_over_fade(facing.min(1.0), self.map.uneven.is_some());
         // A bound that is not a number becomes infinite below, which is the safe side.
-        let is_large = cell.radius * px_per_area.sqrt() > LARGE * self.half_px.min_element();
-        let is_uneven = radius_per_depth > EVEN || is_large && !is_inside(&self.planes, cell.center, radius);
+        let is_large = radius * px_per_area.sqrt() > LARGE * self.half_px.min_element();
+        let is_uneven = radius_per_depth > EVEN
+            || most_growth > EVEN_GROWTH * least_growth
+            || is_large && !is_inside(planes, center, radius);
         (if most.is_nan() { f64::INFINITY } else { most }, is_uneven)
     }
+}
+
+/// The planes that bound a picture of this half size, pixels.
+fn planes(map: &ScreenMap, near: f64, half_px: DVec2) -> Planes {
+    let side = |row: DVec4, half_px: f64| row - map.row_w * half_px;
+    let sides = [
+        side(map.row_x, half_px.x),
+        side(-map.row_x, half_px.x),
+        side(map.row_y, half_px.y),
+        side(-map.row_y, half_px.y),
+        DVec4::W * near - map.row_depth,
+    ];
+    sides.map(|plane| (plane, plane.truncate().length()))
 }
 
 /// w³ times the cross product of the rows of the Jacobian, which is linear in the point: with x, y and w the products
@@ -248,7 +312,8 @@ mod tests {
         }
     }
 
-    /// A bumpy field, from near and from afar, from above and along it, through either lens.
+    /// A bumpy field, from near and from afar, from above and along it, through either lens, with strokes on it and
+    /// strokes lifted off it.
     #[test]
     fn no_place_needs_more_than_its_cell() {
         let mut mesh = TriangleMesh::default();
@@ -293,28 +358,66 @@ mod tests {
                     near: 0.05,
                     shape: BodyShape::default(),
                 };
-                let of_sighting = Eye::new(&sighting, Reach { margin: 1.0, reach_px: 0.0, most_offset: 0.0 });
-                for particle in &particles {
-                    let (at, normal) = (particle.position.as_dvec3(), particle.normal.as_dvec3());
-                    let px = map.project(at).abs();
-                    let jacobian = map.jacobian(at);
-                    let facing = map.facing(jacobian, normal) as f32;
-                    if map.depth(at) <= 0.05 || !px.cmplt(sighting.half_size_px).all() || facing <= 0.0 {
-                        continue;
+                for offsets in [[0.0; 2], [0.4; 2], [-0.3, 0.1]] {
+                    let of_sighting =
+                        Eye::new(&sighting, Reach { margin: 1.0, reach_px: 0.0, following: None, offsets });
+                    for (index, particle) in particles.iter().enumerate() {
+                        let normal = particle.normal.as_dvec3();
+                        let at = particle.position.as_dvec3() + normal * offsets[index % 2];
+                        let px = map.project(at).abs();
+                        let jacobian = map.jacobian(at);
+                        let facing = map.facing(jacobian, normal) as f32;
+                        if map.depth(at) <= 0.05 || !px.cmplt(sighting.half_size_px).all() || facing <= 0.0 {
+                            continue;
+                        }
+                        seen += 1;
+                        near += u32::from(map.depth(at) < 0.15);
+                        let fade = f64::from(presence::of_facing(facing).max(LEAST_COUNTED_FADE));
+                        let needed = area_px(jacobian, normal) / fade;
+                        let most = of_triangle[particle.triangle as usize]
+                            .iter()
+                            .map(|&cell| of_sighting.most_per_area(&cells[cell]).0)
+                            .fold(0.0, f64::max);
+                        assert!(
+                            needed <= most * 1.000_1,
+                            "{needed} of {most}, {lens:?}, {pose:?}, {offsets:?}"
+                        );
                     }
-                    seen += 1;
-                    near += u32::from(map.depth(at) < 0.15);
-                    let fade = f64::from(presence::of_facing(facing).max(LEAST_COUNTED_FADE));
-                    let needed = area_px(jacobian, normal) / fade;
-                    let most = of_triangle[particle.triangle as usize]
-                        .iter()
-                        .map(|&cell| of_sighting.most_per_area(&cells[cell]).0)
-                        .fold(0.0, f64::max);
-                    assert!(needed <= most * 1.000_1, "{needed} of {most}, {lens:?}, {pose:?}");
                 }
             }
         }
         assert!(seen > 10_000 && near > 20, "{seen}, {near} of them near the eye");
+    }
+
+    /// A square far from the view's middle: strokes that are lifted sideways by three units stand before the eye, and
+    /// those on the square do not. Seen from behind, neither shows.
+    #[test]
+    fn strokes_lifted_far_off_a_flat_cell_are_looked_for_where_they_are() {
+        let mut mesh = TriangleMesh::default();
+        mesh.positions
+            .extend([[-0.1, -0.1], [0.1, -0.1], [0.1, 0.1], [-0.1, 0.1]].map(|[x, y]| Vec3::new(x, y, 0.0)));
+        mesh.normals.extend([Vec3::Z; 4]);
+        mesh.triangles.extend([[0, 1, 2], [0, 2, 3]]);
+        let surface = Surface::new(&mesh, |_| true);
+        let cells = Cells::new(&surface);
+        let lens = PixelLens::Perspective { focal_px: 500.0 };
+        let most = |eye: [f64; 3], target: [f64; 3], offset: f64| {
+            let view = glam::dcamera::rh::view::look_at_mat4(eye.into(), target.into(), DVec3::Y);
+            let map = ScreenMap::new(view, DAffine3::IDENTITY, lens);
+            let half_size_px = DVec2::new(100.0, 60.0);
+            let sighting = Sighting { map, half_size_px, near: 0.05, shape: BodyShape::default() };
+            let eye = Eye::new(
+                &sighting,
+                Reach { margin: 1.0, reach_px: 0.0, following: None, offsets: [offset; 2] },
+            );
+            let front = cells.all().iter().filter(|cell| cell.normal.z > 0.99);
+            front.map(|cell| eye.most_per_area(cell).0).reduce(f64::max).expect("cells of the front")
+        };
+        let slanted = [[6.0, 0.0, 8.0], [0.0, 0.0, 3.0]];
+        assert!(most(slanted[0], slanted[1], 3.0) > 0.0);
+        assert_eq!(most(slanted[0], slanted[1], 0.0), 0.0);
+        assert_eq!(most([0.0, 0.0, -8.0], [0.0, 0.0, 3.0], 3.0), 0.0);
+        assert_eq!(most([0.0, 0.0, 2.0], [0.0, 0.0, 0.0], 3.0), 0.0);
     }
 
     /// A small ball is one cell, and the eye is in its middle: the nearest places are as far away as the near plane.
@@ -345,7 +448,8 @@ mod tests {
         let map = ScreenMap::new(view, DAffine3::IDENTITY, PixelLens::Perspective { focal_px });
         let half_size_px = DVec2::new(320.0, 180.0);
         let sighting = Sighting { map, half_size_px, near, shape: BodyShape::default() };
-        let eye = Eye::new(&sighting, Reach { margin: 1.0, reach_px: 0.0, most_offset: 0.0 });
+        let eye =
+            Eye::new(&sighting, Reach { margin: 1.0, reach_px: 0.0, following: None, offsets: [0.0; 2] });
         let of_ball = cells.all().iter().find(|cell| cell.triangles(&surface).count() > 1).expect("a cell");
         let (most, is_uneven) = eye.most_per_area(of_ball);
         // The place straight ahead, if it faced the eye, and one at the near plane.

@@ -53,6 +53,7 @@ mod regions;
 mod seen_part;
 mod shadow_bounds;
 mod shapes;
+mod size_follow;
 mod stated;
 mod stroke;
 mod stroke_directions;

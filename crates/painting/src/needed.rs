@@ -17,6 +17,7 @@ use crate::eye::Eye;
 use crate::own_depths::{Covered, OwnDepths};
 use crate::particle_count::{Reach, Sighting};
 use crate::parts::BodyParts;
+use crate::size_follow::Following;
 
 const LAYERS: usize = LayerKind::ALL.len();
 
@@ -85,14 +86,21 @@ impl PartialEq for NeededInputs {
 
 impl NeededInputs {
     pub(crate) fn new(context: &Context<'_>, object: ObjectInputs<'_>, counted: &Arc<CountInputs>) -> Self {
-        let strokes = || object.used.iter().map(|&rule| &context.rules[usize::from(rule)].strokes);
-        let offset = strokes().map(|strokes| f64::from(strokes.offset).abs()).fold(0.0, f64::max);
-        let (sightings, most_offset) = match counted.unneeded() {
-            Unneeded::None => (None, offset),
-            Unneeded::AtRest => (context.seen.sightings(object.index), offset),
-            Unneeded::OfMoving { noise } => (context.seen.sightings_moving(object.index), offset + noise),
+        let offset = |&rule: &u16| f64::from(context.rules[usize::from(rule)].strokes.offset);
+        let around = |[least, most]: [f64; 2], offset: f64| [least.min(offset), most.max(offset)];
+        let offsets = object.used.iter().map(offset).fold([f64::INFINITY, f64::NEG_INFINITY], around);
+        let [least, most] = if object.used.is_empty() { [0.0; 2] } else { offsets };
+        let (sightings, noise) = match counted.unneeded() {
+            Unneeded::None => (None, 0.0),
+            Unneeded::AtRest => (context.seen.sightings(object.index), 0.0),
+            Unneeded::OfMoving { noise } => (context.seen.sightings_moving(object.index), noise),
         };
-        let reach = Reach { margin: context.seen.margin(), reach_px: counted.most_reach_px(), most_offset };
+        let reach = Reach {
+            margin: context.seen.margin(),
+            reach_px: counted.most_reach_px(),
+            following: Following::of(context, object),
+            offsets: [least - noise, most + noise],
+        };
         Self { counted: Arc::clone(counted), sightings, reach }
     }
 
@@ -123,7 +131,9 @@ impl NeededInputs {
             Unneeded::AtRest if cells.all().len() * sightings.len() > MOST_PAIRS => None,
             Unneeded::AtRest => {
                 let heap = if self.counted.is_group() { HEAP_OF_GROUP } else { HEAP };
-                let own = (counted.deepness >= heap).then(|| {
+                // What is hidden of strokes that grow is not known.
+                let may_hide = counted.deepness >= heap && self.reach.following.is_none();
+                let own = may_hide.then(|| {
                     let is_solid = |triangle: usize| self.counted.is_solid(triangle);
                     OwnDepths::of_all(surface, sightings, is_solid, self.reach)
                 });

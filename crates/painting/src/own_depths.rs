@@ -108,11 +108,11 @@ impl OwnDepths {
         surface: &Surface<'_>,
         sighting: &Sighting,
         is_solid: impl Fn(usize) -> bool,
-        Reach { margin, most_offset, .. }: Reach,
+        reach: Reach,
         most_tests: f64,
     ) -> Self {
-        let half_px = sighting.half_size_px * margin;
-        let size = grid_size(sighting, margin);
+        let half_px = sighting.half_size_px * reach.margin;
+        let size = grid_size(sighting, reach.margin);
         let mut depths = vec![f32::INFINITY; size[0] * size[1]];
         let shown = |(triangle, flipped, _): (u32, bool, f64)| {
             let corners = surface.mesh().corners(triangle as usize).map(|at| at.as_dvec3());
@@ -139,7 +139,7 @@ impl OwnDepths {
         while let Some(last) = levels.last().filter(|level| level.size != [1, 1]) {
             levels.push(last.halved());
         }
-        let lift = most_offset * sighting.map.row_depth.truncate().length();
+        let lift = reach.most_offset() * sighting.map.row_depth.truncate().length();
         Self { sighting: sighting.clone(), lift, low_px: -half_px, levels }
     }
 
@@ -290,7 +290,7 @@ mod tests {
 
     use crate::body_shape::BodyShape;
 
-    const REACH: Reach = Reach { margin: 1.5, reach_px: 20.0, most_offset: 0.0 };
+    const REACH: Reach = Reach { margin: 1.5, reach_px: 20.0, following: None, offsets: [0.0; 2] };
 
     /// Squares that lie 0.1 below each other, each of 2 x 2 units, from y = 0 down.
     fn pile(squares: usize) -> TriangleMesh {
@@ -369,7 +369,7 @@ mod tests {
         let mesh = pile(12);
         let surface = Surface::new(&mesh, |_| true);
         let sighting = from_above(PixelLens::Orthographic { px_per_unit: 80.0 });
-        let lifted = Reach { most_offset: 0.15, ..REACH };
+        let lifted = Reach { offsets: [0.0, 0.15], ..REACH };
         let hidden_of = |reach: Reach| -> f64 {
             let own = OwnDepths::of_all(&surface, std::slice::from_ref(&sighting), |_| true, reach).unwrap();
             let cells = Cells::new(&surface);

@@ -21,6 +21,7 @@ use crate::looks::Look;
 use crate::painting::Painting;
 use crate::presence_bound::PresenceBound;
 use crate::recall::Recall;
+use crate::size_follow::{growth, px_per_unit};
 use crate::view::PictureView;
 
 /// What all strokes of a frame share.
@@ -87,9 +88,6 @@ pub(crate) struct PosedBody {
     /// `None` at rest.
     pub(crate) bent: Option<Arc<Bent>>,
 }
-
-/// A stroke that follows the size of its surface becomes at most this many times as large as stated.
-pub(crate) const MOST_GROWTH: f32 = 64.0;
 
 impl Painting {
     /// The painting at a frame through a camera, with the coats that are `wanted`.
@@ -327,21 +325,15 @@ impl CoatView<'_> {
         if follow <= 0.0 {
             return 1.0;
         }
-        let scale = |map: &ScreenMap, at: DVec3, near: f64| {
-            map.row_x.truncate().length() / map.row_w.dot(at.extend(1.0)).max(near)
-        };
+        let scale =
+            |map: &ScreenMap, at: DVec3, near: f64| px_per_unit(map, map.row_w.dot(at.extend(1.0)), near);
         let reference = self.coat.lift_sources.references.of_rule(usize::from(region));
         let was_at = reference.then(self.coat.raised(index)).position;
         let before = scale(&reference.map, was_at, reference.near)
             * self.stretch(reference.stands.bent.as_ref(), index);
         let [position, _] = self.position_and_normal(index);
         let now = scale(&self.map, position, 1e-9) * self.stretch(self.bent.as_ref(), index);
-        let grown = (now / before / f64::from(view.px_scale)).powf(f64::from(follow));
-        if grown.is_finite() {
-            grown.clamp(1.0 / f64::from(MOST_GROWTH), f64::from(MOST_GROWTH)) as f32
-        } else {
-            1.0
-        }
+        growth(now / before / f64::from(view.px_scale), f64::from(follow)) as f32
     }
 
     /// Random bits of a particle, independent for each `which`.

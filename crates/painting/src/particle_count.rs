@@ -10,6 +10,7 @@ use impasto_scene::document::{Object, Scene};
 use rayon::prelude::*;
 
 use crate::body_shape::BodyShape;
+use crate::size_follow::Following;
 use crate::view::PictureView;
 
 /// The greatest count of a coat.
@@ -85,10 +86,19 @@ pub(crate) struct Sighting {
 pub(crate) struct Reach {
     /// How far from the middle of the picture there are particles, in half sizes of the picture.
     pub(crate) margin: f64,
-    /// How far strokes reach beyond their particles, pixels at the scene's own size.
+    /// How far strokes of the stated size reach beyond their particles, pixels at the scene's own size.
     pub(crate) reach_px: f64,
-    /// How far strokes are lifted off the surface, model units.
-    pub(crate) most_offset: f64,
+    /// How the strokes' size follows that of the surface; `None` if they keep their size in the picture.
+    pub(crate) following: Option<Following>,
+    /// How far strokes are lifted off the surface along its normal, at least and at most, model units.
+    pub(crate) offsets: [f64; 2],
+}
+
+impl Reach {
+    /// How far strokes may be from the surface, model units.
+    pub(crate) fn most_offset(&self) -> f64 {
+        self.offsets.into_iter().map(f64::abs).fold(0.0, f64::max)
+    }
 }
 
 /// A face that a view does not see whole, or sees at very different depths, is cut into pieces that are at most this

@@ -88,7 +88,7 @@ pub struct Scene {
     /// Stops of light, from −16 to 16: each doubles the brightness of all lights.
     #[serde(default, skip_serializing_if = "is_default")]
     pub exposure: f64,
-    /// Lights, at most 8 suns and 16 points; without any, a sun and a soft light all around.
+    /// Lights, at most 8 suns, and 16 points and spots together; without any, a sun and a soft light all around.
     #[serde(default, skip_serializing_if = "is_default")]
     pub lights: Vec<Light>,
     /// What stands in the scene. May be left out where the scene has a shot, which brings its own.
@@ -164,8 +164,8 @@ pub enum Reference {
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Camera {
-    /// Which camera of the shot is used, if the shot has several: the name of the camera's node. Left out, the camera
-    /// that sees the most objects when the shot begins.
+    /// Which camera of the shot is used, if the shot has several: the name of the camera's node. Left out, the cameras
+    /// of the sidecar's cuts, or else the one that sees the most objects when the shot begins.
     #[serde(default, skip_serializing_if = "is_default")]
     pub of_shot: Option<String>,
     /// How the camera projects.

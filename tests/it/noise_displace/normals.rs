@@ -29,7 +29,7 @@ const RISE: [[f64; 3]; 2] = [[2.0, 0.0, 2.0], [0.0, 1.0, -2.0]];
 /// The levels, 0..=255, of the channels at the lower left texel, where U and V are least.
 const BEGIN: [f64; 3] = [60.0, 60.0, 128.0];
 
-/// The sheet's pose: in the middle of the texture, away from the edge where the ramp repeats.
+/// The sheet's pose: inside one repeat of the texture, away from the edge where the ramp starts again.
 fn key() -> ObjectKey {
     ObjectKey { translation: [2.5, 3.1, 0.0], rotation_deg: [14.0, -22.0, 9.0], ..ObjectKey::at(0.0) }
 }

@@ -2,7 +2,7 @@
 
 use super::Fault;
 
-/// The tests that compare seven scenes, drawn by both drivers, with pictures that a person found good.
+/// The test that compares pictures of seven scenes, drawn by both drivers, with pictures that a person found good.
 const GOLDENS: &str = "goldens::shipped";
 
 pub(super) const FAULTS: &[Fault] = &[

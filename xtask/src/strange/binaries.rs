@@ -2,8 +2,8 @@
 
 use super::chance::Chance;
 
-/// A picture of this kind: `png`, `bmp` or `tga`. By chance it is of another kind, has a header that lies, or is cut
-/// short.
+/// A picture of this kind, `bmp` or `tga`; for any other kind a PNG. By chance it is of another kind, has a header that
+/// lies, or is cut short.
 pub fn picture(chance: &mut Chance, kind: &str) -> Vec<u8> {
     let [width, height] = [(); 2].map(|()| chance.count(64) as u32);
     let mut bytes = match if chance.is_odd() { chance.of(&["png", "bmp", "tga"]) } else { kind } {

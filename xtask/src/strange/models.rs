@@ -106,7 +106,7 @@ fn direction(chance: &mut Chance) -> [f64; 3] {
     [flat * turn.cos(), height, flat * turn.sin()]
 }
 
-/// Now and then makes the body large or tiny, flattens it along an axis, or moves it far away.
+/// Now and then makes the body large or tiny, flattens or stretches it along an axis, or moves it far away.
 fn place(chance: &mut Chance, body: &mut Body) {
     let size = chance.of(&[1.0, 1.0, 1.0, 100.0, 1e4, 1e-3, 1e-6, 1e6]);
     let mut stretch = [size; 3];

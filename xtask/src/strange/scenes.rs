@@ -11,7 +11,7 @@ const BRUSHES: [&str; 7] = ["flat", "round", "knife", "filbert", "fan", "dry", "
 const PRESETS: [&str; 6] = ["oil study", "impressionist", "dry brush", "gouache", "ink", "paper"];
 const LAYERS: [&str; 7] = ["underpainting", "body", "form", "scumble", "accents", "contour", "lights"];
 
-/// The deepest nesting of groups.
+/// From this depth of nesting on, a group has few fields besides those that must be there.
 const DEEPEST: usize = 7;
 
 /// A scene that reads `m.obj`, `s.glb`, `c.pc2`, `t.png` beside it.

@@ -105,7 +105,7 @@ fn a_light_mark_that_reaches_two_borders_of_its_picture_is_no_dark_one() {
     }
 }
 
-/// For each row of all marks of a brush: the first and the last texel with paint, as columns.
+/// For each row with paint in any mark of a brush: its number, and the columns of its first and last texel with paint.
 fn ends_of_rows(name: &str) -> Vec<(usize, [usize; 2])> {
     let rows = |mark: &Mark| -> Vec<(usize, [usize; 2])> {
         let inked = |row: usize| {

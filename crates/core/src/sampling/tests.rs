@@ -114,7 +114,7 @@ fn the_order_has_never_changed() {
     }
 }
 
-/// Samples measure the surface: each of the squares has as many as the others.
+/// Samples measure the surface: each of the squares has about as many as the others.
 #[test]
 fn samples_of_squares_on_each_other_are_even_by_area() {
     let mesh = squares_on_each_other();
@@ -161,8 +161,8 @@ fn growing_in_steps_gives_the_same_order() {
     }
 }
 
-/// As many particles come before an ordinal as it says, wherever its level begins or ends. A rod that is thinner than
-/// the spacing has up to 15 % more.
+/// As many particles come before an ordinal as it says, wherever in a level it lies. A rod that is thinner than the
+/// spacing has up to 15 % more.
 #[test]
 fn an_ordinal_counts_the_particles_before_it() {
     for (name, mesh, off) in
@@ -233,7 +233,7 @@ fn a_sheet_beside_a_pile_keeps_its_share() {
             let share = found / (to - from);
             assert!(share > least && share < most, "{side}, {from} to {to}: {share} of its share");
         }
-        // The pile has no more than one of its squares would have.
+        // The pile has little more than one of its squares would have.
         let on_pile = order.particles.len() as f64 - on_sheet_before(&order, f32::INFINITY);
         let of_square = 200_000.0 / f64::from(8.0 + side * side);
         assert!((1.0..1.3).contains(&(on_pile / of_square)), "{on_pile} of {of_square}");
@@ -271,7 +271,7 @@ fn where_it_is_needed_the_order_is_that_of_the_whole() {
         };
         all.filter(within).collect()
     };
-    // Compares at least half a cell and a few spacings inside the border of what is needed.
+    // Compares only what lies at least half a cell and a few spacings inside the border of what is needed.
     for (least, reach) in [(98_000.0, 0.15), (29_000.0, 0.33)] {
         let [of_sparse, of_whole] = [&sparse, &whole].map(|order| inside(order, least, reach));
         assert!(of_whole.len() > 500);

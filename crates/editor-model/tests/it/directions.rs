@@ -24,7 +24,7 @@ fn guide(from: f64, radius: f64, strength: f64) -> Guide {
     }
 }
 
-/// Two turning cubes, with a region on one of them.
+/// A cube that stands still and one that turns, with this region.
 fn with_region(region: Region) -> Document {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/touching_cubes.ron");
     let mut document = Document::open(&path, &LoadOptions::default()).expect("a shipped scene opens");
@@ -74,7 +74,8 @@ fn strokes_pasted_to_a_region_bring_no_order_of_layers() {
     assert!(strokes.order.is_empty(), "{:?}", strokes.order);
 }
 
-/// What was stated in the old reference stays as it looks: its guides get that view, its angle that reference.
+/// A region's directions look as before: its guides get the view of the old reference, and its angle keeps that
+/// reference.
 #[test]
 fn a_new_reference_leaves_the_directions_of_regions() {
     let direction = Direction::Angle(30.0);

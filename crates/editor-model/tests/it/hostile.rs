@@ -1,6 +1,6 @@
-//! Tests that the editor survives hostile files. Those in the folder `IMPASTO_CORPUS` are opened by a process with
-//! little memory and time. Each must give a document or an error message, and stay unchanged. Another test opens a
-//! shipped scene with changed bytes. The workspace's own `tests/it/hostile_scenes.rs` opens a small corpus.
+//! Tests that the editor survives hostile files. Those in the folder that `IMPASTO_CORPUS` names are opened by a
+//! process with little memory and time. Each must give a document or an error message, and stay unchanged. Another test
+//! opens a shipped scene with changed bytes. The workspace's own `tests/it/hostile_scenes.rs` opens a small corpus.
 
 #![cfg(unix)]
 

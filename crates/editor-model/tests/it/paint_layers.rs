@@ -59,6 +59,7 @@ fn the_usual_order_is_not_stated_and_a_region_has_none() {
     set(&mut document, &StrokesOf::Scene, StrokeChange::LayerOrder(Some(order)));
     let copied = Box::new(document.scene().strokes.clone());
     document.apply(&Command::Regions(Regions::PasteStrokes(lemon(), copied))).expect("it is taken");
+    assert!(strokes_of_lemon(&document).order.is_empty());
 }
 
 #[test]

@@ -1,7 +1,7 @@
 // Blurs the glow along one axis with a Gaussian.
 uniform sampler2D gathered;
 uniform vec2 axis;
-uniform float sigma;             // in pixels of the glow
+uniform float sigma;             // in pixels of `gathered`
 
 out vec4 spread;
 

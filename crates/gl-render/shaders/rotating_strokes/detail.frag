@@ -1,5 +1,6 @@
-// How much detail each body has, in blocks of a few pixels: change of colour, outlines, highlights. The result is
-// blurred widely afterwards, so that small strokes come and go slowly when a shadow sweeps over them.
+// How much detail each body has, in blocks of a few pixels: change of colour or turn of the surface, outlines,
+// highlights. The result is blurred widely afterwards, so that small strokes come and go slowly when a shadow sweeps
+// over them.
 #include "shared/oklab.glsl"
 uniform sampler2D reference_color;
 uniform sampler2D depth_and_id;

@@ -42,7 +42,7 @@ float normal_from(uint bits, uint which) {
     return (sum / 255.0 - 2.0) * 1.7320508;
 }
 
-// Reduces values to planes: steps with soft edges.
+// Reduces lightness to planes: steps with soft edges.
 float planes(float lightness) {
     float at = (lightness + 0.03) * 11.0 - 0.5;
     return (floor(at) + smoothstep(0.1, 0.9, fract(at)) + 0.5) / 11.0 - 0.03;

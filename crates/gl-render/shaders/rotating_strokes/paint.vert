@@ -151,7 +151,7 @@ void main() {
     float share = 0.98 * (1.0 - dryness) * mix(0.5, 1.0, there);
     // A fading stroke shrinks from its ends to a quarter of its length, then fades as a whole.
     float extent = max(there, 0.25);
-    // An edge about a pixel wide, as a share of the mark's area.
+    // Half the soft edge, as a share of the mark's area. The whole edge is about a pixel wide.
     float soft = clamp(1.2 * (size.x + size.y) / (size.x * size.y), 0.02, 0.14);
     paint = vec4(resolved.rgb, mix(1.0 + soft, soft + 0.02, share));
 #ifdef DRAFT

@@ -163,7 +163,7 @@ float without_last(float there) {
     return max(there - 0.1, 0.0) / 0.9;
 }
 
-// The stroke's presence by its rank, as in `impasto_core::presence`.
+// The stroke's presence by its supply, as in `impasto_core::presence`, times its facing fade.
 float presence(float supply_ln) {
     return without_last(smoothstep(0.0, 1.0, 0.5333823 + supply_ln / 1.4)) * size.z;
 }
@@ -280,8 +280,8 @@ vec4 outline_near(vec2 own) {
     return sum / 48.0;
 }
 
-// How much a contour line is wanted, 0..1: near the end of the body, here and there by slow noise, and less in the
-// light.
+// How much a contour line is wanted, 0..1: near the end of the body, here and there by slow noise, less in the light,
+// and less where something in front hides the surroundings.
 float line_wanted(vec4 outline, float lightness) {
     float at_end = smoothstep(0.02, 0.46, outline.z) * (1.0 - smoothstep(0.55, 0.95, outline.z));
     float found = smoothstep(-0.9, 0.5, reach.z);

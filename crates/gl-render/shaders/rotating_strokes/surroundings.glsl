@@ -217,9 +217,10 @@ vec4 own_colors_on_ring(vec2 center_px, float id, mat2 ring_px, float free, int 
 
 // Mean colour on the stroke's own body: a Gaussian with this standard deviation, on rings and the centre. It is longer
 // along the stroke, so that a shadow that sweeps over it takes several frames. The less of the body is found there, the
-// more a wider surrounding counts. Two further rings count for broad strokes, since a leg could pass unseen between the
-// other taps. They also count where only scraps of the body are seen, because it covers itself (the stroke is less
-// `free`) or others hide it: no single tap may decide there. w is how much of the colour is known, 0..1.
+// more a wider surrounding counts. Two further rings count for broad strokes, since something narrow, such as a leg,
+// could pass unseen between the other taps. They also count where only scraps of the body are seen, because it covers
+// itself (the stroke is less `free`) or others hide it: no single tap may decide there. w is how much of the colour is
+// known, 0..1.
 vec4 own_color(vec2 center_px, float id, mat2 sigma_px, float free) {
     const float CENTER = 0.7;
     const vec2 RINGS = vec2(0.60, 0.17);

@@ -12,7 +12,7 @@ float bounded_ratio(float over, float under) {
     return (over < 0.0) == (under < 0.0) ? FARTHEST : -FARTHEST;
 }
 
-// (u, v) of a point in a quad whose corners are at (0, 0), (1, 0), (0, 1) and (1, 1), in this order, wound either way.
+// (u, v) of a point in a quad, wound either way. Its corners p0 to p3 have (u, v) = (0, 0), (1, 0), (0, 1) and (1, 1).
 vec2 inverse_bilinear(vec2 point, vec2 p0, vec2 p1, vec2 p2, vec2 p3) {
     vec2 q = point - p0;
     vec2 b1 = p1 - p0;

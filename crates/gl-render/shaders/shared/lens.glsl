@@ -16,7 +16,7 @@ vec3 view_from_px(vec2 at_px, float depth) {
 
 // How far a surface with this normal in view space faces the eye through a pixel; below 0 the surface shows its back.
 // At another pixel, `offset_px` away, the surface's plane is deeper by dot(normal.xy, offset_px) * units_per_px(depth)
-// divided by the result.
+// divided by the result: in perspective only to first order.
 float facing_at_px(vec3 normal_in_view, vec2 at_px) {
     vec2 gaze = (1.0 - orthographic) * (at_px - gaze_px) / px_per_unit_at_1;
     return normal_in_view.z - dot(normal_in_view.xy, gaze);

@@ -17,7 +17,7 @@ uniform float dryness;           // of the scene
 
 out vec2 mark_at;                // place on the mark, 0..1; on a shaped stroke, px along and across it
 out vec2 from_center_px;
-flat out vec4 ink;               // rgb: what it takes from white; a: the paint of the mark where half of its ink is gone
+flat out vec4 ink;               // rgb: what it takes from white; a: paint value in the middle of the mark's soft edge
 flat out vec4 mark;              // its number, level of detail, half its soft edge, bow
 flat out vec4 body;              // opacity, how dry it ends, overrun in px, sign of the flip
 flat out vec2 own;               // depth and id of the body

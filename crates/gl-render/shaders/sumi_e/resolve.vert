@@ -88,7 +88,7 @@ float shift(vec2 along) {
     return 0.25 * size.x * (forward - back);
 }
 
-// As in `impasto_core::presence`.
+// As in `impasto_core::presence`, times the facing fade.
 float presence(float supply_ln) {
     return max(smoothstep(0.0, 1.0, 0.5333823 + supply_ln / 1.4) - 0.1, 0.0) / 0.9 * size.z;
 }

@@ -8,8 +8,9 @@ use impasto_core::{ScreenMap, TriangleMesh, hash};
 use crate::body_shape::BodyShape;
 use crate::presence_bound::LEAST_COUNTED_FADE;
 
-/// Triangles whose corners are bent, stretched and turned by different F: near to the eye, round it and far from it,
-/// also with strokes that are lifted off them, and with smooth normals on both sides.
+/// Triangles with a different deformation gradient at each corner, which bends, stretches and turns them: near to the
+/// eye, round it and far from it, also with strokes that are lifted off them, and with smooth normals that lie on both
+/// sides of the triangle.
 #[test]
 fn no_place_of_a_moved_piece_needs_more_than_the_piece() {
     let random = |which: u32| hash::unit(hash::scramble(which)) - 0.5;
@@ -30,7 +31,7 @@ fn no_place_of_a_moved_piece_needs_more_than_the_piece() {
         let half_size_px = DVec2::new(320.0, 180.0);
         let sighting = Sighting { map, half_size_px, near: 0.1, shape: BodyShape::default() };
         let offset = if is(3, 0.3) { 0.2 } else { 0.0 };
-        let reach = Reach { margin: 1.0, reach_px: 0.0, most_offset: f64::from(offset) };
+        let reach = Reach { margin: 1.0, reach_px: 0.0, following: None, offsets: [f64::from(offset); 2] };
         let eye = Eye::new(&sighting, reach);
         let much = if is(4, 0.5) { 0.1 } else { 1.2 };
         let turn = Mat3::from_axis_angle(vector(from).normalize(), 6.0 * random(from + 3));
@@ -79,7 +80,7 @@ fn no_place_of_a_moved_piece_needs_more_than_the_piece() {
     assert!(at_eye > 300 && turned_away > 300 && closest > 0.9, "{at_eye}, {turned_away}, {closest}");
 }
 
-/// A cell of a hundredth of the surface that is seen very closely, and one of a half that is seen from afar.
+/// A cell of a hundredth of the surface is seen very closely, one of a half from afar, and the rest not at all.
 #[test]
 fn near_spots_get_more_only_on_bodies_at_rest() {
     let square = TriangleMesh {
@@ -98,7 +99,7 @@ fn near_spots_get_more_only_on_bodies_at_rest() {
     };
     let tree = |far: f64| SeenTree::new(vec![seen(0.01, 1e12), seen(0.5, far), seen(0.49, 0.0)]);
     let made = |tree: &SeenTree, kind_of_body| {
-        // To a thousand: the length of an order is only found roughly.
+        // In whole thousands, since the length of an order is only found roughly.
         let thousands = |count: CoatCount| ((count.made as f64 - LEAST_ON_WHOLE) / 1000.0).round();
         tree.count(0, 400_000.0, kind_of_body).map(thousands)
     };
@@ -106,7 +107,7 @@ fn near_spots_get_more_only_on_bodies_at_rest() {
     assert_eq!(made(&few, KindOfBody::AtRest), Some(200.0));
     assert_eq!(made(&few, KindOfBody::Heap), Some(MOST_MADE_OF_HEAP / 1000.0));
     assert_eq!(made(&few, KindOfBody::Moving), Some(14.0));
-    // What is seen from afar needs half of all particles, or more.
+    // What is seen needs a little less than half of all particles, or a little more.
     for (far, [at_rest, moving]) in
         [(380_000.0, [Some(200.0), Some(194.0)]), (400_000.0, [None, Some(204.0)])]
     {

@@ -243,7 +243,7 @@ fn check_guide(
     let Some(mut reached) = Reached::of(object, file, guide.radius) else { return };
     let mut farthest = (0.0, 0);
     for (index, point) in guide.points.iter().enumerate() {
-        let Some(rest) = left.checked_sub(file.mesh.triangles.len()) else { return };
+        let Some(rest) = left.checked_sub(file.mesh.triangles.len()) else { break };
         *left = rest;
         let at = DVec3::from(point.at);
         if reached.is_near(at, guide.radius) {
@@ -279,7 +279,7 @@ fn check_dabs(
     let (mut off, count) = (0, dabs.len());
     // A radius that is not above 0 and a place that is not finite are reported elsewhere.
     for (at, radius) in dabs.filter(|&(at, radius)| radius > 0.0 && DVec3::from(at).is_finite()) {
-        let Some(rest) = left.checked_sub(file.mesh.triangles.len()) else { return };
+        let Some(rest) = left.checked_sub(file.mesh.triangles.len()) else { break };
         *left = rest;
         off += usize::from(!reached.is_near(DVec3::from(at), radius));
     }

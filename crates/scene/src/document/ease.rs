@@ -21,7 +21,7 @@ pub enum Ease {
     /// A cubic Bézier curve from (0, 0) to (1, 1) with these two handles, like `cubic-bezier` in CSS: `x` is the share
     /// of the time that has passed, and `y` how far the value has come. A handle's `x` is from 0 to 1, its `y` from -2
     /// to 3. Where the curve goes below 0 or above 1, places and rotations overshoot, while sizes, colours and
-    /// strengths stop at their limits.
+    /// strengths stop at the limits of their fields.
     Curve([f64; 2], [f64; 2]),
 }
 

@@ -39,7 +39,7 @@ macro_rules! keys {
 keys!(BackgroundKey, CameraKey, LightKey, ObjectKey, StrokesKey);
 
 /// The values of a light at a frame. A value that is left out holds on from the key before. Until a key states it, the
-/// light's own value holds.
+/// light's own value holds or, if the light states none, the first that a key states.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct LightKey {

@@ -50,7 +50,7 @@ pub enum NoiseSpace {
 /// What vertices are moved along.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 pub enum NoiseAlong {
-    /// The three axes, each by one channel of the noise, as in the source.
+    /// The three axes, each by one channel of the noise, as in the source (Hong and Park 2021).
     #[default]
     Channels,
     /// Their normals, by the first channel of the noise.
@@ -74,7 +74,7 @@ usual_fields! {
         pub texture: Option<String> = None,
         /// One more than the number of layers that are multiplied, from 1 to 64; 1 shows the tint alone.
         pub layer_count: u32 = 4,
-        /// How fast layers move.
+        /// How fast layers move, in twentieths of the texture's length per second.
         pub speed: f64 = 1.0; within NOISE_RATE,
         /// How often the texture is repeated along U and V, from -1000 to 1000.
         pub tiling: [f64; 2] = [1.0; 2],

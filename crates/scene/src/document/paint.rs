@@ -81,8 +81,8 @@ layer_numbers! {
     pickup: 0.0..=1.0,
 }
 
-/// A brush by name, a PNG of the user's own (grey is paint), or a list of them: one named twice is taken twice as
-/// often.
+/// A brush by name, a picture of the user's own (light is paint, or dark on a light background), or a list of them: one
+/// named twice is taken twice as often.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BrushMix(pub Vec<String>);
 

@@ -90,12 +90,12 @@ pub enum Patch {
     Material(String),
     /// What dabs have touched.
     Dabs(Vec<Dab>),
-    /// What is reached from a face.
+    /// What is reached from a face: where the flood begins, and the angle of a sharp edge, as in the selector `Flood`.
     Flood(Seed, f64),
 }
 
-/// Where a flood begins: at the face nearest to `at`, of those that face the way `normal` points. In the object's own
-/// space.
+/// Where a flood begins: at the face nearest to `at`. Of faces about equally near, one that faces the way `normal`
+/// points. In the object's own space.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Seed {
@@ -111,9 +111,9 @@ pub struct Seed {
 pub struct Dab {
     /// The place, in the object's own space.
     pub at: [f64; 3],
-    /// Normal of the surface there; only what faces the same way is touched.
+    /// Normal of the surface there; only a surface turned from it by less than 90° is touched.
     pub normal: [f64; 3],
-    /// How far it reaches, more than 0.
+    /// How far it reaches, more than 0, units of the object's own space.
     pub radius: f64,
     /// Whether it removes what it touches instead of adding it.
     #[serde(default, skip_serializing_if = "is_default")]
@@ -124,8 +124,8 @@ pub struct Dab {
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Direction {
-    /// As a painter would begin: along the longest axis of each part, almost level on flat backdrops.
-    /// Guides overrule it wherever they reach.
+    /// As a painter would begin: along the longest axis of each part, almost level on flat backdrops. If the region has
+    /// guides that comb, they decide its directions instead.
     #[default]
     Auto,
     /// Degrees counter-clockwise from the picture's +X, as seen in the reference pose.
@@ -171,7 +171,7 @@ pub enum Sense {
     /// A direction and its opposite are the same: a field of lines.
     #[default]
     Lines,
-    /// Guides point where strokes end: a field of arrows.
+    /// Strokes run the way that directions and guides point: a field of arrows.
     Arrows,
 }
 
@@ -195,7 +195,7 @@ pub struct Guide {
     pub view: Option<GuideView>,
     /// At least two points of the surface, in the order of the gesture.
     pub points: Vec<GuidePoint>,
-    /// How far it reaches, more than 0.
+    /// How far it reaches, more than 0, units of the object's own space.
     pub radius: f64,
     /// How far strokes on it follow it, from 0, not at all, to 1, wholly.
     #[serde(default = "one", skip_serializing_if = "is_one")]
@@ -220,9 +220,9 @@ pub enum GuideMode {
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct GuideView {
-    /// The eye.
+    /// The eye, in the object's own space.
     pub eye: [f64; 3],
-    /// What it looked at.
+    /// What it looked at, in the object's own space.
     pub target: [f64; 3],
     /// The frame whose shape the body had when the guide was drawn; left out, the body's rest.
     #[serde(default, skip_serializing_if = "is_default")]
@@ -246,7 +246,7 @@ pub struct GuidePoint {
 /// How the strength of a guide falls off.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 pub enum Falloff {
-    /// (1 − (r/R)²)².
+    /// (1 − (r/R)²)², where r is the distance from the guide and R the guide's radius.
     #[default]
     Smooth,
     /// 1 − r/R.

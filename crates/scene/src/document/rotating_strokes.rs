@@ -13,7 +13,7 @@ usual_fields! {
     pub struct RotatingStrokes {
         /// How the turn is found.
         pub solver: Solver = Solver::Tangent; saved always,
-        /// Large thin strokes under the body layer, so that no hole shows the ground.
+        /// A tone and large thin strokes under the body layer, so that no hole shows the background.
         pub underpainting: bool = true,
         /// What is painted on.
         pub canvas: Canvas = Canvas::Linen,

@@ -29,10 +29,10 @@ impl PartialEq for Stage {
     }
 }
 
-/// An object that a document states and the shot does not have.
+/// An object that a document states without a mesh, and that the shot does not have.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Lost {
-    /// Its index in the document.
+    /// Its index in the document before [`Brought::enter`] takes it out.
     pub index: usize,
     /// Its name.
     pub name: String,
@@ -91,14 +91,14 @@ pub trait Brought: Debug + Send + Sync {
     /// How much brighter the finished picture is shown, stops.
     fn exposure_stops(&self) -> f32;
 
-    /// A light of the scene in this pose of the shot: intensity, colour, direction and position are the shot's, unless
-    /// the document changed them.
+    /// A light of the scene in this pose of the shot: intensity, colour, direction, position and cone are the shot's,
+    /// unless the document changed them.
     fn light(&self, light: &Light, posed: &Posed) -> Light;
 
     /// Puts the shot on the scene's stage. Adds its objects and lights, except those whose names the document states
-    /// itself. If the document states such an object without a mesh, the object gets the shot's mesh. Takes the shot's
-    /// frames and sky where the document states none. Returns the objects that the document states and the shot no
-    /// longer has.
+    /// itself. If the document states such an object without a mesh, the object gets the shot's mesh, and the shot's
+    /// point cache if it states none itself. An object without a mesh that the shot does not have goes from the scene
+    /// to [`Stage::lost`], and is returned. Takes the shot's rate, frames and sky where the document states none.
     fn enter(self: Arc<Self>, scene: &mut Scene) -> Vec<Lost>;
 
     /// The document as it is saved: without what comes from the shot alone. An object of the shot that was deleted is

@@ -76,14 +76,15 @@ const FACTOR: Shown = Shown { unit: "×", drag: 0.0..=8.0, step: 0.1, decimals: 
 // surface; `color` its colour. `CONTRIBUTING.md` says what else a new row needs.
 stroke_numbers! {
     body {
-        /// How long strokes of the body layer are in the picture, pixels at the scene's size; strokes of other layers
-        /// keep their proportion to these.
+        /// How long strokes of the body layer are in the picture, pixels at the scene's size. Strokes of other layers
+        /// keep their shape, and the ratio of their area to that of these.
         length_px {
             limits: 0.001..=MAX_STROKE_PX,
             resolved: |strokes| f64::from(strokes.body().length_px),
             shown: Shown { label: "Length", drag: 4.0..=160.0, place: Main(1), ..PIXELS },
         }
-        /// How wide strokes are in the picture, pixels at the scene's size.
+        /// How wide strokes of the body layer are in the picture, pixels at the scene's size; other layers follow as
+        /// with the length.
         width_px {
             limits: 0.001..=MAX_STROKE_PX,
             resolved: |strokes| f64::from(strokes.body().width_px),
@@ -95,7 +96,7 @@ stroke_numbers! {
             resolved: |_| 1.0,
             shown: Shown { label: "Scale", drag: 0.1..=4.0, step: 0.05, decimals: 2, place: Advanced(1), ..FACTOR },
         }
-        /// How many strokes lie over each other; under 1 the ground shows.
+        /// How many strokes of the body layer lie over each other; under 1, what lies below them shows.
         coverage {
             limits: 0.001..=MAX_COVERAGE,
             resolved: |strokes| f64::from(strokes.body().coverage),

@@ -111,7 +111,7 @@ pub enum CanvasFollows {
     /// It stands still, as a picture on an easel.
     #[default]
     Picture,
-    /// It slides and turns with what the camera looked at in the reference pose.
+    /// It moves, turns and scales with the point that the camera looks at in the reference pose.
     Camera,
 }
 

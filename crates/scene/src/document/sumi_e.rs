@@ -10,15 +10,16 @@ use super::style_settings::{CanvasFollows, Preparation, SettingRule, StyleInfo, 
 usual_fields! {
     /// Ink on paper: a dark silhouette over an interior of four tones.
     pub struct SumiE {
-        /// The rule that ink follows: `Painter` is ours, `Source` that of the source.
+        /// The rule that ink follows: `Painter` is ours, `Source` that of the source, the effect that this style is
+        /// based on.
         pub rule: InkRule = InkRule::Painter; saved always,
         /// What is drawn.
         pub drawing: InkDrawing = InkDrawing::Both,
         /// Where the light on the interior stands.
         pub light: InkLight = InkLight::Scene,
-        /// Direction to the light in the eye's space (X right, Y up, Z to the eye), for `light: Eye` and `rule:
-        /// Source`; in the world where `light: Scene` finds no sun. The default is the source's light with Z negated,
-        /// because the source is left-handed.
+        /// Direction to the light. With `light: Eye` or `rule: Source` it is in the eye's space (X right, Y up, Z to
+        /// the eye). Otherwise it counts only where the scene has no sun, and is in world space. The default is the
+        /// source's light with Z negated, because the source is left-handed.
         pub to_light: [f64; 3] = [0.96, 0.64, 1.08],
         /// The four tones, from the darkest ink to the thinnest; 0 black, 1 the paper.
         pub tones: [f64; 4] = [0.07, 0.36, 0.68, 0.96],
@@ -36,11 +37,11 @@ usual_fields! {
         pub softness: f64 = 0.08; within 0.0..=0.5,
         /// How far a body's own colour makes its ink darker or lighter.
         pub own_tone: f64 = 0.6; within 0.0..=1.0,
-        /// How soft the ink's edges are, in pixels.
+        /// How soft the ink's edges are: the standard deviation of a blur, pixels at the scene's size.
         pub blur_px: f64 = 1.6; within 0.0..=40.0,
         /// How much of the ink runs out into the paper.
         pub bleed: f64 = 0.5; within 0.0..=1.0,
-        /// How far the ink runs, in pixels.
+        /// How far the ink runs, pixels at the scene's size.
         pub bleed_px: f64 = 10.0; within 0.0..=100.0,
         /// How much of the paper a drying brush leaves white.
         pub dryness: f64 = 0.35; within 0.0..=1.0,

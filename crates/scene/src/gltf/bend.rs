@@ -9,7 +9,7 @@ use impasto_core::cofactors::cofactors;
 use impasto_gltf::{Mesh, Posed, Primitive};
 
 use super::GltfFile;
-use super::joints::blended;
+use super::joints::moved_by;
 use crate::mesh_file::Points;
 
 /// Consecutive vertices of a joined mesh that come from one primitive.
@@ -131,10 +131,7 @@ fn origin<'a>(mesh: &'a Mesh, runs: &[Run], source: usize) -> Origin<'a> {
 /// The linear part of the transform that carries a vertex and its surroundings from the unbent mesh to the mesh at
 /// rest.
 fn unmoved(origin: &Origin<'_>, rest: &BendPose, is_skinned: bool) -> DMat3 {
-    match origin.primitive.influences.as_ref().filter(|_| is_skinned) {
-        Some(influences) => blended(&rest.joints, influences, origin.vertex).matrix3,
-        None => DMat3::IDENTITY,
-    }
+    if is_skinned { moved_by(&rest.joints, origin.primitive, origin.vertex).matrix3 } else { DMat3::IDENTITY }
 }
 
 /// The joints and weights of all vertices. A vertex of a primitive without joints moves with the first joint.

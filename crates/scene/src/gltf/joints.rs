@@ -1,10 +1,18 @@
 //! Blends the transforms of the joints that move a vertex.
 
 use glam::DAffine3;
-use impasto_gltf::Influences;
+use impasto_gltf::{Influences, Primitive};
+
+/// The transform by which joints move a vertex of a skinned mesh. A primitive without joints moves with the first one.
+pub(super) fn moved_by(joints: &[DAffine3], primitive: &Primitive, vertex: usize) -> DAffine3 {
+    match &primitive.influences {
+        Some(influences) => blended(joints, influences, vertex),
+        None => joints.first().copied().unwrap_or(DAffine3::IDENTITY),
+    }
+}
 
 /// The weighted mean of the transforms of the joints that move a vertex.
-pub(super) fn blended(joints: &[DAffine3], influences: &Influences, vertex: usize) -> DAffine3 {
+fn blended(joints: &[DAffine3], influences: &Influences, vertex: usize) -> DAffine3 {
     let of_vertex = vertex * influences.per_vertex..(vertex + 1) * influences.per_vertex;
     let mut sum = DAffine3::ZERO;
     for at in of_vertex {

@@ -10,7 +10,7 @@ use impasto_gltf::{Mesh, Node, Primitive};
 
 use super::GltfFile;
 use super::bend::{self, Run};
-use super::joints::blended;
+use super::joints::moved_by;
 use super::materials;
 use crate::mesh_file::MeshFile;
 use crate::surface::{Builder, Built, Geometry};
@@ -121,10 +121,11 @@ impl Vertices {
                 add(normals, deltas);
             }
         }
-        if let (Some(skin), Some(influences)) = (node.skin, &primitive.influences) {
+        let has_joints = mesh.primitives.iter().any(|primitive| primitive.influences.is_some());
+        if let Some(skin) = node.skin.filter(|_| has_joints) {
             let joints = file.rest.world_from_bound(&file.gltf.skins[skin]);
             for (vertex, at) in positions.iter_mut().enumerate() {
-                let matrix = blended(&joints, influences, vertex);
+                let matrix = moved_by(&joints, primitive, vertex);
                 *at = matrix.transform_point3(*at);
                 if let Some(normals) = &mut normals {
                     normals[vertex] = cofactors(matrix.matrix3) * normals[vertex];

@@ -29,8 +29,8 @@ pub enum Amount {
     Length,
     /// How many strokes lie over each other: a factor from 0, which leaves only the underpainting, to 4.
     Density,
-    /// How flat strokes lie on the picture: a factor from 0 to 4 on how flat they lie otherwise. From 1 on they lie
-    /// wholly flat.
+    /// How flat strokes lie on the picture: a factor from 0 to 4 on their `flatness`. Where the product is 1 or more,
+    /// they lie wholly flat.
     Flatness,
 }
 
@@ -43,8 +43,8 @@ pub struct AmountDab {
     /// Normal of the surface there. A surface turned away from this normal by up to 60° takes the full factor; beyond
     /// 60° the effect fades, and from 90° on there is none.
     pub normal: [f64; 3],
-    /// How far the dab reaches (R), more than 0. At a distance r from its middle, the factor has (1 − (r/R)²)² of its
-    /// effect, so at R the factor is 1.
+    /// How far the dab reaches (R), more than 0, units of the object's own space. At a distance r from its middle, the
+    /// factor has (1 − (r/R)²)² of its effect, so at R the factor is 1.
     pub radius: f64,
     /// The factor in its middle.
     pub by: f64,

@@ -65,7 +65,7 @@ macro_rules! stroke_numbers {
             /// Pigments that all colours are mixed from, at most 16; empty means any colour.
             #[serde(skip_serializing_if = "is_default")]
             pub palette: Option<Vec<Color>>,
-            /// Higher layers are painted over lower ones; from -1000 to 1000.
+            /// A number from -1000 to 1000: strokes with a higher one are painted over all strokes with a lower one.
             #[serde(skip_serializing_if = "is_default")]
             pub layer: Option<i32>,
             /// What differs from the preset in single layers of paint, by name.
@@ -93,7 +93,7 @@ macro_rules! stroke_numbers {
             pub palette: Vec<Color>,
             /// How far colours keep to the palette, 0..=1.
             pub palette_mix: f32,
-            /// Higher layers are painted over lower ones.
+            /// Strokes with a higher number are painted over all strokes with a lower one.
             pub layer: i32,
             /// Changes over time: see [`ResolvedStrokes::at`].
             pub keys: Vec<StrokesKey>,
