@@ -484,3 +484,19 @@ fn sizes_follow_the_surface_as_far_as_size_follow_says() {
         assert!(compared >= 100, "{compared} strokes at {follow}");
     }
 }
+
+/// On a ball, a stated axis leaves the surface in two caps, together a tenth of it.
+#[test]
+fn poles_are_where_the_stated_axis_leaves_the_surface() {
+    for (direction, axis) in [(Direction::Up, Vec3::Y), (Direction::Around([1.0, 0.0, 0.0]), Vec3::X)] {
+        let mut scene = shapes::scene(vec![shapes::object("ball", 4000)]);
+        scene.regions = vec![Region { direction, ..Region::new("all", Selector::Object("ball".to_owned())) }];
+        let painting = prepare(shapes::loaded(scene, [shapes::sphere(48, 24)])).unwrap();
+        let (poles, particles) = (painting.poles(0), painting.particles(0));
+        for (index, &is_pole) in poles.iter().enumerate() {
+            assert_eq!(is_pole, particles.at(index).normal.dot(axis).abs() > 0.9, "{axis}, particle {index}");
+        }
+        let share = poles.iter().filter(|&&is_pole| is_pole).count() as f64 / poles.len() as f64;
+        assert!((share - 0.1).abs() < 0.02, "{axis}: {share}");
+    }
+}

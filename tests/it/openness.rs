@@ -1,5 +1,5 @@
-//! Tests how far openness, the ambient occlusion of the plain render, looks. Its radius is 5.5 % of the picture's
-//! height, and its outermost taps reach a straight wall at up to 0.83 radii: a wall at 0.65 radii must darken the
+//! Tests the reach of openness, which is the ambient occlusion of the plain render. Its radius is 5.5 % of the
+//! picture's height, and its outermost taps lie up to 0.83 radii to either side: a wall at 0.65 radii must darken the
 //! floor, one at 1 must not.
 
 use impasto_gl_render::Renderer;

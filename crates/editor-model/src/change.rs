@@ -1,4 +1,5 @@
-//! The difference between two versions of a scene, compact and applicable in both directions: an entry of the history.
+//! The difference between two versions of a scene, compact and applicable in both directions. It is what an entry of
+//! the history stores about the scene.
 
 use impasto_scene::document::{AmountDab, Guide, Object, PaintedAmount, Region, Scene, Touch};
 

@@ -1,7 +1,8 @@
 //! Reads glTF 2.0 (`.gltf`, `.glb`), and tells where everything in it is at any time.
 //!
 //! The crate opens no file: [`read`] is given bytes and a function that gives more. It trusts no number of the file:
-//! each is checked against the bytes before it is used, and each complaint names its place ([`Finding::pointer`]).
+//! sizes are checked against the bytes, and indices against their lists (exceptions: [`Gltf`]). Complaints name their
+//! place ([`Finding::pointer`]).
 //!
 //! Space and units are those of glTF: right-handed, Y up, metres, radians, seconds; colours are linear; texture
 //! coordinates have V pointing down. Matrices multiply column vectors.
@@ -9,7 +10,7 @@
 //! ```text
 //! bytes ─▶ container ─▶ json ─▶ source (buffers, views) ─▶ accessor ─▶ decode ─▶ read_mesh, read_node, read_animation
 //!                                                                                      │
-//!                                                       Gltf (plain data) ◀────────────┘ ─▶ Animator ─▶ Posed
+//!                                            Posed ◀─ Animator ◀─ Gltf (plain data) ◀──┘
 //! ```
 
 mod accessor;

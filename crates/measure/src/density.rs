@@ -9,19 +9,19 @@ pub struct PlacedStroke {
     pub center_px: [f64; 2],
     /// Its presence, 0..=1.
     pub alpha: f64,
-    /// Pixels of the picture for each wanted stroke.
+    /// The area of the picture that one stroke should have to itself here, pixels.
     pub wanted_area_px: f64,
 }
 
-/// Σ α · (pixels for each wanted stroke), divided by `pixels`. `pixels` is the area in which the strokes lie, painted
-/// or not. The result is 1 where there are as many strokes as wanted.
+/// Σ `alpha` · `wanted_area_px`, divided by `pixels`. `pixels` is the area in which the strokes lie, painted or
+/// not. The result is 1 where there are as many strokes as wanted.
 pub fn shown_over_wanted(strokes: &[PlacedStroke], pixels: usize) -> f64 {
     strokes.iter().map(|stroke| stroke.alpha * stroke.wanted_area_px).sum::<f64>() / pixels.max(1) as f64
 }
 
 /// How evenly the strokes with an alpha above a half are spread: the mean distance to the nearest neighbour, divided
-/// by that distance in a hexagonal lattice with as many points on as many pixels; 0 for fewer than two strokes. Also
-/// returns how many strokes these are.
+/// by that distance in a hexagonal lattice with as many points on as many pixels; 0 if there are fewer than two such
+/// strokes. The second result is the number of strokes with an alpha above a half.
 pub fn spacing_over_ideal(strokes: &[PlacedStroke], pixels: usize) -> (f64, usize) {
     let mut shown: Vec<[f64; 2]> =
         strokes.iter().filter(|stroke| stroke.alpha > 0.5).map(|stroke| stroke.center_px).collect();

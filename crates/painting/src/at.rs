@@ -62,7 +62,7 @@ impl Painting {
             lines: Lines::default(),
             brushes: Arc::clone(&self.brushes),
             palettes: self.palettes_at(frame),
-            finish: self.finish.at(&view, f64::from(options.shot_height_px())),
+            finish: self.finish.at(&view, f64::from(options.shot_height_px()), options.keep_stroke_px),
             style: self.style.clone(),
             has_highlight_strokes: self.coats.iter().any(|coat| coat.kind == LayerKind::Lights),
             quality: options.quality,

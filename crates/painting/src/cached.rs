@@ -1,4 +1,5 @@
-//! A result kept with the inputs that it was computed from, so that equal inputs need not be computed again.
+//! A result kept with the inputs that it was computed from, so that it need not be computed again for equal
+//! inputs.
 
 /// Holds an output and the inputs that it was computed from; empty at first.
 pub(crate) struct Cached<Inputs, Output> {

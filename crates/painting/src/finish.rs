@@ -45,15 +45,24 @@ impl FinishRule {
     }
 
     /// The finish of a picture in this view. `shot_height_px` is the height of the shot in it: less than the picture's
-    /// where the editor shows more than the shot.
-    pub(crate) fn at(&self, view: &PictureView, shot_height_px: f64) -> Finish {
-        let canvas_from_px = self.anchor.and_then(|anchor| self.canvas_from_px(anchor, view, shot_height_px));
+    /// where the editor shows more than the shot. With `keep_stroke_px` the canvas keeps its size in pixels too.
+    pub(crate) fn at(&self, view: &PictureView, shot_height_px: f64, keep_stroke_px: bool) -> Finish {
+        let size_px = f64::from(self.reference.size_px[1]) / shot_height_px;
+        let unit_px = if keep_stroke_px { 1.0 } else { size_px };
+        let canvas_from_px =
+            self.anchor.and_then(|anchor| self.canvas_from_px(anchor, view, [size_px, unit_px]));
         Finish { canvas_from_px: canvas_from_px.unwrap_or(Affine2::IDENTITY), ..self.finish }
     }
 
     /// The transform that moves, turns and scales the canvas with `anchor`, the point that the camera looked at in the
-    /// reference pose. `None` where that point is too near to show, or behind the eye.
-    fn canvas_from_px(&self, anchor: DVec3, view: &PictureView, shot_height_px: f64) -> Option<Affine2> {
+    /// reference pose. `None` where that point is too near to show, or behind the eye. A pixel of the picture is
+    /// `size_px` pixels at the scene's size, and `unit_px` units of the positions that are transformed.
+    fn canvas_from_px(
+        &self,
+        anchor: DVec3,
+        view: &PictureView,
+        [size_px, unit_px]: [f64; 2],
+    ) -> Option<Affine2> {
         let (before, now) =
             (self.reference.screen_map(DAffine3::IDENTITY), view.screen_map(DAffine3::IDENTITY));
         let scale_of = |map: &impasto_core::ScreenMap| {
@@ -63,13 +72,12 @@ impl FinishRule {
         let (from, to) = (now.project(anchor), before.project(anchor));
         let scale = scale_of(&before) / scale_of(&now);
         let seen = now.depth(anchor) > view.near() && before.depth(anchor) > self.reference.near();
-        let size_px = f64::from(self.reference.size_px[1]) / shot_height_px;
         if !seen || !scale.is_finite() || scale <= 0.0 || !from.is_finite() || !to.is_finite() {
             return None;
         }
         // A camera rolled by +a turns the picture by −a.
         let turn = DMat2::from_angle(view.pose.roll_rad - self.reference.pose.roll_rad) * (scale / size_px);
-        let shift: DVec2 = to - turn * (from * size_px);
+        let shift: DVec2 = to - turn * (from * unit_px);
         let map = Affine2::from_mat2_translation(turn.as_mat2(), shift.as_vec2());
         Some(map).filter(Affine2::is_finite)
     }
@@ -116,7 +124,7 @@ mod tests {
         // A point beside the anchor, in the plane that faces the reference camera.
         let beside = anchor + DVec3::new(0.05, 0.03, 0.0);
         for other in [view(DVec3::new(0.0, 0.0, 3.0), 0.0), view(DVec3::new(0.0, 0.0, 5.0), 0.4)] {
-            let map = rule.at(&other, 360.0).canvas_from_px;
+            let map = rule.at(&other, 360.0, false).canvas_from_px;
             let before = reference.screen_map(DAffine3::IDENTITY);
             let now = other.screen_map(DAffine3::IDENTITY);
             for point in [anchor, beside] {
@@ -125,7 +133,24 @@ mod tests {
                 assert!(difference < 0.1, "off by {difference} px");
             }
         }
-        let still = rule.at(&reference, 360.0).canvas_from_px;
+        let still = rule.at(&reference, 360.0, false).canvas_from_px;
         assert!((still.transform_point2(Vec2::new(50.0, -20.0)) - Vec2::new(50.0, -20.0)).length() < 1e-3);
+        // In a picture twice as large, positions are halved; or not, if the canvas keeps its size in pixels.
+        for eye in [DVec3::new(0.0, 0.0, 5.0), DVec3::new(1.0, 0.4, 3.0)] {
+            let large = PictureView {
+                size_px: [1280, 720],
+                pose: CameraPose { target: DVec3::ZERO, ..view(eye, 0.3).pose },
+            };
+            let at_px = large.screen_map(DAffine3::IDENTITY).project(anchor);
+            let wanted = reference.screen_map(DAffine3::IDENTITY).project(anchor);
+            for (keep_stroke_px, unit_px) in [(false, 0.5), (true, 1.0)] {
+                let map = rule.at(&large, 720.0, keep_stroke_px).canvas_from_px;
+                let on_canvas = map.transform_point2((at_px * unit_px).as_vec2()).as_dvec2();
+                assert!(
+                    at_px.length() > 5.0 && on_canvas.distance(wanted) < 0.1,
+                    "{on_canvas}, not {wanted}"
+                );
+            }
+        }
     }
 }

@@ -24,8 +24,9 @@ pub use stroke::{ANY_COLOR, LayerRun, Mixing, Paint, Stroke, StrokeSource, Strok
 pub struct Frame {
     /// Width and height of the picture in pixels.
     pub size_px: [u32; 2],
-    /// Height of the shot in this picture over the height that the scene states; 1 if strokes keep their size in
-    /// pixels. Lengths of strokes and lines are already multiplied by it, those in `style` are not.
+    /// The height in pixels at which this picture shows what the scene's camera frames, divided by the height that the
+    /// scene states. It is 1 if strokes keep their size in pixels. Lengths of strokes and lines are already multiplied
+    /// by it, those in `style` are not.
     pub px_scale: f32,
     /// The camera.
     pub view: FrameView,
@@ -36,7 +37,7 @@ pub struct Frame {
     /// The scene's objects, in the order of the scene file. Body `i` has id `i + 1` in the id target.
     pub bodies: Vec<FrameBody>,
     /// Strokes in painting order: sorted by the layer of their region, then by layer of paint, then by rank from high
-    /// to low.
+    /// to low. Touches come last, in the scene's order.
     pub strokes: Vec<Stroke>,
     /// Where each stroke comes from, parallel to `strokes`.
     pub sources: Vec<StrokeSource>,
@@ -44,7 +45,7 @@ pub struct Frame {
     pub layers: Vec<LayerRun>,
     /// The lines of touches, which are strokes placed by hand.
     pub lines: Lines,
-    /// The marks of all brushes; shared between frames.
+    /// The marks of the brushes in use; shared between frames.
     pub brushes: Arc<Brushes>,
     /// The palettes that strokes are mixed from.
     pub palettes: Arc<Vec<Palette>>,
@@ -56,7 +57,7 @@ pub struct Frame {
     pub has_highlight_strokes: bool,
     /// Exact, or a quick draft.
     pub quality: Quality,
-    /// A factor on the finished picture as a display shows it; 1 leaves it as it is.
+    /// A factor on the linear colours of the finished picture, before they are encoded; 1 leaves it as it is.
     pub exposure: f32,
 }
 
@@ -76,7 +77,7 @@ impl Frame {
     }
 
     /// How many samples a pixel has along each axis: one in drafts, and where the samples of a very large picture would
-    /// take too much memory or a texture with a side of more than `most_side_px`.
+    /// take too much memory, or would need a texture with a side above `most_side_px`.
     pub fn samples(&self, most_side_px: u32) -> u32 {
         match self.quality {
             Quality::Exact => samples_that_fit(self.finish.samples, self.size_px, most_side_px),
@@ -91,8 +92,8 @@ impl Frame {
     }
 }
 
-/// How many samples a pixel of an exact picture of this size has along each axis: `wanted`, or one where they would
-/// take too much memory or a texture with a side of more than `most_side_px`.
+/// How many samples a pixel of an exact picture of this size has along each axis. That is `wanted`; but it is 1 if so
+/// many would take too much memory, or would need a texture with a side above `most_side_px`.
 pub fn samples_that_fit(wanted: u32, size_px: [u32; 2], most_side_px: u32) -> u32 {
     let [width, height] = size_px.map(|side| u64::from(side) * u64::from(wanted));
     let fits = width.max(height) <= u64::from(most_side_px) && width * height <= MAX_PIXELS;
@@ -102,10 +103,11 @@ pub fn samples_that_fit(wanted: u32, size_px: [u32; 2], most_side_px: u32) -> u3
 /// Exact, or a quick draft.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Quality {
-    /// As for a file: a frame gives the same bits whatever was drawn before it.
+    /// The quality of pictures in files: a frame gives the same bits whatever was drawn before it.
     #[default]
     Exact,
-    /// For a view that moves: the same strokes at the same places, but fewer texture taps and flat paint.
+    /// For a view that moves: strokes at the same places, but with flat paint and fewer texture taps. Faint strokes
+    /// are left out, and in some paintings the underpainting too.
     Draft,
 }
 
@@ -141,8 +143,9 @@ pub struct FrameLights {
     pub ambient_above: Vec3,
     /// Ambient light on a surface that faces down.
     pub ambient_below: Vec3,
-    /// The sphere (centre, radius) that the shadow map covers, the same in every frame. It holds all bodies over the
-    /// timeline, or only what the camera sees if that is much smaller.
+    /// The sphere (centre, radius) that the shadow map covers, the same in every frame. Usually it holds all
+    /// bodies at sampled frames of the timeline. Where a much smaller sphere holds nearly all that the camera sees,
+    /// that smaller one is used.
     pub shadow_bounds: (Vec3, f32),
 }
 
@@ -182,7 +185,7 @@ pub struct Cone {
 pub struct FrameBody {
     /// A hidden body is not drawn and casts no shadow, but keeps its id.
     pub hidden: bool,
-    /// Whether it is a backdrop: the ink style leaves the paper bare there.
+    /// Whether it is a built-in backdrop or patch of floor: the ink style leaves the paper bare there.
     pub is_backdrop: bool,
     /// The surface. It is shared between frames, so that a renderer may cache what it uploads by the address of the
     /// `Arc`.
@@ -191,7 +194,7 @@ pub struct FrameBody {
     pub world_from_model: Mat4,
     /// Where its vertices are; `None` at rest.
     pub bent: Option<Arc<Bent>>,
-    /// Its noise, which may colour it. If the noise moves vertices, those in `bent` have been moved.
+    /// Its noise, which may colour it. If it moves vertices, `bent` holds their positions with the noise applied.
     pub noise: Option<FrameNoise>,
 }
 
@@ -219,9 +222,10 @@ pub struct Finish {
     pub ground: Option<Ground>,
     /// How much the weave of the canvas shows where paint is thin; 0 for a board.
     pub weave: f32,
-    /// From pixels of the picture (at the scene's size, origin in the middle) to pixels of the canvas.
+    /// From positions in the picture to pixels of the canvas. Positions are counted from the picture's middle, in
+    /// pixels divided by [`Frame::px_scale`].
     pub canvas_from_px: Affine2,
-    /// How many samples a pixel of an exact picture has along each axis.
+    /// How many samples a pixel of an exact picture should have along each axis: see [`Frame::samples`].
     pub samples: u32,
     /// Height of the paint; 1 is oil.
     pub relief: f32,

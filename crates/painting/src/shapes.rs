@@ -1,4 +1,4 @@
-//! The shapes of all bodies at a frame, from what the document and its shot say.
+//! How each body is deformed at a frame (joints, morphs, point caches), from the document and its shot.
 
 use std::sync::Arc;
 
@@ -40,7 +40,8 @@ impl BodyShapes {
         self
     }
 
-    /// How many joints and targets the shape of an object has; 0 where it is as in its file.
+    /// An upper bound on the number of joints and weights in the pose that [`BodyShapes::of`] gives an object. It is 0
+    /// if the shot gives no pose and the morph weight is 0.
     pub(crate) fn numbers_of(&self, loaded: &LoadedScene, object: usize) -> usize {
         let numbers = |pose: &BendPose| pose.joints.len() + pose.weights.len();
         let in_file = || file_bend(loaded, &loaded.scene.objects[object]).map(|bend| &bend.rest);

@@ -1,4 +1,4 @@
-//! Tests of neighbour lists against brute force, for every build of the search (portable, and with wide vectors).
+//! Tests of neighbour lists against brute force, with the portable build of the search and with that for wide vectors.
 
 use super::*;
 use crate::hash;
@@ -160,7 +160,7 @@ fn arrays_that_no_lists_have_are_refused() {
         |arrays| arrays.0[3] = 40,
         |arrays| arrays.2[3] = 40,
         |arrays| arrays.1[3] = 51,
-        // The number of indices fits, but the lists are longer than any may be.
+        // The number of indices matches `most`, but `most` is itself above `MAX_NEIGHBOURS`.
         |arrays| (arrays.3, arrays.2) = (MAX_NEIGHBOURS + 1, vec![0; 40 * (MAX_NEIGHBOURS + 1)]),
     ];
     for (number, fault) in faults.iter().enumerate() {

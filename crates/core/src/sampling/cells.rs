@@ -13,10 +13,10 @@ use crate::mesh::of_corners;
 /// The first cells are about this share of the surface's area, or smaller.
 const SHARE: f64 = 1.0 / 4096.0;
 
-/// A face is first cut into at most the square of this many cells.
+/// Each edge of a face is first cut into at most this many parts, so a face into at most 64 × 64 cells.
 const MOST_FIRST_CUTS: f64 = 64.0;
 
-/// A side of a face is cut into at most this many parts.
+/// A cell is not split further once the edges of its face are cut into at least this many parts.
 const MOST_CUTS: u32 = 1 << 16;
 
 /// The first cells of a surface: parts of a large face, or small faces that follow each other in the mesh.
@@ -51,21 +51,21 @@ pub struct CellPiece {
     pub corners: [DVec3; 3],
     /// The flat unit normal of its visible side.
     pub flat: DVec3,
-    /// The smooth unit normals at the corners of the mesh's triangle, on this side. `None` where they lie on both sides
-    /// of the triangle: then a particle's normal may point anywhere.
+    /// The mesh's unit normals at the triangle's corners, turned to this side. `None` if some of them point to one side
+    /// of the triangle and some to the other: then a particle's normal may point anywhere on this side.
     pub smooth: Option<[DVec3; 3]>,
 }
 
 /// The faces, or the part of a face, that a cell consists of.
 #[derive(Clone, Debug)]
 enum Extent {
-    /// Whole faces that follow each other. With a `side`, both sides of their triangles can be seen, and only the faces
-    /// on this side belong to the cell: `true` is the back.
+    /// Whole faces that follow each other. If both sides of their triangles can be seen, `side` says which of them the
+    /// cell holds: `true` is the back.
     Faces { faces: Range<u32>, side: Option<bool> },
     /// One of the small triangles into which a face is cut.
     Part {
         face: u32,
-        /// Into how many parts each side of the face is cut.
+        /// Into how many parts each edge of the face is cut.
         cuts: u32,
         row: u32,
         column: u32,
@@ -79,8 +79,8 @@ impl Cells {
     pub fn new(surface: &Surface<'_>) -> Self {
         let area = surface.area();
         let mut cells = Vec::new();
-        // A run of small faces that follow each other, whether both sides of their triangles can be seen, and the run's
-        // share of the area.
+        // `run`: small faces that follow each other. `two_sided`: both sides of their triangles can be seen.
+        // `run_share`: their share of the area.
         let (mut run, mut two_sided, mut run_share) = (0..0u32, false, 0.0);
         let close = |run: &Range<u32>, two_sided: bool, share: f64, cells: &mut Vec<Cell>| {
             if run.start < run.end && two_sided {
@@ -173,7 +173,7 @@ impl Cell {
         }
     }
 
-    /// A part of a cell, each side of which is cut into `cuts`.
+    /// The part `extent` of the cell. Each edge of the cell is cut into `cuts` parts.
     fn part(&self, surface: &Surface<'_>, extent: Extent, cuts: u32) -> Self {
         let Extent::Part { face, .. } = extent else { unreachable!("whole faces are no part") };
         let triangle = surface.faces[face as usize].triangle as usize;
@@ -258,7 +258,8 @@ impl Cell {
     }
 
     /// Picks a point of the cell. Returns its face, and the weights of the face's second and third corner. `which` is
-    /// spread evenly over 0..1, `on_triangle` are such weights, spread evenly over a triangle.
+    /// a random number, uniform in 0..1. `on_triangle` is a random point, uniform over a triangle, as weights of the
+    /// second and third corner.
     #[inline(always)]
     pub(super) fn place(
         &self,
@@ -284,7 +285,7 @@ impl Cell {
     }
 }
 
-/// The weights of a triangle's second and third corner, at its corners.
+/// The three corners of a triangle, each given by the weights of the second and the third corner.
 const CORNERS: [[f32; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
 
 impl Extent {
@@ -334,7 +335,8 @@ fn normals(surface: &Surface<'_>, face: Face) -> (DVec3, Option<[DVec3; 3]>) {
     let across = (b - a).cross(c - a).normalize_or_zero();
     let flat = if face.flipped { -across } else { across };
     let smooth = of_corners(&mesh.normals, mesh.triangles[face.triangle as usize]).map(Vec3::as_dvec3);
-    // A particle's normal is turned as a whole.
+    // A particle's normal is flipped after interpolation. So the corner normals may be flipped here only if all three
+    // need it.
     let smooth = match smooth.map(|of| of.dot(flat) < 0.0) {
         [false, false, false] => Some(smooth),
         [true, true, true] => Some(smooth.map(|normal| -normal)),
@@ -348,21 +350,22 @@ fn normals(surface: &Surface<'_>, face: Face) -> (DVec3, Option<[DVec3; 3]>) {
 fn spread(from: DVec3, (flat, smooth): (DVec3, Option<[DVec3; 3]>)) -> f64 {
     let Some(smooth) = smooth else { return 2.0 };
     let most = smooth.map(|normal| normal.distance(from)).into_iter().fold(flat.distance(from), f64::max);
-    // Where normals differ this much, one interpolated between them may point anywhere.
+    // If a corner normal is more than 1 away, interpolated normals are taken to point anywhere.
     if most > 1.0 { 2.0 } else { most }
 }
 
-/// How far into a progressive order each cell needs particles: those whose ordinals are less than the cell's number.
+/// Which particles of a progressive order each cell needs: those with an ordinal below the cell's limit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Needed {
-    /// For each cell, the number that ordinals must be less than. The first cells of the surface come first.
+    /// For each cell, its limit. The cells of [`Cells`] stand before the smaller ones that they are split into.
     pub of_cell: Vec<f32>,
-    /// For each cell, the index of the first of the smaller cells that it is split into ([`Cell::split`]); 0 where
-    /// these need what the cell needs.
+    /// For each cell, the index of the first of its smaller cells ([`Cell::split`]), or 0 if those are not listed.
+    /// Smaller cells that are not listed have the limit of the cell that was split.
     pub first_part: Arc<Vec<u32>>,
-    /// Whether every cell is split into the smaller ones listed here as soon as levels are thrown cell by cell. If so,
-    /// these levels add no particle where none is needed, but their particles are not those of the whole order. If not,
-    /// cells with few tries stay whole, which is faster.
+    /// This matters only in the later levels, which are thrown cell by cell. There, whether a cell must be split if its
+    /// smaller cells are listed. If `true`, these levels add no particle where none is needed, but their particles
+    /// differ from those of an order for the whole surface. If `false`, cells with few tries stay whole, which is
+    /// faster.
     pub is_strict: bool,
 }
 
@@ -372,8 +375,8 @@ impl Needed {
         self.of_cell.iter().copied().fold(0.0, f32::max)
     }
 
-    /// The index of the smaller cell with this number, counted from 0, among those that the cell `of` is split into.
-    /// `of` itself where these are not listed.
+    /// The index in `of_cell` of one of the smaller cells that the cell `of` is split into; `number` counts these from
+    /// 0. Returns `of` itself where they are not listed.
     pub(super) fn part(&self, of: u32, number: u32) -> u32 {
         match self.first_part[of as usize] {
             0 => of,

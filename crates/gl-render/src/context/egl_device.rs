@@ -1,4 +1,5 @@
-//! Opens OpenGL on an EGL device, which is a graphics card or the software rasteriser. This needs no display.
+//! Opens OpenGL on an EGL device, which is a graphics card or the software rasteriser. No display server is
+//! needed.
 
 #[cfg(target_vendor = "apple")]
 use super::opening::{OpenOptions, Opened};
