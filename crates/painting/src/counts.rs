@@ -219,7 +219,7 @@ impl Unneeded {
     fn of(context: &Context<'_>, object: ObjectInputs<'_>, surface: &BodySurface) -> Self {
         let follows = |rule: &u16| context.rules[usize::from(*rule)].strokes.size_follow > 0.0;
         let follow = object.used.iter().any(follows);
-        let has_several_references = follow && Following::of(context, object).is_none();
+        let has_several_references = follow && following(context, object).is_none();
         if context.solver != Solver::Tangent || context.paper || has_several_references {
             return Self::None;
         }
@@ -236,6 +236,21 @@ impl Unneeded {
         // Noise moves a vertex along each of three axes.
         Self::OfMoving { noise: noise.map_or(0.0, |noise| 3.0f64.sqrt() * f64::from(noise.noise.reach())) }
     }
+}
+
+/// How the strokes on an object at rest follow its size. `None` if none do, or if those that do have several
+/// references.
+pub(crate) fn following(context: &Context<'_>, object: ObjectInputs<'_>) -> Option<Following> {
+    let follow = |rule: u16| f64::from(context.rules[usize::from(rule)].strokes.size_follow);
+    let mut following = object.used.iter().copied().filter(|&rule| follow(rule) > 0.0);
+    let reference = |rule: u16| {
+        let reference = object.references.of_rule(usize::from(rule));
+        (reference.map, reference.near)
+    };
+    let (map, near) = reference(following.next()?);
+    let all = || object.used.iter().copied().map(follow);
+    let range = [all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max)];
+    following.all(|rule| reference(rule) == (map, near)).then(|| Following::new(map, near, range))
 }
 
 /// How many particles the coats of an object need.

@@ -12,12 +12,11 @@ use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
 
 use crate::context::{Context, ObjectInputs};
-use crate::counts::{CoatCount, CountInputs, Counted, LEAST_ON_WHOLE, Unneeded};
+use crate::counts::{CoatCount, CountInputs, Counted, LEAST_ON_WHOLE, Unneeded, following};
 use crate::eye::Eye;
 use crate::own_depths::{Covered, OwnDepths};
 use crate::particle_count::{Reach, Sighting};
 use crate::parts::BodyParts;
-use crate::size_follow::Following;
 
 const LAYERS: usize = LayerKind::ALL.len();
 
@@ -98,7 +97,7 @@ impl NeededInputs {
         let reach = Reach {
             margin: context.seen.margin(),
             reach_px: counted.most_reach_px(),
-            following: Following::of(context, object),
+            following: following(context, object),
             offsets: [least - noise, most + noise],
         };
         Self { counted: Arc::clone(counted), sightings, reach }

@@ -3,8 +3,6 @@
 use glam::DVec3;
 use impasto_core::ScreenMap;
 
-use crate::context::{Context, ObjectInputs};
-
 /// A stroke grows at most this many times, and shrinks at most to the inverse.
 pub(crate) const MOST_GROWTH: f32 = 64.0;
 
@@ -31,18 +29,9 @@ pub(crate) struct Following {
 }
 
 impl Following {
-    /// `None` if no strokes follow, or if those that do have several references.
-    pub(crate) fn of(context: &Context<'_>, object: ObjectInputs<'_>) -> Option<Self> {
-        let follow = |rule: u16| f64::from(context.rules[usize::from(rule)].strokes.size_follow);
-        let mut following = object.used.iter().copied().filter(|&rule| follow(rule) > 0.0);
-        let reference = |rule: u16| {
-            let reference = object.references.of_rule(usize::from(rule));
-            (reference.map, reference.near)
-        };
-        let (map, near) = reference(following.next()?);
-        let all = || object.used.iter().copied().map(follow);
-        let follow = [all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max)];
-        following.all(|rule| reference(rule) == (map, near)).then_some(Self { map, near, follow })
+    /// The reference is given by its map and its near plane, `follow` are the least and the greatest γ.
+    pub(crate) fn new(map: ScreenMap, near: f64, follow: [f64; 2]) -> Self {
+        Self { map, near, follow }
     }
 
     /// The least and the greatest growth of strokes in a sphere, whose pixels per unit of length now are between these.
