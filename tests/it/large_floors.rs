@@ -9,7 +9,7 @@ use impasto_core::presence;
 use impasto_gl_render::context::Driver;
 use impasto_painting::{FrameOptions, Painting, PrepareOptions, Preparer, SeenFrom, prepare};
 use impasto_scene::document::{
-    Color, Lens, Light, LightKind, MaterialOverride, ObjectKey, Region, Scene, Selector, Style,
+    Color, Lens, Light, LightKind, MaterialOverride, ObjectKey, Reference, Region, Scene, Selector, Style,
 };
 use impasto_scene::motion::{self, CameraPose};
 use impasto_tests::pictures::renderer;
@@ -76,8 +76,12 @@ fn a_floor_is_painted_alike_however_far_it_runs() {
 /// Strokes grow with the floor that they lie on, or are lifted off it, while the camera comes nearer and looks aside.
 #[test]
 fn strokes_that_follow_the_size_or_are_lifted_have_particles_where_they_are_seen() {
-    for (follow, offset) in [(0.6, 0.0), (1.0, 0.0), (0.0, 0.8), (0.6, 0.5)] {
+    // The last number is the frame of the reference: strokes are small beside it where the camera is farther away.
+    for (follow, offset, reference) in
+        [(0.6, 0.0, 0), (1.0, 0.0, 0), (0.0, 0.8, 0), (0.6, 0.5, 0), (0.4, 0.0, 9)]
+    {
         let mut scene = floor_scene(5000.0);
+        scene.reference = Reference::Frame(reference);
         scene.camera.keys.push(shapes::camera_key(9.0, [0.4, 1.0, 2.5], [1.4, 0.7, -1.0]));
         scene.timeline.last = 9;
         (scene.strokes.size_follow, scene.strokes.offset) = (Some(follow), Some(offset));

@@ -161,7 +161,7 @@ fn boil_lays_strokes_anew_on_twos_and_lets_none_come_or_go() {
     let at = |frame: f64| by_key(&boiling, frame);
     assert_eq!(at(4.0), at(5.0), "a drawing holds for two frames");
     let (first, second, unmoved) = (at(5.0), at(6.0), by_key(&calm, 6.0));
-    let (mut moved, mut recoloured, mut most_px) = (0, 0, 0.0f32);
+    let (mut moved, mut recoloured, mut most_px, mut drifts) = (0, 0, 0.0f32, [0.0; 2]);
     for (key, stroke) in &unmoved {
         let (Some(before), Some(now)) = (first.get(key), second.get(key)) else { continue };
         assert_eq!((now.supply_ln, now.facing_fade), (stroke.supply_ln, stroke.facing_fade));
@@ -171,8 +171,11 @@ fn boil_lays_strokes_anew_on_twos_and_lets_none_come_or_go() {
         // The lightness of a stroke changes a little, and its hue does not.
         assert_eq!(now.drift[1], stroke.drift[1]);
         recoloured += usize::from(before.drift[0] != now.drift[0]);
+        drifts[0] += now.drift[0] * stroke.drift[0];
+        drifts[1] += stroke.drift[0] * stroke.drift[0];
     }
-    assert!(recoloured > 400, "{recoloured}");
+    // Boil adds to the drift that a stroke has anyway.
+    assert!(recoloured > 400 && (drifts[0] / drifts[1] - 1.0).abs() < 0.3, "{recoloured}, {drifts:?}");
     assert!(moved > 400 && first.len().abs_diff(unmoved.len()) < unmoved.len() / 20, "{moved}");
     assert!(most_px > 0.02 && most_px < 0.5, "{most_px}");
     // A scene that is prepared to be measured has no boil.
