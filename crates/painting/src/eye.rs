@@ -195,8 +195,9 @@ impl Eye {
     }
 
     /// First, an upper bound on the pixels that a unit of a cell's surface fills in this view, divided by the fade of
-    /// strokes near an outline and by the square of their growth; 0 where the view does not see the cell. Second, whether the cell's parts may differ
-    /// much: it is large beside its depth, or it is a large part of the picture and not all inside.
+    /// strokes near an outline and by the square of their growth; 0 where the view does not see the cell. Second,
+    /// whether the cell's parts may differ much: it is large beside its depth, strokes on it grow unevenly, or it is a
+    /// large part of the picture and not all inside.
     pub(crate) fn most_per_area(&self, cell: &Cell) -> (f64, bool) {
         let Lifted { center, radius, thickness } = self.lifted(cell);
         let w = self.map.row_w.dot(center.extend(1.0));
@@ -301,6 +302,7 @@ mod tests {
     use impasto_core::{TriangleMesh, presence};
 
     use crate::body_shape::BodyShape;
+    use crate::size_follow::growth;
 
     #[test]
     fn grazing_strokes_need_no_more_than_is_kept_for_them() {
@@ -312,8 +314,8 @@ mod tests {
         }
     }
 
-    /// A bumpy field, from near and from afar, from above and along it, through either lens, with strokes on it and
-    /// strokes lifted off it.
+    /// A bumpy field, from near and from afar, from above and along it, through either lens, with strokes on it, strokes
+    /// lifted off it, and strokes that follow its size and reach into the picture.
     #[test]
     fn no_place_needs_more_than_its_cell() {
         let mut mesh = TriangleMesh::default();
@@ -339,7 +341,7 @@ mod tests {
             }
             of_triangle
         };
-        let (mut seen, mut near) = (0, 0);
+        let (mut seen, mut near, mut grown, mut shrunk) = (0, 0, 0, 0);
         for (eye, target, lens) in [
             ([0.0, 2.0, 9.0], [0.0, 0.0, 0.0], PixelLens::Perspective { focal_px: 500.0 }),
             ([0.3, 1.1, 0.2], [3.0, 1.0, -2.0], PixelLens::Perspective { focal_px: 300.0 }),
@@ -352,41 +354,61 @@ mod tests {
             let view = glam::dcamera::rh::view::look_at_mat4(eye.into(), target.into(), DVec3::Y);
             for pose in [DAffine3::IDENTITY, DAffine3::from_scale(DVec3::new(1.5, 0.7, 1.0))] {
                 let map = ScreenMap::new(view, pose, lens);
+                let reference = {
+                    let view = glam::dcamera::rh::view::look_at_mat4(
+                        DVec3::new(2.0, 1.5, 3.0),
+                        DVec3::ZERO,
+                        DVec3::Y,
+                    );
+                    ScreenMap::new(view, pose, PixelLens::Perspective { focal_px: 400.0 })
+                };
                 let sighting = Sighting {
                     map,
                     half_size_px: DVec2::new(320.0, 180.0),
                     near: 0.05,
                     shape: BodyShape::default(),
                 };
-                for offsets in [[0.0; 2], [0.4; 2], [-0.3, 0.1]] {
+                for (offsets, follow) in
+                    [([0.0; 2], 0.0), ([0.4; 2], 0.0), ([-0.3, 0.1], 0.7), ([0.0; 2], 1.0)]
+                {
+                    let following = (follow > 0.0).then(|| Following::new(reference, 0.05, [0.0, follow]));
                     let of_sighting =
-                        Eye::new(&sighting, Reach { margin: 1.0, reach_px: 0.0, following: None, offsets });
+                        Eye::new(&sighting, Reach { margin: 1.0, reach_px: 6.0, following, offsets });
                     for (index, particle) in particles.iter().enumerate() {
                         let normal = particle.normal.as_dvec3();
                         let at = particle.position.as_dvec3() + normal * offsets[index % 2];
                         let px = map.project(at).abs();
                         let jacobian = map.jacobian(at);
                         let facing = map.facing(jacobian, normal) as f32;
-                        if map.depth(at) <= 0.05 || !px.cmplt(sighting.half_size_px).all() || facing <= 0.0 {
+                        // Some strokes follow, and some do not.
+                        let w = |map: &ScreenMap| map.row_w.dot(at.extend(1.0));
+                        let m =
+                            px_per_unit(&map, w(&map), 0.0) / px_per_unit(&reference, w(&reference), 0.05);
+                        let growth = if index % 3 == 0 { 1.0 } else { growth(m, follow) };
+                        let half_px = sighting.half_size_px + 6.0 * growth;
+                        if map.depth(at) <= 0.05 || !px.cmplt(half_px).all() || facing <= 0.0 {
                             continue;
                         }
+                        grown += u32::from(growth > 2.0);
+                        shrunk += u32::from(growth < 0.5);
                         seen += 1;
                         near += u32::from(map.depth(at) < 0.15);
                         let fade = f64::from(presence::of_facing(facing).max(LEAST_COUNTED_FADE));
-                        let needed = area_px(jacobian, normal) / fade;
+                        let needed = area_px(jacobian, normal) / fade / growth.powi(2);
                         let most = of_triangle[particle.triangle as usize]
                             .iter()
                             .map(|&cell| of_sighting.most_per_area(&cells[cell]).0)
                             .fold(0.0, f64::max);
                         assert!(
                             needed <= most * 1.000_1,
-                            "{needed} of {most}, {lens:?}, {pose:?}, {offsets:?}"
+                            "{needed} of {most}, {lens:?}, {pose:?}, {offsets:?}, {follow}"
                         );
                     }
                 }
             }
         }
         assert!(seen > 10_000 && near > 20, "{seen}, {near} of them near the eye");
+        assert!(grown > 300 && shrunk > 1000, "{grown} strokes grow, {shrunk} shrink");
     }
 
     /// A square far from the view's middle: strokes that are lifted sideways by three units stand before the eye, and
