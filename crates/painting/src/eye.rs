@@ -373,7 +373,7 @@ mod tests {
                 {
                     let following = (follow > 0.0).then(|| Following::new(reference, 0.05, [0.0, follow]));
                     let of_sighting =
-                        Eye::new(&sighting, Reach { margin: 1.0, reach_px: 6.0, following, offsets });
+                        Eye::new(&sighting, Reach { margin: 1.0, reach_px: 60.0, following, offsets });
                     for (index, particle) in particles.iter().enumerate() {
                         let normal = particle.normal.as_dvec3();
                         let at = particle.position.as_dvec3() + normal * offsets[index % 2];
@@ -385,7 +385,7 @@ mod tests {
                         let m =
                             px_per_unit(&map, w(&map), 0.0) / px_per_unit(&reference, w(&reference), 0.05);
                         let growth = if index % 3 == 0 { 1.0 } else { growth(m, follow) };
-                        let half_px = sighting.half_size_px + 6.0 * growth;
+                        let half_px = sighting.half_size_px + 60.0 * growth;
                         if map.depth(at) <= 0.05 || !px.cmplt(half_px).all() || facing <= 0.0 {
                             continue;
                         }
