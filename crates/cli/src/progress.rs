@@ -19,10 +19,10 @@ pub(crate) enum Progress {
 
 /// What `render` prints on stdout for programs, frame by frame.
 pub(crate) struct FrameLines {
-    pub(crate) json: bool,
-    pub(crate) progress: Progress,
+    json: bool,
+    progress: Progress,
     /// How many frames there are.
-    pub(crate) count: u64,
+    count: u64,
     passed: u64,
 }
 
