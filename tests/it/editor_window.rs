@@ -49,7 +49,7 @@ fn guides(folder: &Path) -> Vec<Guide> {
 }
 
 /// A place in the window as a place in the rendered picture: pixels from the picture's lower left corner, Y up. The
-/// shot is as wide as the viewport, and in its middle.
+/// window shows this picture as wide as the viewport, and in the viewport's middle.
 fn in_picture(at: [i32; 2], viewport: &ControlRect, size: (u32, u32)) -> DVec2 {
     let plain = |[x, y]: [i32; 2]| DVec2::new(f64::from(x), f64::from(y));
     let size = DVec2::new(f64::from(size.0), f64::from(size.1));

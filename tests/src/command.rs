@@ -17,7 +17,7 @@ pub fn impasto() -> &'static Path {
         // target/debug/deps/it-… -> target/debug
         let folder = here.parent().and_then(Path::parent).expect("tests are two folders down").to_path_buf();
         let mut build = Command::new(env!("CARGO"));
-        // The command line's test `binary` needs the command, so this builds it.
+        // `binary` is a test in `crates/cli` that runs `impasto`, so that building the test also builds `impasto`.
         build.args(["test", "--quiet", "--no-run", "--workspace", "--test", "binary"]).arg("--target-dir");
         build.arg(folder.parent().expect("a profile's folder lies in the target folder"));
         if folder.ends_with("release") {

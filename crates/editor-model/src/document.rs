@@ -40,8 +40,8 @@ pub struct Document {
     options: LoadOptions,
     /// The stamp of the file when it was last read or written.
     stamp: Option<Stamp>,
-    /// The text that the scene was read from. It is stored only if parts of it could not be read, or if the user was
-    /// editing it when the window was killed.
+    /// The text that the scene was read from. It is stored only if parts of it could not be read or used, or if the
+    /// user was editing it when the window was killed.
     source: Option<Arc<Source>>,
     revision: u64,
 }
@@ -49,7 +49,7 @@ pub struct Document {
 /// What a command, an undo or a redo did.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Step {
-    /// The text of the history, such as *Comb skin*. Empty if nothing changed.
+    /// The text of the history, such as *Comb skin*. Empty if nothing changed and no entry was there to add to.
     pub text: String,
     /// An additional message, such as *Also keyed frame 0, so that apple moves from there*.
     pub note: Option<String>,
@@ -209,7 +209,7 @@ impl Document {
     /// Carries a command out: makes one entry in the history, or none if it changes nothing.
     ///
     /// # Errors
-    /// Why it is refused, in the words to show; the document is as it was.
+    /// Why it is refused, in the words to show. Only a preview ends then; all else stays as it was.
     pub fn apply(&mut self, command: &Command) -> Result<Step, Refusal> {
         self.preview = None;
         let (loaded, done) = self.edited(command)?;

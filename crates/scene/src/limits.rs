@@ -1,5 +1,5 @@
-//! Limits of a scene. What exceeds a limit is refused, by a message that names the limit, before memory is allocated
-//! for it.
+//! Limits of a scene. A message that names the limit refuses what exceeds it. Bytes, values and nesting are limited
+//! before anything is read into memory; the other limits before anything is made from what was read.
 
 /// Bytes of a scene file.
 pub const MAX_SCENE_BYTES: u64 = 16 << 20;

@@ -1,4 +1,5 @@
-//! Lists the gallery's pictures of ink on paper: whole scenes, and each setting of the style swept over its range.
+//! Lists the gallery's pictures of ink on paper: whole scenes, and settings of the style with a picture for each of
+//! some values.
 
 use super::list::{Picture, View};
 

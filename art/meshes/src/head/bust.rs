@@ -28,7 +28,7 @@ const JACKET: [[f64; 7]; 12] = [
 /// How far the rows of `JACKET` are raised, so that the collar comes up to the middle of the neck.
 const LIFT: f64 = 0.095;
 
-/// Shoulders in a jacket with a linen collar, in the same place as [`super::head`].
+/// Shoulders in a jacket with a linen collar. It has the origin of [`super::head`], so that the two fit together.
 pub fn bust() -> PolyMesh {
     let mut mesh = PolyMesh::new(
         "bust",
@@ -103,7 +103,7 @@ fn collar(mesh: &mut PolyMesh) {
     mesh.blade(
         [ALONG, ACROSS],
         |column, row| {
-            // Columns run from the front round the neck to the front again; seen from outside, to the right.
+            // Columns run to the right, seen from outside: from the front round the neck to the front again.
             let angle = 0.10 + (TAU - 0.20) * column as f64 / ALONG as f64;
             // Rows run up: from the lower edge on the jacket to the edge that stands at the neck.
             let up = row as f64 / ACROSS as f64;

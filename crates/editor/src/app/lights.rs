@@ -15,7 +15,7 @@ const SELECTED: f32 = 17.0;
 /// The colours of all icons are mixed with this much white, so that dark lights can be seen.
 const LEAST_WHITE: f32 = 0.25;
 
-/// Opacity of the ring at the distance where a lamp or a spot is as bright as a sun of intensity 1.
+/// Opacity of the ring in the world whose radius is [`range`].
 const RANGE_ALPHA: f32 = 0.8;
 
 /// The icons of all lights, each in its light's colour. The icon of a selected light has a ring around it. A selected

@@ -13,10 +13,10 @@ use crate::mesh_file::MeshFile;
 use crate::motion;
 use crate::shot::Shot;
 
-/// The longer side of the picture, pixels.
+/// The longer side of the picture if the shot states no size, pixels.
 const LONGER_PX: f64 = 1280.0;
 
-/// The widest aspect that a picture gets; the tallest is its inverse.
+/// The widest aspect of a picture if the shot states no size; the tallest is its inverse.
 const MOST_ASPECT: f64 = 4.0;
 
 /// A scene that paints a shot as its file has it. The picture has the size that the shot states, or else the aspect of

@@ -1,4 +1,4 @@
-//! Finds how much of each pixel its body covers.
+//! Finds how much of each pixel is covered by the body in the pixel's middle.
 
 use std::rc::Rc;
 
@@ -30,7 +30,8 @@ struct Target {
 pub(super) struct Covered {
     /// Of every sample.
     fine: Rc<Texture>,
-    /// Of every pixel; half the share of the pixel that shows something else is added to the id.
+    /// Of every pixel. The share of the pixel that the body in its middle does not cover is kept beside that body's id:
+    /// half the share, less than 0.5, is added to the id, a whole number.
     surface: Rc<Texture>,
     /// How many samples a pixel has along each axis.
     samples: u32,
@@ -42,7 +43,7 @@ impl Covered {
         bound.texture("fine", &self.fine).set("samples", self.samples as i32)
     }
 
-    /// Frees the samples, after the last pass that reads them.
+    /// Frees the samples. To be called after the last pass that reads them.
     pub(super) fn let_samples_go(&mut self) {
         self.fine = Rc::clone(&self.surface);
         self.samples = 1;
