@@ -52,7 +52,8 @@ impl<'a> Contender<'a> {
     }
 }
 
-/// Even a slow contender gets this many of a race's rounds, unless it is so slow that it gets only one.
+/// Even a slow contender gets this many of a race's rounds (all, if the race has fewer), unless it is so slow that it
+/// gets only one.
 const LEAST_ROUNDS: usize = 3;
 
 /// How long a race takes.
@@ -62,8 +63,8 @@ pub struct Pace {
     pub rounds: usize,
     /// Shortest measurement, seconds: quicker tasks are done several times in a row.
     pub least_secs: f64,
-    /// A contender that has had three rounds or more gets no further one once it has taken this many seconds, its first
-    /// warm-up included. If that warm-up alone took as long, it counts as its only round.
+    /// Once a contender has taken this many seconds, its first warm-up included, it gets no further round, except to
+    /// complete three rounds. If that warm-up alone took as long, the warm-up is the contender's only round.
     pub most_secs: f64,
 }
 

@@ -1,6 +1,6 @@
 //! Times our stroke pass beside a bare instanced draw of the same strokes, in the same process and with the same
-//! targets, blending, brush texture and instances. The bare draw has two simple shaders in place of ours: they place
-//! whole quads, where ours are cut to the painted part of the mark, and colour each pixel with one brush sample times
+//! targets, blending, brush texture and instances. The bare draw has two simple shaders in place of ours. They place
+//! whole quads; ours cut each quad to the painted part of the mark. They colour each pixel with one brush sample times
 //! the stroke's colour.
 
 use std::sync::Arc;

@@ -1,5 +1,6 @@
 //! Fuzzes `PATH=VALUE` lines as `--set` and `impasto set` take them, lists of frames, and file patterns. A value is
-//! either refused or written into the text of a scene; that text can then be read, and the rest of it is unchanged.
+//! either refused or written into the text of a scene. That text can then be read, and still holds a comment (unless
+//! the value is in `objects` or `regions`).
 
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! `cargo xtask ci`: all checks that a change must pass, cheapest first.
+//! `cargo xtask ci`: all checks that a change must pass. Most of the quick ones come before the tests.
 
 use std::path::Path;
 use std::time::Instant;

@@ -29,10 +29,11 @@ struct Fault {
     tests: &'static [&'static str],
 }
 
-/// Plants the named faults, or all.
+/// Plants the faults whose names contain one of `names`; all faults if there are no `names`.
 ///
 /// # Errors
-/// A fault that does not exist or fits no text, a test that fails without any fault, or a fault that no test notices.
+/// A name that is part of no fault's name, a fault whose text `from` its shader does not hold exactly once, a test that
+/// fails without any fault, or a fault that no test notices.
 pub fn run(root: &Path, names: &[String]) -> anyhow::Result<()> {
     let chosen: Vec<&Fault> = list::FAULTS
         .iter()

@@ -34,7 +34,7 @@ pub fn blast_fire() -> PolyMesh {
     billow("blast_fire", "Billows of fire; the ground is at y = 0.", &[("fire", "#f0a03c")], &lobes)
 }
 
-/// The smoke: a crown that is open to the front, where the fire shows, and below.
+/// The smoke: a crown that is open below, and open to the front, where the fire shows.
 pub fn blast_smoke() -> PolyMesh {
     let mut lobes = Vec::new();
     for index in 0..64 {

@@ -11,7 +11,7 @@ const COLUMNS: usize = 160;
 const ROWS: usize = 80;
 /// How many of the rows hang; the others lie on the table.
 const HANGING: usize = 38;
-/// How far above the table, and in front of its edge, the flat cloth lies.
+/// Where the cloth has no folds: how far it lies above the table, and hangs in front of the table's edge.
 const CLEARANCE: f64 = 0.008;
 /// The radius of the cloth's bend round the table's edge.
 const BEND: f64 = 0.03;

@@ -54,8 +54,8 @@ pub enum Coat<'a> {
 }
 
 impl Glb {
-    /// Adds a material with this linear base colour, 0..=1. `texture`, an index that [`Glb::texture`] returned, is
-    /// multiplied with it. Returns the material's index.
+    /// Adds a material with this linear base colour, 0..=1. The texture with the index `texture`, as [`Glb::texture`]
+    /// returned it, multiplies that colour. Returns the material's index.
     pub fn material(&mut self, name: &str, color: [f64; 3], texture: Option<usize>, roughness: f64) -> usize {
         let [red, green, blue] = color;
         let mut pbr = json!({

@@ -55,7 +55,7 @@ fn body(mesh: &mut PolyMesh) {
     const ROWS: usize = 64;
     const SEGMENTS: usize = 72;
     const FINE: usize = 24;
-    /// About how high the glaze ends.
+    /// About the height at which the glaze ends.
     const GLAZE: f64 = 0.245;
     // Sampled more finely than the rows, so that rows can follow the wavy border of the glaze.
     let mut outline = Profile::through(&OUTLINE).spread(ROWS * FINE, 0.45);

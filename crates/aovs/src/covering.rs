@@ -27,7 +27,7 @@ pub(crate) struct Covering {
     pub(crate) shares: PixelShares,
     /// The share of each pixel that shows the toned ground.
     pub(crate) ground: Vec<f32>,
-    /// The body that the ground belongs to: its index plus 1, or 0 for none.
+    /// The body that the ground in each pixel belongs to: its index plus 1, or 0 for none.
     body_id: Vec<u32>,
 }
 
@@ -155,7 +155,7 @@ fn materials(drawn: &Drawn<'_>) -> Vec<Vec<String>> {
     (0..scene.objects.len()).map(of_object).collect()
 }
 
-/// Lays all layers over each other. Returns what shows of each stroke, and the share of each pixel without paint.
+/// Lays all layers over each other. Returns what shows of each stroke, and how much of each pixel no paint covers.
 fn all_layers(layers: &[PaintedLayer], width: usize, pixels: usize) -> (PixelShares, Vec<f32>) {
     let rows = (0..pixels / width).into_par_iter().map(|row| {
         let (mut counts, mut shares, mut bare) = (Vec::with_capacity(width), Vec::new(), Vec::new());

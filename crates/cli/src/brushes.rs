@@ -14,7 +14,7 @@ use crate::failure::Failure;
 /// Free pixels round each mark.
 const GAP_PX: usize = 12;
 
-/// The variant and the dryness of each mark in a row. Paint that is thinner than the dryness (0..1) is left out.
+/// The variant and the dryness of each mark in a row. A texel whose paint (0..1) is below the dryness is left bare.
 const COLUMNS: [(usize, f32); 6] = [(0, 0.02), (1, 0.02), (2, 0.02), (3, 0.25), (4, 0.50), (5, 0.75)];
 
 /// Linear colours of the sheet and of the paint, and what half-mixed paint adds where the tint is 1.

@@ -451,8 +451,8 @@ impl Plan {
     }
 }
 
-/// The fault of a rendering into one file or to standard output. It is an error if it was stopped, because it has then
-/// left nothing of use.
+/// The fault of a rendering into one file or to standard output. A rendering that was stopped is an error, because it
+/// has left nothing of use.
 fn of_all(ending: Ending) -> Result<Fault, Failure> {
     match ending {
         Ending::Done(fault) => Ok(fault),

@@ -1,5 +1,6 @@
 //! `impasto serve`: renders what another program asks for. Lines of JSON come in on standard input and go out on
-//! standard output. The scene is prepared once, and again when its files have changed. `docs/serve.md` lists the lines.
+//! standard output. The scene is prepared once, and again when its files have changed or a picture needs other
+//! particles. `docs/serve.md` lists the lines.
 
 mod orders;
 
@@ -72,7 +73,7 @@ fn of_failure(id: u64, failure: &Failure) -> Value {
 type Stamp = Option<(u64, SystemTime)>;
 
 struct Ready {
-    /// What it was prepared for.
+    /// The views that the scene was prepared for.
     seen_from: SeenFrom<'static>,
     prepared: Prepared,
     warnings: Vec<String>,

@@ -55,7 +55,7 @@ pub(crate) struct Prepared {
     pub(crate) storing: Storing,
 }
 
-/// What is prepared to draw pictures from these views.
+/// What to prepare if pictures are drawn from these views.
 pub(crate) fn for_pictures(seen_from: SeenFrom<'_>) -> PrepareOptions<'_> {
     PrepareOptions { seen_from, only_shown: true, ..PrepareOptions::default() }
 }

@@ -19,9 +19,9 @@ const CROWDED: usize = 64;
 /// than `sharp_rad`.
 ///
 /// The seed is a point with a normal, in model space. The flood begins at the triangle nearest to it; among triangles
-/// about equally near, at one that faces the same way. Edges are compared by position, so split vertices do not stop
-/// the flood. The triangles of one polygon count as one face, and a triangle without area takes the normal of the face
-/// that it was reached from.
+/// about equally near, at one that faces along the normal. Edges are compared by position, so split vertices do not
+/// stop the flood. The triangles of one polygon count as one face, and a triangle without area takes the normal of the
+/// face that it was reached from.
 pub fn flooded(mesh: &TriangleMesh, at: DVec3, normal: DVec3, sharp_rad: f64) -> Vec<bool> {
     let mut is_reached = vec![false; mesh.triangles.len()];
     let Some(first) = nearest_triangle(mesh, at, normal.normalize_or_zero()) else { return is_reached };

@@ -201,7 +201,7 @@ impl Wide for Weighing<'_> {
                     let near = (1.0 - (x * x + y * y + z * z) * per_radius_sq).max(0.0);
                     let facing =
                         normal.x * normal_xs[lane] + normal.y * normal_ys[lane] + normal.z * normal_zs[lane];
-                    // A sample that faces away counts only where there is no other.
+                    // A sample that faces away hardly counts, unless there is no other.
                     let weight = near * near * near * facing.max(1e-4);
                     sums[lane] += weight * block.sizes_ln[lane];
                     weights[lane] += weight;

@@ -72,8 +72,8 @@ impl FreeView {
         self.pose.eye.distance(self.pose.target)
     }
 
-    /// Turns round a point by a drag in pixels (Y down): sideways about the world's Y, up and down about the view's
-    /// right. The point keeps its place in the picture.
+    /// Turns round a point by a drag in pixels (Y down): a drag sideways turns about the world's Y, a drag up or down
+    /// about the level axis to the right. The point keeps its place in the picture.
     pub fn orbit(&mut self, delta_px: DVec2, about: DVec3) {
         // The roll is taken out of the drag, so that a rolled view follows the pointer, too.
         let drag = DVec2::from_angle(self.pose.roll_rad).rotate(delta_px * DVec2::new(1.0, -1.0));

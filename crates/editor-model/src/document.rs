@@ -49,7 +49,7 @@ pub struct Document {
 /// What a command, an undo or a redo did.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Step {
-    /// The text of the history, such as *Comb skin*. Empty if nothing changed and no entry was there to add to.
+    /// The text of the history, such as *Comb skin*. Empty if the history did not change.
     pub text: String,
     /// An additional message, such as *Also keyed frame 0, so that apple moves from there*.
     pub note: Option<String>,

@@ -247,7 +247,7 @@ impl Editor {
         std::mem::take(&mut self.requests)
     }
 
-    /// Applies a command and adds its messages. Returns whether it was done.
+    /// Applies a command and adds its messages. Returns whether it changed anything.
     pub fn run(&mut self, command: &Command) -> bool {
         if let Some(posed) = self.take_loose(command) {
             return self.keep(&posed);
@@ -255,8 +255,7 @@ impl Editor {
         self.pose_loosely(command).unwrap_or_else(|| self.keep(command))
     }
 
-    /// Gives the shot camera another pose. In Animate this keys the camera at this frame; in other modes all its keys
-    /// move along.
+    /// Gives the shot camera another pose: in Animate at this frame only; in the other modes all its keys move along.
     fn place_shot(&mut self, pose: CameraPose) -> bool {
         let frame = self.session.frame;
         self.run(&match self.session.mode {
@@ -294,7 +293,7 @@ impl Editor {
         self.told(result)
     }
 
-    /// Moves the document to another folder, if it has no file and names none; see [`Document::live_in`].
+    /// Moves the document to another folder, if it was never saved and names no files; see [`Document::live_in`].
     pub fn live_in(&mut self, folder: &std::path::Path) -> bool {
         self.document.live_in(folder)
     }

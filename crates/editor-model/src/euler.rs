@@ -12,7 +12,7 @@ pub(crate) fn matrix(rotation_deg: [f64; 3]) -> DMat3 {
 /// (except at ±90 degrees about Y, where X and Z are not unique).
 pub(crate) fn degrees(rotation: DMat3, near: [f64; 3]) -> [f64; 3] {
     let first = motion::euler_deg_from_rotation(rotation);
-    // Euler angles are not unique: these give the same rotation.
+    // Other angles that give the same rotation as `first`.
     let second = DVec3::new(first.x + 180.0, 180.0 - first.y, first.z + 180.0);
     let near = DVec3::from(near);
     let wound = |angles: DVec3| angles + ((near - angles) / 360.0).round() * 360.0;

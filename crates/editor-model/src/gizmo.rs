@@ -14,7 +14,7 @@ mod tests;
 const ARM_PX: f64 = 90.0;
 /// Radius of the ring that turns about the gaze, pixels.
 const SCREEN_RING_PX: f64 = 1.5 * ARM_PX;
-/// Offset of a plane's square along its two axes, and its width, as shares of the arm.
+/// Offset of a plane's square along both axes of the plane, and width of the square, as shares of the arm's length.
 const SQUARE: [f64; 2] = [0.3, 0.16];
 /// Distance within which the pointer is on a handle, pixels.
 const REACH_PX: f64 = 12.0;

@@ -129,7 +129,7 @@ impl History {
         self.saved = Some(self.here());
     }
 
-    /// How many steps of undo or redo lead back to the saved state. If none can, the number of done steps.
+    /// How many steps of undo or redo lead back to the saved state. If it cannot be reached, the number of done steps.
     pub(crate) fn since_saved(&self) -> usize {
         let Some(saved) = self.saved else { return self.done.len() };
         if saved == self.forgotten {

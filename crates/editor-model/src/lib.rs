@@ -5,7 +5,7 @@
 //!                                 └─▶ Document::apply    (one entry of the history)
 //! ```
 //!
-//! A test can change the document by commands in every way in which a user can.
+//! So a test can change the document in every way in which a user can.
 
 pub mod camera_rig;
 mod change;

@@ -102,8 +102,8 @@ impl Recovery {
         if cfg!(unix) { File::open(&self.folder)?.sync_all() } else { Ok(()) }
     }
 
-    /// The copies that ended sessions left behind, the newest first. Deletes all but the newest [`MAX_COPIES`] of them,
-    /// and other files of ended sessions.
+    /// The copies that ended sessions left behind, the newest first. Keeps only the newest [`MAX_COPIES`] of them. Also
+    /// deletes the lock files and half-written copies of ended sessions that have no copy.
     pub fn offers(folder: &Path) -> Vec<Offer> {
         let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
         let files: Vec<PathBuf> =

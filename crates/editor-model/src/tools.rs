@@ -95,7 +95,7 @@ pub enum ToolEvent {
         /// When.
         at_secs: f64,
     },
-    /// The first button went down.
+    /// The left button went down.
     Press {
         /// Where.
         at_px: DVec2,

@@ -138,7 +138,7 @@ pub struct Picture {
     pub view: ViewJob,
     /// The serial of its scene.
     pub serial: u64,
-    /// The pixels. A draft has fewer than the view asked for.
+    /// The pixels. A draft may have fewer than the view asked for.
     pub image: Arc<ColorImage>,
     /// Whether it is drawn as for a file, not as a draft.
     pub exact: bool,

@@ -6,7 +6,7 @@ use crate::quoting::of_shell;
 /// The most tasks that one array is given. Slurm's `MaxArraySize`, unless raised, allows indices up to 1000.
 const MOST_TASKS: usize = 1000;
 
-/// Frames of a task, if the user does not say how many; more if one array cannot hold that many tasks.
+/// Frames of a task, if the user does not say how many; more if that would make too many tasks for one array.
 const USUAL_FRAMES: usize = 10;
 
 /// The script of a job. Submitted by `sbatch`, the script paints the frames. If a movie is wanted, a shell can run the

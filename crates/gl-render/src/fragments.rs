@@ -77,7 +77,7 @@ pub struct PaintedLayer {
     pub kind: LayerKind,
     /// Its paint alone, premultiplied, display-linear; top row first.
     pub rgba: Vec<[f16; 4]>,
-    /// How much of each pixel its strokes would show if no later layer lay over it.
+    /// How much of each pixel would show each of its strokes if no later layer lay over them.
     pub shares: PixelShares,
 }
 

@@ -14,7 +14,7 @@ pub enum Keeps {
     /// Everything. The targets also stay for the next picture.
     #[default]
     Everything,
-    /// Its surfaces: unlit colour, normals, light.
+    /// The surfaces that the picture shows: unlit colour, normals, light.
     Surfaces,
     /// Nothing besides its colour, its depth and its bodies.
     Picture,

@@ -23,7 +23,7 @@ pub(crate) struct LensSetup {
     /// Where the gaze meets the picture, in pixels from the lower left corner: the picture's middle, unless the lens is
     /// shifted.
     gaze_px: Vec2,
-    /// Pixels per world unit at a depth of 1.
+    /// Pixels per world unit at a depth of 1; at any depth if rays are parallel.
     pub(crate) px_per_unit_at_1: f32,
     orthographic: f32,
 }

@@ -241,9 +241,8 @@ impl ReferencePass {
             if !is_drawn_here(body) {
                 continue;
             }
-            // A draft draws only the triangles that face the eye. They are found on the mesh at rest, so all triangles
-            // of a deformed body are drawn. All are drawn too where the eye may be inside the body, because their backs
-            // show.
+            // A draft draws only the triangles that face the eye. They are found on the mesh at rest, so a deformed
+            // body is drawn whole. So is a body that the eye may be inside, because there the backs of triangles show.
             let front = match frame.quality {
                 Quality::Draft if body.bent.is_none() => {
                     let eye = body.world_from_model.inverse() * eye;

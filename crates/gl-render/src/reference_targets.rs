@@ -90,7 +90,7 @@ impl ReferenceTargets {
         })
     }
 
-    /// Lets go of the unlit targets of the reference pass: the lit picture is done.
+    /// Lets go of the unlit targets of the reference pass. To be called after the last pass that reads them.
     pub(crate) fn let_unlit_go(&mut self) {
         self.unlit = None;
     }

@@ -1,5 +1,5 @@
-//! Watches the drawing of a picture: after each pass, or part of one, notes how long it took, and asks whether the
-//! picture is still wanted.
+//! Watches the drawing of a picture: after each pass, or part of one, notes how long it took (if passes are timed), and
+//! asks whether the picture is still wanted.
 
 use crate::gl::{Gpu, Halt};
 
@@ -9,7 +9,7 @@ pub(crate) struct Watch<'a> {
 }
 
 impl<'a> Watch<'a> {
-    /// Calls `stop`, if there is one, after every pass; true means to stop.
+    /// A watch that calls `stop`, if there is one, after every pass; true means to stop.
     pub(crate) fn new(gpu: &Gpu, stop: Option<&'a mut dyn FnMut() -> bool>) -> Self {
         Self { gpu: gpu.clone(), stop }
     }

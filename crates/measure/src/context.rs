@@ -122,7 +122,7 @@ impl<'a> MeasureContext<'a> {
         Ok(painting)
     }
 
-    /// The frame whose object poses the scene's reference view shows.
+    /// The frame of the scene's reference view: this view shows the objects as they stand in that frame.
     pub fn reference_frame(&self) -> f64 {
         motion::referred_to(&self.loaded.scene, &self.loaded.scene.reference).1
     }

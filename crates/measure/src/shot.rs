@@ -17,10 +17,10 @@ pub struct WholeShot {
     pub plain_flicker: Flicker,
     /// How many frames were drawn.
     pub frames: usize,
-    /// Frames, each with its strokes that chatter, percent.
+    /// Frames, each with the percentage of its strokes that chatter.
     pub chatter_by_frame: Vec<(f64, f64)>,
     /// Frames, each with its number of steps.
     pub steps_by_frame: Vec<(f64, f64)>,
-    /// Frames, each with its pixels that flicker, percent.
+    /// Frames, each with the percentage of its pixels that flicker.
     pub flicker_by_frame: Vec<(f64, f64)>,
 }

@@ -18,7 +18,8 @@ const STEP: f64 = 0.35;
 /// stroke.
 const NEARER: f64 = 0.01;
 
-/// A smaller cosine between the normal of a stroke's surface and the direction to the eye counts as this one.
+/// If the cosine between the normal of a stroke's surface and the direction to the eye is smaller than this, this value
+/// is taken instead.
 const LEAST_FACING: f64 = 0.2;
 
 /// Fainter strokes are not painted.

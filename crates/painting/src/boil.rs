@@ -38,7 +38,7 @@ pub(crate) struct Boiled {
 }
 
 impl Boil {
-    /// The drawing that shows at a frame, where each holds for `on` frames.
+    /// The drawing that shows at a frame if each drawing holds for `on` frames.
     pub(crate) fn at(frame: f64, amount: f32, on: f32) -> Self {
         let drawing = (frame / f64::from(on.round().max(1.0))).floor() as i64;
         Self { amount, drawing_bits: hash::scramble(drawing as u32) }

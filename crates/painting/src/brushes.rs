@@ -36,7 +36,7 @@ pub(crate) fn of_names(loaded: &LoadedScene, names: Vec<String>) -> Brushes {
     Brushes { names, marks }
 }
 
-/// Adds marks of built-in brushes to those made in this process, where these have not been made yet.
+/// Takes over the marks of those built-in brushes whose marks have not been made in this process yet.
 pub(crate) fn know(brushes: &Brushes) {
     for (name, marks) in brushes.names.iter().zip(&brushes.marks) {
         if let Some(index) = brush::NAMES.iter().position(|known| known == name) {

@@ -20,7 +20,7 @@ const BATCH: usize = 64;
 /// How many particles one task takes.
 const CHUNK: usize = 64 * Recall::WORD;
 
-/// The number of a region's layer, and the layer of paint. All strokes of one key lie together in the painting order.
+/// The number `layer` of a region, and the layer of paint. All strokes of one key lie together in the painting order.
 type LayerKey = (i32, LayerKind);
 
 /// Strokes of particles that follow each other in the painting order.
@@ -137,7 +137,7 @@ impl PaintingView<'_> {
         found
     }
 
-    /// Finds the looks of those particles that have none.
+    /// Finds those looks of the candidates that are not known yet.
     fn find_looks(&self, candidates: &[Vec<Candidate>]) {
         let unknown = candidates.iter().flatten().filter(|candidate| candidate.look.is_none());
         let mut unknown: Vec<OrderEntry> = unknown.map(|candidate| candidate.entry).collect();

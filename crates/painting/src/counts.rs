@@ -200,8 +200,8 @@ impl CountInputs {
     }
 }
 
-/// Whether particles of a body may be left out where no view needs them. A stroke's size and presence must follow from
-/// its ordinal, the view and, where its size follows that of the surface, the reference.
+/// Whether particles of a body may be left out where no view needs them. They may only if a stroke's size and presence
+/// follow from its ordinal, the view and, where its size follows that of the surface, the reference.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Unneeded {
     /// They may not.

@@ -13,7 +13,7 @@ use crate::size_follow::{Following, px_per_unit};
 /// The parts of a cell count as alike while the cell's radius is at most this share of its depth.
 const EVEN: f64 = 0.1;
 
-/// The parts of a cell count as alike while strokes on it grow by factors that differ by at most this one.
+/// The parts of a cell count as alike while the most that strokes on it grow is at most this many times the least.
 const EVEN_GROWTH: f64 = 1.25;
 
 /// A cell that is not wholly inside the view is cut while its radius in pixels is more than this share of half the
@@ -47,11 +47,12 @@ pub(crate) struct Eye {
     map: ScreenMap,
     /// Nothing is seen where any of these is positive.
     planes: Planes,
-    /// For strokes whose size follows that of the surface: how it does, and how far those of the stated size reach.
+    /// For strokes whose size follows that of the surface: how it does, and how far strokes of the stated size reach,
+    /// pixels.
     following: Option<(Following, f64)>,
     /// Half the picture with the margin round it, pixels.
     half_margin_px: DVec2,
-    /// The same for the picture alone, without a margin round it.
+    /// The planes round the picture alone, without a margin.
     picture: Planes,
     half_px: DVec2,
     near: f64,
@@ -151,7 +152,7 @@ impl Eye {
             if !length.is_finite() {
                 return f64::INFINITY;
             }
-            // Cosine times lengths is linear along the surface, and in the normal. So it is greatest at a corner, with
+            // The dot product below is linear along the surface, and in the normal. So it is greatest at a corner, with
             // one of the normals.
             for towards in towards_eye.corners() {
                 facing = facing.max(normal.dot(*towards) + length * lifted);
@@ -314,8 +315,8 @@ mod tests {
         }
     }
 
-    /// A bumpy field, from near and from afar, from above and along it, through either lens, with strokes on it, strokes
-    /// lifted off it, and strokes that follow its size and reach into the picture.
+    /// A bumpy field, from near and from afar, from above and along it, through either lens, with strokes on it,
+    /// strokes lifted off it, and strokes that follow its size and reach into the picture.
     #[test]
     fn no_place_needs_more_than_its_cell() {
         let mut mesh = TriangleMesh::default();

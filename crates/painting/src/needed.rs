@@ -1,5 +1,8 @@
 //! Where an object needs its particles: each spot of a floor that runs to the horizon gets only as many as the shot
 //! needs there.
+//!
+//! An *order* is here a coat's progressive order on the whole surface, [`CoatCount::count_on_whole`] particles long.
+//! Only those of its particles that are needed are made.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -21,7 +24,7 @@ use crate::parts::BodyParts;
 const LAYERS: usize = LayerKind::ALL.len();
 
 /// Particles are left out of a coat only if it needs at most this share of those that it would have on its whole
-/// surface: on a body at rest, and on one whose vertices move.
+/// surface: `MOST_SHARE` on a body at rest, `MOST_SHARE_MOVING` on one whose vertices move.
 const MOST_SHARE: f64 = 0.5;
 const MOST_SHARE_MOVING: f64 = 0.8;
 
@@ -33,12 +36,12 @@ const MOST_MADE: f64 = 50_000.0;
 /// The longest order, in particles: enough for a floor of some ten kilometres.
 const MOST_ON_WHOLE: f64 = 1e12;
 
-/// At most this many pairs of a cell and a view are tested. Where there are more pairs, particles lie everywhere.
+/// If the cells, before any is cut, and the views make more pairs than this, particles lie everywhere.
 const MOST_PAIRS: usize = 12_000_000;
 
-/// In each view, the vertices of a body that bends are moved, and the pieces of its cells are looked at. Vertices and
-/// pieces of all views are at most `MOST_PAIRS`, and at most this many for each particle that might be left out: more
-/// could take longer than making the particle.
+/// In each view, the vertices of a body that bends are moved, and the pieces of its cells are looked at. If that is
+/// more than `MOST_PAIRS` vertices and pieces in all views, or more than this many for each particle that might be left
+/// out, particles lie everywhere: to look could take longer than to make them.
 const PAIRS_PER_PARTICLE: usize = 2;
 
 /// A cell that needs fewer particles than `FEW` is not cut. A first cell and its parts are cut at most `MOST_DEPTH`
@@ -47,16 +50,16 @@ const FEW: f64 = 4.0;
 const MOST_DEPTH: u32 = 12;
 
 /// An object whose faces cover its part of the picture at least `HEAP` times over is a heap: surface that the object
-/// itself hides needs no particles. If other groups of its mesh are objects too, `HEAP_OF_GROUP` times are enough. A
-/// heap's layer gets a longer order than on its whole surface only while at most `MOST_MADE_OF_HEAP` of its particles
-/// are made. When its cells are cut, needs count only up to an order of `MOST_OF_HEAP` particles.
+/// itself hides needs no particles. If other groups of its mesh are objects too, `HEAP_OF_GROUP` times are enough. An
+/// order of a heap is made longer than it would be with particles everywhere only while at most `MOST_MADE_OF_HEAP` of
+/// its particles are made. To decide which cells are cut, an order longer than `MOST_OF_HEAP` counts as that long.
 const HEAP: f64 = 12.0;
 const HEAP_OF_GROUP: f64 = 6.0;
 const MOST_MADE_OF_HEAP: f64 = 20_000.0;
 const MOST_OF_HEAP: f64 = 400_000.0;
 
-/// Of sheets with two visible sides, half of the surface is never seen. If more than this share of a heap is not seen,
-/// its cells are split from the first level on ([`Needed::is_strict`]).
+/// Of sheets with two visible sides, each view misses about half of the surface. If more than this share of a heap is
+/// seen by no view, its order is strict ([`Needed::is_strict`]).
 const MUCH_UNSEEN: f64 = 0.6;
 
 /// Where the smooth normals at the corners of a triangle differ so much that their mean may be shorter than this, the
@@ -162,9 +165,8 @@ impl NeededInputs {
         counts
     }
 
-    /// The cells of a body that stays at rest. Each comes with the length of the order that it needs, in particles on
-    /// the whole surface, for each pixel that a unit of surface fills. `own` tells what a heap hides of itself in each
-    /// view.
+    /// The cells of a body that stays at rest. Beside each cell stands how long an order each layer needs there, for
+    /// each pixel that a unit of surface fills. `own` tells what a heap hides of itself in each view.
     fn seen_at_rest(
         &self,
         surface: &Surface<'_>,
@@ -197,9 +199,9 @@ impl NeededInputs {
         seen
     }
 
-    /// The same for a body whose vertices move. Its cells are not cut, and none needs more than on the whole surface.
-    /// Where noise moves vertices too, a cell that is seen needs all its particles: how far noise makes a surface grow
-    /// is not known.
+    /// The same for a body whose vertices move. Its cells are not cut, and none gets more particles than if they lay
+    /// everywhere. Where noise moves vertices too, a cell that is seen needs all its particles: how far noise makes a
+    /// surface grow is not known.
     fn seen_moving(
         &self,
         surface: &Surface<'_>,
@@ -303,7 +305,7 @@ struct Cutting {
 }
 
 impl SeenCell {
-    /// A cell that is not to be cut, nor to get more than on the whole surface.
+    /// A cell that is not to be cut, nor to get more particles than if they lay everywhere.
     fn whole(cell: &Cell, px_per_area: f64) -> Self {
         let cell = cell.clone();
         Self { cell, eyes: Vec::new(), px_per_area, px_in_picture: 0.0, is_uneven: false, parts: Vec::new() }

@@ -40,7 +40,7 @@ pub(crate) struct ObjectCache {
     bounds: Cached<Shaped, Option<(Vec3, Vec3)>>,
     stands: Cached<Shaped, Vec<Standing>>,
     counts: Cached<Arc<CountInputs>, Counted>,
-    /// Empty where every coat has its particles everywhere.
+    /// Empty where no coat's particles may depend on the views, and where coats were taken as they were kept.
     needed: Cached<NeededInputs, [CoatCount; LAYERS]>,
     samples: Cached<FieldSampleInputs, Arc<FieldSamples>>,
     /// `None` where every direction is stated outright.
@@ -329,7 +329,7 @@ impl ObjectCache {
     }
 }
 
-/// Whether the body of an object has a direction field; the paper's rule has none.
+/// Whether the body of an object may need a direction field; with the paper's rule, none does.
 fn needs_field(context: &Context<'_>, object: ObjectInputs<'_>) -> bool {
     FieldInputs::may_be_needed(object.used, context.rules, object.guides) && !context.paper
 }

@@ -108,7 +108,7 @@ enum LayerParticles {
     These(Vec<u32>),
 }
 
-/// The particles of a coat that are not in the order yet. They are taken from the end.
+/// Those of a coat's [`LayerParticles`] that are not in the order yet. They are taken from the end.
 struct Queue<'a> {
     /// The number of the coat's first particle.
     first: u32,

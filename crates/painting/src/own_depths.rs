@@ -28,7 +28,7 @@ const ASKED_PX: f64 = 8.7;
 
 /// The resolve shader begins to hide a small stroke `HIDDEN_PX + HIDDEN_SLANTED_PX / slant` pixels behind the nearest
 /// surface (pixels of the scene's own size, as a length at the stroke's depth). The slant is the cosine between the
-/// face's normal and the direction to the eye, at least `LEAST_SLANT`. At three times that depth the stroke is hidden
+/// face's normal and the direction to the eye, at least `LEAST_SLANT`. Three times as far behind, the stroke is hidden
 /// wholly. Strokes that would be hidden in part count as hidden here, on purpose: in a heap, strokes of other faces lie
 /// over them.
 const HIDDEN_PX: f64 = 2.5;

@@ -233,8 +233,8 @@ impl Painting {
         self.bent_at(frame)[object].as_ref().map(|bent| bent.place(PackedParticle::of(place)))
     }
 
-    /// The name of the material that a stroke lies on, a touch with its middle; the object's name where the material has
-    /// none. Of a touch, `particle` is its index in the scene.
+    /// The name of the material under a stroke, or under the middle of a touch; the object's name where the material
+    /// has none. For a touch, `particle` is its index in the scene.
     pub fn material_of(&self, object: usize, kind: LayerKind, particle: usize) -> &str {
         let body = &self.bodies[object].surface;
         let touch = || self.touches.iter().find(|laid| laid.number as usize == particle);
@@ -266,7 +266,7 @@ impl Painting {
         presets::laying_order(self.scene())[0] == LayerKind::Underpainting
     }
 
-    /// Whether any stroke was placed by hand.
+    /// Whether there are strokes that were placed by hand and that the style paints.
     pub fn has_touches(&self) -> bool {
         !self.touches.is_empty() && self.style.settings().preparation().lays_touches
     }

@@ -44,7 +44,8 @@ const LEAST_DEEP: f64 = 4.0;
 /// falls again, down to this.
 const DEEP_HEAP: f64 = 6.0;
 
-/// How much of its count an object gets whose faces cover the picture `cover` times, at most `deepest` of which count.
+/// The share of its count that an object gets if its faces cover the picture `cover` times, at most `deepest` of which
+/// count.
 fn share_of_deep(cover: f64, deepest: f64) -> f64 {
     let counting = (deepest * deepest / cover).max(DEEP_HEAP.min(deepest));
     if cover > deepest { counting / cover } else { 1.0 }
@@ -138,7 +139,8 @@ pub(crate) struct Found<const LAYERS: usize> {
 /// How many particles each layer needs on the whole surface. They are enough that, in every view, nine tenths of the
 /// object's area in the picture have all the strokes that are wanted there. `wanted_per_px` gives the strokes per pixel
 /// wanted on a triangle, from its index, a point of it and its normal. `positions_at` gives the vertices' positions in
-/// a shape, or `None` at rest. Of the faces' covers of the picture at most `deepest` count, and fewer in deeper heaps.
+/// a shape, or `None` at rest. If the faces cover the picture more than `deepest` times, the numbers are smaller: see
+/// [`share_of_deep`].
 pub(crate) fn find<const LAYERS: usize>(
     surface: &Surface<'_>,
     sightings: &[Sighting],
@@ -262,7 +264,8 @@ fn middles([a, b, c]: [DVec3; 3], cuts: usize) -> impl Iterator<Item = DVec3> {
 }
 
 /// Particles needed per unit of surface in one view, by layer, and how often the given faces cover the box round them.
-/// These are one of `stride` faces of the object. At most `deepest` covers of the picture count.
+/// Only every `stride`-th face of the object is given. At most `deepest` covers of the picture count: see
+/// [`share_of_deep`].
 fn needed_per_area<const LAYERS: usize>(
     faces: &[CountedFace<LAYERS>],
     (stride, deepest): (f64, f64),

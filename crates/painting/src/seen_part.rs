@@ -90,7 +90,7 @@ mod tests {
         assert!(part.corners().is_empty());
     }
 
-    /// What is not known stays: what it needs must not be taken for nothing.
+    /// If a corner that is no number were dropped, a place that may be in view could be left without particles.
     #[test]
     fn corners_that_are_no_numbers_stay_and_too_many_corners_leave_all() {
         let mut part = SeenPart::of_triangle([DVec3::ZERO, DVec3::X, DVec3::NAN]);

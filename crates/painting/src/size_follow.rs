@@ -13,7 +13,7 @@ pub(crate) fn growth(m: f64, follow: f64) -> f64 {
     if grown.is_finite() { grown.clamp(1.0 / f64::from(MOST_GROWTH), f64::from(MOST_GROWTH)) } else { 1.0 }
 }
 
-/// The pixels of a unit of length where the divisor of the projection is `w`, at least `near`.
+/// The pixels that a unit of length fills where the projection divides by `w`. A `w` below `near` counts as `near`.
 pub(crate) fn px_per_unit(map: &ScreenMap, w: f64, near: f64) -> f64 {
     map.row_x.truncate().length() / w.max(near)
 }
@@ -34,7 +34,8 @@ impl Following {
         Self { map, near, follow }
     }
 
-    /// The least and the greatest growth of strokes in a sphere, whose pixels per unit of length now are between these.
+    /// The least and the greatest growth of strokes in a sphere where a unit of length now fills between `now[0]` and
+    /// `now[1]` pixels.
     pub(crate) fn growth_in(&self, center: DVec3, radius: f64, now: [f64; 2]) -> [f64; 2] {
         let w = self.map.row_w.dot(center.extend(1.0));
         let apart = self.map.row_w.truncate().length() * radius;

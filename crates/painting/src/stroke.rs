@@ -248,8 +248,8 @@ struct Outline {
 }
 
 /// The outline of a stroke that is mapped like a texture. `map` takes pixels along and across the stroke in the
-/// reference picture, at the scene's own size, to pixels of this picture. `flat` is the outline that the stroke has
-/// unmapped, in pixels of this picture; its angle is not used.
+/// reference picture, at the scene's own size, to pixels of this picture. `flat` is the outline without mapping, in
+/// pixels of this picture; its angle is not used.
 fn mapped(map: PixelMap2, flat: Outline, px_scale: f64) -> Outline {
     let along = DVec2::new(map.x.x, map.y.x) * f64::from(flat.length_px) / px_scale;
     let across = DVec2::new(map.x.y, map.y.y) * f64::from(flat.width_px) / px_scale;

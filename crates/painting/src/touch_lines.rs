@@ -16,8 +16,8 @@ use crate::touches::{LaidTouch, TouchPlace};
 const FILL: f64 = impasto_core::brush::FILL as f64;
 const MARK_LENGTH: f64 = impasto_core::brush::SIZE[0] as f64 / impasto_core::brush::SIZE[1] as f64;
 
-/// A line of up to this many marks stretches its whole mark evenly. In a longer one, the share `END` of the mark at
-/// either end is stretched no further, only the middle is.
+/// A line up to `STRETCHED` marks long stretches its whole mark evenly. In a longer line, the share `END` of the mark
+/// at either end is stretched no further; only the middle is.
 const STRETCHED: f64 = 1.5;
 const END: f64 = 0.36;
 

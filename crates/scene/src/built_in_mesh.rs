@@ -15,8 +15,8 @@ pub fn is_built_in(name: &str) -> bool {
     name.starts_with(PREFIX)
 }
 
-/// A photographer's backdrop, a floor that bends up into a wall: 2 wide, the floor at height 0 from z = 1 back to
-/// −0.28, the wall 1.3 high.
+/// A photographer's backdrop, a floor that bends up into a wall: 2 wide and 1.3 high, from z = 1 back to −0.28. The
+/// floor lies at height 0.
 pub const BACKDROP: &str = "impasto:backdrop";
 
 /// A patch of floor with an uneven border: a disc of radius about 1 at height 0.

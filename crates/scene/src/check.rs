@@ -54,7 +54,7 @@ pub fn check(scene: &Scene) -> Vec<Finding> {
 
 /// Checks the document against its files: groups and materials exist and have triangles, guides and dabs lie on the
 /// surface, morphs have equal topology, point caches fit. `meshes` and `caches` are keyed by the path written in the
-/// document. Files that are missing there are skipped: they could not be read, which was reported before.
+/// document. A file that these maps lack could not be read, which was reported before: it is skipped.
 pub fn check_with_meshes(
     scene: &Scene,
     meshes: &BTreeMap<String, Arc<MeshFile>>,

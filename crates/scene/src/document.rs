@@ -341,7 +341,7 @@ usual_fields! {
         pub unlit: bool = false,
         /// Strength of highlights, from 0, matt, to 1, glazed; left out, what the mesh file says.
         pub gloss: Option<f64> = None,
-        /// Noise that moves its vertices and colours it.
+        /// Noise that moves the object's vertices and colours its surface.
         pub noise_displace: Option<NoiseDisplace> = None,
     }
 }

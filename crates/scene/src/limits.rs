@@ -1,5 +1,6 @@
-//! Limits of a scene. A message that names the limit refuses what exceeds it. Bytes, values and nesting are limited
-//! before anything is read into memory; the other limits before anything is made from what was read.
+//! Limits of a scene. What exceeds a limit is refused, with a message that names the limit. A file is read only up to
+//! its limit of bytes. Values, nesting and digits are counted before the text is parsed. The other limits are checked
+//! before anything is made from the scene.
 
 /// Bytes of a scene file.
 pub const MAX_SCENE_BYTES: u64 = 16 << 20;

@@ -212,8 +212,8 @@ pub fn bends(scene: &Scene, object: &Object) -> bool {
     by_shot || object.cache.is_some() || object.morph.is_some()
 }
 
-/// For each object, in the order of the file, the frame at which its point cache is sampled: the frame whose pose it
-/// holds.
+/// For each object, in the order of the file, the frame at which its point cache is sampled: the frame whose pose the
+/// object holds.
 pub fn cache_frames_at(scene: &Scene, frame: f64) -> Vec<f64> {
     scene.objects.iter().map(|object| held_frame(scene, object, frame)).collect()
 }

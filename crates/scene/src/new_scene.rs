@@ -181,7 +181,7 @@ fn object_name(path: &Path) -> String {
         .unwrap_or_else(|| "model".to_owned())
 }
 
-/// Rounds to multiples of a power of ten that is at most `step`, so that a person can read the numbers.
+/// Rounds to multiples of the largest power of ten up to `step`, so that a person can read the numbers.
 fn round_to(vector: DVec3, step: f64) -> DVec3 {
     vector.map(|component| round_at(component, step.log10().floor() as i32))
 }

@@ -13,9 +13,9 @@ pub const DEFAULT_PRESET: &str = "oil study";
 /// The preset of a scene in ink that names none.
 pub const INK_PRESET: &str = "ink";
 
-/// The source paper's own rule, complete. Every polygon has the same number of strokes, at random places, and shows as
-/// many of them as its projected area asks for. There is one brush, the full neighbour sum in every frame, no jitter
-/// and no other layer. The rule holds for a whole scene, not for a region.
+/// The source paper's own rule, complete. Every polygon has the same number of particles, at random places, and shows
+/// as many strokes on them as its projected area asks for. There is one brush, the full neighbour sum in every frame,
+/// no jitter, and no layer but the body. The rule holds for a whole scene, not for a region.
 pub const PAPER_PRESET: &str = "paper";
 
 /// The name that a scene's list of layers uses for the tone under all of them.
@@ -106,7 +106,7 @@ pub fn is_paper(scene: &Scene) -> bool {
 /// style's own preset. A preset states every value, so a region with one takes nothing from the scene. A region's
 /// `scale` multiplies the size that the region would have without it. An unknown preset counts as none (`check` refuses
 /// it). A hidden layer has a coverage of 0, except the body: its particles carry the directions that tools and touches
-/// read. The index must be one of the scene's regions.
+/// read. The scene must have a region of this index.
 pub fn resolve(scene: &Scene, region: Option<usize>) -> ResolvedStrokes {
     let of_region = region.map(|region| &scene.regions[region].strokes);
     let mut strokes = resolve_with(scene, &scene.strokes, of_region);

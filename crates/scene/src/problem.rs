@@ -79,7 +79,7 @@ impl fmt::Display for Problem {
     }
 }
 
-/// The most characters of a word that are shown: no name of a file needs more, and a hostile one may have millions.
+/// The most characters of a word that are shown: few names of files are longer, and a hostile word may have millions.
 const MOST_OF_A_WORD: usize = 200;
 
 /// A text that is safe to show in a terminal: control characters except line feeds and tabs are escaped, and very long

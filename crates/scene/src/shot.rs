@@ -71,8 +71,8 @@ impl Choice {
     }
 }
 
-/// The animation of this name; all of them if no name is given, or none has it. Adds to `odd` if none has it, and also
-/// each thing that two animations move.
+/// The animation of this name; all of them if no name is given, or none has it. Adds to `odd` a message if none has it,
+/// and a message for each thing that two animations move.
 fn playing(file: &GltfFile, name: Option<&str>, odd: &mut Vec<[String; 2]>) -> Animator {
     let named = name.map_or(Playing::All, Playing::Named);
     let (animator, double) = Animator::new(&file.gltf, named).unwrap_or_else(|names| {

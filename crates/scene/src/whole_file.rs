@@ -136,8 +136,8 @@ impl WholeFile {
         let Some(part) = self.part else { return Ok(()) };
         file.sync_all()?;
         rename(part, &self.target)?;
-        // The new name is on the disk only once its folder is. The file is in place already, so an error here is
-        // ignored.
+        // The new name reaches the disk only when the folder is synced. The file is in place already, so an error here
+        // is ignored.
         #[cfg(unix)]
         let _ = File::open(folder_of(&self.target)).and_then(|folder| folder.sync_all());
         Ok(())

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-/// A kind of system. Two kinds differ in the names of their packages.
+/// A kind of system. What packages are called, and how they are installed, depends on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum System {
     /// Debian, Ubuntu and their derivatives, with apt.

@@ -1,5 +1,5 @@
-//! Lists the gallery's pictures of ink on paper: whole scenes, and settings of the style with a picture for each of
-//! some values.
+//! Lists the gallery's pictures of ink on paper. Some show whole scenes; most show one setting of the style at several
+//! values, side by side.
 
 use super::list::{Picture, View};
 

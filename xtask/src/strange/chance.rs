@@ -84,8 +84,8 @@ const ODD_NAMES: [&str; 28] = [
 ];
 
 impl Chance {
-    /// The random choices of case `number` of this seed. A quarter of all cases have nothing odd, so that code that
-    /// only sound files reach runs as well.
+    /// The random choices of case `number` of this seed. A quarter of all cases have nothing odd, because some code of
+    /// the program is reached only by sound files.
     pub fn new(seed: u64, number: u64) -> Self {
         let mut numbers = fastrand::Rng::with_seed(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ number);
         let oddness = *numbers.choice(&[0.0, 0.002, 0.02, 0.15]).unwrap_or(&0.0);

@@ -17,7 +17,7 @@ pub fn hair() -> PolyMesh {
         [COLUMNS, ROWS],
         |column, row| {
             let (u, v) = (column as f64 / COLUMNS as f64, row as f64 / ROWS as f64);
-            // The hair begins behind the cheeks below and goes farther to the front above.
+            // Low on the head the hair begins behind the cheeks, higher up farther to the front.
             let front = 1.22 - 0.62 * smoothstep(0.50, 0.80, v);
             let side = front + (TAU - 2.0 * front) * u;
             let up = -0.62 + 2.0 * v;

@@ -79,8 +79,8 @@ fn arm(turns: &mut [DQuat; COUNT], first: usize, phase: f64) {
     let about_z = |degrees: f64| DQuat::from_rotation_z((side * degrees).to_radians());
     let forwards = |degrees: f64| DQuat::from_rotation_x(-degrees.to_radians());
     turns[SHOULDER + first] = turns[CHEST] * DQuat::from_rotation_y((-side * 4.0 * swing(0.0)).to_radians());
-    // In the rest pose the arm stands out by forty degrees. In the walk it hangs by about twenty degrees less, a little
-    // farther out at both ends of its swing.
+    // In the rest pose the arm stands out by forty degrees. In the walk it stands out by about twenty degrees less, but
+    // a little farther at both ends of its swing.
     let hang = about_z(-20.0 + 3.0 * swing(0.0).abs());
     turns[UPPER_ARM + first] = turns[SHOULDER + first] * forwards(3.0 + 27.0 * swing(0.0)) * hang;
     // The elbow bends in the plane of the arm and the way ahead, and a little inwards.

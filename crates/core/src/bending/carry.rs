@@ -43,7 +43,7 @@ struct SortedParticle {
     place: PackedParticle,
     /// Its index before sorting, and its bit in what [`Carrier::within`] returns.
     number: u32,
-    /// Its place in the progressive order: the last ones are hidden where the surface looks small.
+    /// Its place in the progressive order. Where the surface looks small, the last particles of the order are hidden.
     ordinal: f32,
     /// At rest.
     normal: Vec3,
@@ -193,17 +193,17 @@ impl Carrier {
 }
 
 /// Vectors such that the carried normal at any place of a triangle is a weighted mean of them. `gradients` are F at its
-/// corners. The normal at rest must be such a mean of `normals`.
+/// corners. The normal at rest must be a weighted mean of `normals`.
 pub fn normals_around(gradients: [Mat3; 3], normals: [Vec3; 3]) -> impl Iterator<Item = Vec3> {
     cofactors_around(gradients)
         .into_iter()
         .flat_map(move |cofactors| normals.map(|normal| cofactors * normal))
 }
 
-/// An upper bound on how many times the area grows anywhere on a triangle, whatever its normal is. `gradients` are F at
-/// its corners.
+/// An upper bound on the factor by which the area grows anywhere on a triangle, whatever its normal is. `gradients` are
+/// F at its corners.
 pub fn most_growth(gradients: [Mat3; 3]) -> f32 {
-    // The length of a matrix (root of the sum of squares) is no less than what it makes of a unit vector.
+    // A matrix makes a unit vector at most as long as the root of the sum of the squares of its entries.
     let length =
         |cofactors: Mat3| cofactors.to_cols_array().iter().map(|entry| entry * entry).sum::<f32>().sqrt();
     let lengths = cofactors_around(gradients).map(length);

@@ -207,7 +207,8 @@ struct AcrossHere {
     rows: [Between; STREAKS],
 }
 
-/// How many lattices vary along the mark too: three for the paint, one for how far another colour is mixed in.
+/// How many lattices vary along the mark as well as across it: three for the paint, one for how far another colour is
+/// mixed in.
 const STREAKS: usize = 4;
 
 pub(super) struct Streaks {

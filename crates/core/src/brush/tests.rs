@@ -120,8 +120,8 @@ fn ends_of_rows(name: &str) -> Vec<(usize, [usize; 2])> {
 
 #[test]
 fn a_round_brush_sets_down_and_lifts_off_round() {
-    // How many columns the paint reaches from the middle of a mark towards this end: the mean over rows that are so far
-    // from the middle row.
+    // How many columns the paint reaches from the middle of a mark towards this end: the mean over the rows whose
+    // distance from the middle row is in `rows`.
     let reach = |name: &str, end: usize, rows: std::ops::Range<usize>| {
         let all = ends_of_rows(name);
         let near = all.iter().filter(|(row, _)| rows.contains(&row.abs_diff(SIZE[1] / 2)));

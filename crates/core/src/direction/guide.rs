@@ -34,7 +34,7 @@ pub struct GuidePoint {
     pub position: DVec3,
     /// Normal of the surface there; need not be of length 1.
     pub normal: DVec3,
-    /// How far strokes are turned from the gesture's line, radians, counter-clockwise as seen.
+    /// How far strokes are turned from the gesture's line, radians, counter-clockwise in the view that it was drawn in.
     pub turn_rad: f64,
 }
 
@@ -55,7 +55,7 @@ pub struct Influence {
     pub weight: f64,
     /// Unit vector along the gesture. It is not projected onto the surface.
     pub along: DVec3,
-    /// How far strokes are turned from `along`, radians, counter-clockwise as seen.
+    /// How far strokes are turned from `along`, radians, counter-clockwise in the view that the guide was drawn in.
     pub turn_rad: f64,
 }
 

@@ -11,10 +11,11 @@ use super::field::{Constraint, FieldGraph};
 /// If it were only normalised, the field would jump there from one direction to the other instead of turning.
 const TORN: f64 = 0.5;
 
-/// Greatest weight of the constraint that makes a tear turn one way round, in units of one neighbour's weight.
+/// Greatest weight of the constraint that decides which way round the field turns at a tear, in units of one
+/// neighbour's weight.
 const LEAD: f64 = 0.5;
 
-/// Conjugate gradients stop after this many steps, or when the residual has fallen by this factor.
+/// Conjugate gradients stop after `MOST_STEPS` steps, or when the residual has fallen to `RESIDUAL` of the first one.
 const MOST_STEPS: usize = 400;
 const RESIDUAL: f64 = 1e-6;
 

@@ -23,7 +23,7 @@ const CELLS: usize = 32;
 const MOST_TRIES: f64 = 48.0;
 
 /// Where faces lie on each other, there is only room for the particles of one face, and most tries are in vain. So a
-/// cell that had room for the share s of the particles meant for it gets the share `SPARE` s of its tries, at most all.
+/// cell that had room for the share s of the particles meant for it gets the share `SPARE`·s of its tries, at most all.
 const SPARE: f64 = 8.0;
 
 /// The least share of its tries that a cell gets: so room that opens up is found.
@@ -56,8 +56,8 @@ struct AskedCell {
 struct Filled {
     meant: f64,
     added: f64,
-    /// The share of the particles meant for it that the cell was expected to have room for when it was made. It counts
-    /// as much as one particle that was meant.
+    /// Of the particles meant for the cell, the share for which room was expected when the cell was made. It counts as
+    /// much as one particle that was meant.
     expected: f64,
 }
 

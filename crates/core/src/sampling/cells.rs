@@ -362,10 +362,9 @@ pub struct Needed {
     /// For each cell, the index of the first of its smaller cells ([`Cell::split`]), or 0 if those are not listed.
     /// Smaller cells that are not listed have the limit of the cell that was split.
     pub first_part: Arc<Vec<u32>>,
-    /// This matters only in the later levels, which are thrown cell by cell. There, whether a cell must be split if its
-    /// smaller cells are listed. If `true`, these levels add no particle where none is needed, but their particles
-    /// differ from those of an order for the whole surface. If `false`, cells with few tries stay whole, which is
-    /// faster.
+    /// Whether the later levels, which are thrown cell by cell, split every cell whose smaller cells are listed. If
+    /// `true`, these levels add no particle where none is needed, but their particles differ from those of an order for
+    /// the whole surface. If `false`, cells with few tries stay whole, which is faster.
     pub is_strict: bool,
 }
 

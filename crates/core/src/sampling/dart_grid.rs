@@ -122,7 +122,7 @@ impl DartGrid {
         }
     }
 
-    /// Sorts darts roughly by bucket, so that each search finds what it reads in the cache.
+    /// Sorts darts roughly by bucket, so that each search finds in the cache what it reads.
     pub(super) fn in_order(&self, darts: Vec<Dart>) -> Vec<Dart> {
         let Some(&first) = darts.first() else { return darts };
         let buckets = self.mask as usize + 1;
@@ -269,8 +269,8 @@ fn floor(value: f32) -> i32 {
     toward_zero.wrapping_sub(i32::from(toward_zero as f32 > value))
 }
 
-/// The step to the next row of cells that a search reaches, if any, from how far inside its own row a position is,
-/// 0..1.
+/// Which row of cells beside a position's own row a search reaches: −1 or 1, or 0 for none. `inside` is how far inside
+/// its own row the position is, 0..1.
 #[inline(always)]
 fn beside(inside: f32) -> i32 {
     if inside < 0.25 { -1 } else { i32::from(inside > 0.75) }

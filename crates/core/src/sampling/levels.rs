@@ -36,13 +36,13 @@ pub(super) const LEAST_CHUNK: usize = 1024;
 /// The first levels, up to at least 8,192 particles, are thrown on the whole surface, and a particle's ordinal is its
 /// index. Later levels may be thrown on a part of the surface only, where the particles before a given one cannot be
 /// counted. So in all later levels an ordinal is computed from the turn among the tries of the level. In this way
-/// neither a particle nor its ordinal depends on what is far away. Only in a crowded order
-/// ([`ProgressiveState::is_crowded`]) and in a strict one ([`super::Needed::is_strict`]), how many tries a cell gets
-/// depends on what earlier levels found there. In a crowded order, particles stop being counted as soon as it is known
-/// to be crowded.
+/// neither a particle nor its ordinal depends on what is far away. How many tries a cell gets depends on what earlier
+/// levels found there, but only in a crowded order ([`ProgressiveState::is_crowded`]) and in a strict one
+/// ([`super::Needed::is_strict`]). In a crowded order, particles stop being counted as soon as it is known to be
+/// crowded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProgressiveState {
-    /// Candidates thrown so far.
+    /// Candidates of the sequence that were thrown so far. Levels that are thrown cell by cell have their own.
     pub(super) thrown: u32,
     /// How many particles the last level was meant to end with.
     pub(super) level_end: usize,
@@ -111,7 +111,7 @@ impl ProgressiveState {
     }
 }
 
-/// How many particles a level is meant to end with that is meant to begin with `level_begin`.
+/// How many particles a level is meant to end with if it is meant to begin with `level_begin`.
 pub(super) fn next_level_end(level_begin: usize) -> usize {
     (level_begin + 1).max((level_begin as f64 * GROWTH) as usize)
 }

@@ -123,11 +123,12 @@ struct Levels<'a> {
     grid: DartGrid,
     /// About the least distance between different places on the surface.
     finest: f32,
-    /// Where particles are needed; `None` everywhere.
+    /// Where particles are needed; `None` if they are needed everywhere.
     needed: Option<&'a Needed>,
-    /// The share of the particles meant for the last counted level that found room; 1 if none was thrown here.
+    /// Of the particles meant for the last counted level, the share that found room; 1 until a counted level is thrown
+    /// by this `Levels`.
     found: f64,
-    /// Made when the first level is thrown cell by cell.
+    /// Made when a level is first thrown cell by cell.
     cells: Option<ActiveCells<'a>>,
 }
 

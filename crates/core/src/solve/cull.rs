@@ -113,7 +113,7 @@ impl ParticleView {
     }
 }
 
-/// Sets the bits of the particles from `first` on that are within the bounds.
+/// Sets the bits of the particles from `first` on that face the eye within the bounds.
 struct Marking<'a> {
     particles: &'a PlacedParticles,
     ordinals: &'a [f32],

@@ -75,8 +75,8 @@ impl KeyedValue {
         }
     }
 
-    /// Keys the value at a frame. A value that a light's new key leaves out, but another of its keys states, is added
-    /// to the new key as it is at this frame. Otherwise the value of the key before would hold from here on.
+    /// Keys the value at a frame. What a light's new key leaves out, but another key of the light states, is added to
+    /// the new key as it is at this frame. Without that, the value of an earlier key would hold from here on.
     pub(super) fn put(&self, scene: &mut Scene, frame: f64) -> Result<(), Refusal> {
         match self {
             Self::Light(name, key) => {

@@ -22,7 +22,7 @@ pub enum StrokesOf {
     Region(String),
 }
 
-/// One stroke setting; `None` leaves it to the scene and its preset.
+/// One stroke setting; `None` leaves it to a preset or to the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StrokeChange {
     /// A number of [`impasto_scene::document::STROKE_NUMBERS`], by its name in a scene file, in the file's units.
@@ -37,7 +37,7 @@ pub enum StrokeChange {
     Preset(Option<String>),
     /// The pigments.
     Palette(Option<Vec<Color>>),
-    /// The settings of one layer of paint; a layer that states nothing is left to the scene and its preset.
+    /// The settings of one layer of paint; a layer that states nothing is left to a preset or to the scene.
     PaintLayer(Box<LayerSettings>),
     /// The layers of paint in the order in which they are laid, for the scene alone; `None` for the usual order.
     LayerOrder(Option<[LayerKind; 7]>),

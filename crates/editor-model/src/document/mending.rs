@@ -257,7 +257,8 @@ fn guide_in(field_path: &str) -> Option<(usize, usize)> {
     Some((region.parse().ok()?, guide.parse().ok()?))
 }
 
-/// Three-way merge of two versions, `left` and `right`, of the scene `from`. Refused where both changed the same thing.
+/// Three-way merge of two versions, `left` and `right`, of the scene `from`. Refused if both changed the same thing,
+/// each in another way.
 fn merged_scene(from: &Scene, left: &Scene, right: &Scene) -> Result<Scene, Refusal> {
     macro_rules! merged {
         ($field:ident, $words:literal) => {

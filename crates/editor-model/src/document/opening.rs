@@ -34,7 +34,7 @@ impl Document {
     }
 
     /// Opens a copy of unsaved work. Paths stay relative to the scene's original folder. The text that the scene was
-    /// read from comes back with its problems, if they are still the same.
+    /// read from comes back with its problems, if they are still the same or the user was editing that text.
     ///
     /// # Errors
     /// If nothing of the copy can be read.

@@ -391,7 +391,7 @@ fn a_shot_that_was_exported_again_is_no_edit_and_what_was_edited_stays_one() {
     assert!(document.is_edited() && document.scene().seed == 9);
 }
 
-/// A camera rolls once round itself in 72 frames. Its keys go on beyond half a turn rather than back by a whole one.
+/// A camera rolls by a whole turn in 72 frames. The roll in its keys goes on past 180 degrees and does not jump back.
 #[test]
 fn keys_of_a_shot_whose_camera_rolls_roll_on() {
     let folder = Folder::with("(version: 1, shot: \"shot.gltf\", timeline: (fps: 24, first: 0, last: 72))");

@@ -205,7 +205,8 @@ impl Editor {
                 }
                 return true;
             }
-            // The tool may delete one point of a guide. If it does not, the selection is deleted.
+            // The tool may delete one point of a guide. If it does not, and no gesture is under way, the selection is
+            // deleted.
             Action::Delete
                 if self.session.mode == Mode::Paint && (self.hand.is_busy() || self.pointer_px.is_some()) =>
             {
@@ -275,8 +276,8 @@ impl Editor {
         }
     }
 
-    /// Hides or shows (or locks or unlocks) all that is selected: the item selected last changes its state, and the
-    /// others get the same state.
+    /// Hides or shows (or locks or unlocks) the selected things that can be: the last of them changes its state, and
+    /// the others get the same state.
     fn hide_or_lock(&mut self, action: Action) {
         let hides = action == Action::Hide;
         let can = |item: &&Item| match item {

@@ -306,12 +306,13 @@ impl Editor {
         self.looking.free(&shot).zoom(steps, toward);
     }
 
-    /// Whether moving the view keys the shot's camera.
+    /// Whether moving the view moves the shot's camera.
     fn keys_the_shot(&self) -> bool {
         self.session.mode == Mode::Animate && self.session.lock_to_view && self.looking == Looking::Shot
     }
 
-    /// The point that a drag turns the view about: the model's surface under the pointer, or else the subject.
+    /// The point that a drag turns the view about: the model's surface under the pointer, or else the subject, or else
+    /// a point at the depth of the camera's target.
     fn turns_about(&self, at_px: DVec2, view: &View) -> DVec3 {
         let there = self.model_at(at_px, view).or_else(|| self.subject(view));
         there.unwrap_or_else(|| view.at_depth_of(at_px, self.camera().target))
@@ -325,7 +326,7 @@ impl Editor {
         (!is_built_in(&object.mesh)).then_some(hit.position_in_world)
     }
 
-    /// The middle of the selected object, or else of all models, if the picture shows it.
+    /// The middle of the selected model, or else of all models; `None` if that middle is not in the picture.
     fn subject(&self, view: &View) -> Option<DVec3> {
         let objects = &self.document.shown().scene.objects;
         let models = || {
@@ -343,7 +344,8 @@ impl Editor {
         (at_px.cmpge(DVec2::ZERO) & at_px.cmple(view.size_px)).all().then_some(subject)
     }
 
-    /// The surface under the pointer, or else the subject, or a point at the depth of the camera's target.
+    /// What an added light shines on: the surface under the pointer, or else the subject, or else a point at the depth
+    /// of the camera's target.
     fn about(&self, at_px: DVec2, view: &View) -> DVec3 {
         let hit = self.hit(at_px, view).map(|hit| hit.position_in_world);
         hit.or_else(|| self.subject(view)).unwrap_or_else(|| view.at_depth_of(at_px, self.camera().target))

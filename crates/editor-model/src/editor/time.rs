@@ -303,7 +303,7 @@ impl Editor {
     }
 }
 
-/// The poses that a command sets at a frame, each as a command; `None` if it does anything else too.
+/// The poses that a command sets at a frame, each as a command; `None` if it does anything else.
 fn poses_of(command: &Command, at_frame: f64) -> Option<Vec<(String, Command)>> {
     match command {
         Command::Time(Time::PoseAtFrame(pose, frame)) if *frame == at_frame => {

@@ -180,7 +180,7 @@ impl Keymap {
         self.preset_chords(&BINDINGS[id.0])
     }
 
-    /// The keymap with these keys for a command; other commands lose them.
+    /// The keymap with these keys for a command. Commands that cannot share a key with it lose that key.
     ///
     /// If the command cannot have one of the keys, nothing changes.
     pub fn with(&self, id: CommandId, chords: Vec<Chord>) -> Self {

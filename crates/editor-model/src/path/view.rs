@@ -30,7 +30,7 @@ pub enum Rays {
 /// Two views count as equal if their gazes (unit vectors) differ by at most this, and (with central rays) their eyes
 /// differ by at most this share of the distance to the target.
 const SAME: f64 = 1e-7;
-/// From an eye that is this many times as far from its target, rays are practically parallel.
+/// If the eye moves away to this many times its distance from the target, its rays are practically parallel.
 const FAR: f64 = 1e5;
 
 impl ObjectView {

@@ -40,7 +40,8 @@ pub struct Copy {
     pub file: Option<PathBuf>,
     /// An absolute path in the folder that the scene's own paths are relative to.
     pub path: PathBuf,
-    /// The stamp of the scene file as it was last read or saved; none if there is no file, or it was deleted.
+    /// The stamp of the scene file as it was last read or saved; none if there is no file, or its stamp could not be
+    /// taken then.
     pub stamp: Option<Stamp>,
     /// When the copy was made, seconds since 1970.
     pub at_unix_secs: u64,

@@ -91,8 +91,8 @@ pub fn next_ease(ease: Ease) -> Option<Ease> {
     })
 }
 
-/// The eases to choose from, in the order of the menu. The last one is a curve: `now`, the ease that a key has already,
-/// if that is a curve, else the usual one.
+/// The eases to choose from, in the order of the menu. The last one is a curve: `now` (the ease that a key has already)
+/// if that is a curve, else the usual curve.
 pub fn eases(now: Option<Ease>) -> [Ease; 7] {
     let curve = now.filter(|now| matches!(now, Ease::Curve(..))).unwrap_or(Ease::USUAL_CURVE);
     [Ease::Smooth, Ease::Linear, Ease::Step, Ease::In, Ease::Out, Ease::Bounce, curve]

@@ -396,8 +396,8 @@ impl Stroke {
         guides
     }
 
-    /// The points at which the brush touches the surface along a path, spaced by `share` times the brush's radius. Then
-    /// their mirror images, where a surface is near these.
+    /// The points at which the brush touches the surface along a path, spaced by `share` times the brush's radius.
+    /// Their mirror images follow, except those that no surface is near.
     fn touched(&self, path: &SurfacePath, share: f64, around: &Surroundings) -> Vec<PathPoint> {
         let mut touched = match self.does.leaves_dabs() {
             true => path.stamps_of(share, &|point| Felt::at(point, around.options).radius),

@@ -355,7 +355,8 @@ fn place(at_px: DVec2, hit: &Hit) -> PathPoint {
     PathPoint::new(at_px, hit, 1.0)
 }
 
-/// The part of a guide of the selected region under the pointer. Only parts that face the eye count.
+/// The part of a guide that the pointer is on. Only guides of the selected region count, and only parts that face the
+/// eye.
 fn grip(at_px: DVec2, around: &Surroundings) -> Option<Grip> {
     let region = around.scene().regions.get(around.selected_region()?)?;
     let mut best: Option<(u8, f64, Grip)> = None;

@@ -34,7 +34,7 @@ pub struct Needle {
     pub headed: bool,
 }
 
-/// The combing that a press at the pointer would begin; the strokes under it are previewed.
+/// The comb that a press at the pointer would begin. The strokes inside its ring are previewed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CombPreview {
     /// Index of the object under the ring.

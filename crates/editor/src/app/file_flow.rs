@@ -169,13 +169,13 @@ impl EditorApp {
         }
     }
 
-    /// Saves to `target`, or to the document's own file. Returns whether it was written.
+    /// Saves to `target`, or to the document's own file. Returns whether the file was written.
     pub(super) fn save(&mut self, target: Option<&Path>) -> bool {
         let saved = self.editor.save(target);
         self.saved(saved)
     }
 
-    /// Deals with the result of a save. Returns whether it was written.
+    /// Deals with the result of a save. Returns whether the file was written.
     pub(super) fn saved(&mut self, saved: Result<(), SaveError>) -> bool {
         match saved {
             Ok(()) => {

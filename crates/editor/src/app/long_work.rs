@@ -31,7 +31,7 @@ enum Outcome {
     /// The document, repaired or read again.
     Mended {
         mended: Box<Mended>,
-        /// What another program changed, if that was the reason.
+        /// What another program changed, if the document is read again because of that.
         news: Option<News>,
         /// The text that was read in place of the file's.
         text: Option<String>,

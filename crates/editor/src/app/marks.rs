@@ -25,7 +25,7 @@ use crate::viewport::overlay::{
 use crate::viewport::surface_map::{Face, FacePlace, StandingBody, SurfaceMap};
 use crate::viewport::{Framing, HairLook, Marks, direction_marks};
 
-/// Cells per point of the map of visible surfaces, while the view is at rest.
+/// The map of visible surfaces has this many cells per point of the window while the view is at rest.
 const CELLS_PER_POINT: f64 = 0.5;
 /// The same, while the view moves.
 const MOVING_CELLS_PER_POINT: f64 = 0.2;

@@ -87,7 +87,7 @@ pub(crate) struct EditorApp {
     telling: Telling,
     /// What failed and is not settled yet.
     troubles: Vec<Trouble>,
-    /// How many losses the document had in the previous pass.
+    /// How many losses (parts of the scene that could not be read) the document had in the previous pass.
     losses_told: usize,
     likely_meshes: LikelyMeshes,
     presets: PresetFlow,
@@ -360,7 +360,7 @@ impl EditorApp {
 }
 
 impl LikelyMeshes {
-    /// Searches the scene's folder if it is another one, or if other meshes are missing than before.
+    /// Searches the scene's folder if the folder or the missing meshes have changed.
     fn follow(&mut self, document: &Document) {
         let loaded = document.shown();
         let is_missing = |mesh: &&str| document.lacks_mesh(mesh);

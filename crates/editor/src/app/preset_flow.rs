@@ -37,7 +37,8 @@ pub(super) struct PresetFlow {
     /// Paints the pictures; `None` until the first one is wanted.
     painter: Option<PresetPictures>,
     pictures: BTreeMap<String, TextureHandle>,
-    /// What the pictures show: the version of the scene, whose strokes, and the frame at which the list was opened.
+    /// What the pictures show: the version of the scene, the scene or region that gets the presets, and the frame at
+    /// which the list was opened.
     shows: Option<(u64, StrokesOf, f64)>,
     /// Whether the list was open in the last pass.
     is_listed: bool,

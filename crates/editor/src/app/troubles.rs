@@ -47,7 +47,7 @@ impl EditorApp {
         }
     }
 
-    /// Removes a failure that was settled from the list.
+    /// Removes a settled failure from the list.
     pub(super) fn settled(&mut self, of: &TroubleOf) {
         self.troubles.retain(|trouble| trouble.of != *of);
     }
@@ -66,7 +66,7 @@ impl EditorApp {
         self.files.dialogs.open(&self.ctx, FileAsk::LocateMesh, &start);
     }
 
-    /// Carries out a button of the list.
+    /// Does what a button of the list stands for. `index` is the place of its failure in the list.
     pub(super) fn settle(&mut self, index: usize, settle: Settle) {
         let Some(of) = self.troubles.get(index).map(|trouble| trouble.of.clone()) else { return };
         match (settle, &of) {

@@ -152,7 +152,7 @@ impl LastView {
 }
 
 impl Preferences {
-    /// Puts a file that was opened or saved on top of the recent ones, unless its path is not valid Unicode.
+    /// Puts a file that was opened or saved on top of the recent ones. A path that is not valid Unicode is left out.
     pub fn note_recent(&mut self, file: &Path) {
         let Some(file) = storable(file) else { return };
         self.recent.retain(|known| *known != file);

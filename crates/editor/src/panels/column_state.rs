@@ -9,9 +9,9 @@ use impasto_scene::document::StrokeSettings;
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct ColumnState {
-    /// Sections that were opened or folded by hand.
+    /// Whether a section is open, for each that the user opened or folded, or that the command search opened.
     pub(super) sections: BTreeMap<String, bool>,
-    /// Whether all sections are open, whatever was done by hand. It is true only for the column that is laid out unseen
+    /// Whether all sections are open, whatever `sections` says. It is true only for the column that is laid out unseen
     /// to find its controls.
     pub(super) all_open: bool,
     /// Objects whose rows were opened or folded, by name.
@@ -23,7 +23,7 @@ pub(super) struct ColumnState {
     /// Whether the menu of what can be added opens in the next pass.
     pub(super) opens_add_menu: bool,
     pub(super) copied_strokes: Option<StrokeSettings>,
-    /// The layer of paint whose numbers are shown, by its name; none means the body.
+    /// The layer of paint whose numbers are shown, by its name; none means the layer *body*.
     pub(super) paint_layer: Option<&'static str>,
     /// The item that was active in the previous pass. When another one is active, the tree scrolls to it.
     pub(super) active: Option<Item>,

@@ -31,7 +31,7 @@ pub struct ViewerShown<'a> {
     pub keymap: &'a Keymap,
     /// The keys of the number pad that were pressed in this pass.
     pub numpad: &'a [(Key, Modifiers)],
-    /// Whether a question is open over the viewer; it then gets all keys.
+    /// Whether a question is open over the viewer; all keys then go to the question.
     pub is_covered: bool,
 }
 
@@ -170,8 +170,8 @@ fn bar(ui: &mut Ui, shown: &ViewerShown<'_>) -> Option<ViewerAsk> {
     scrub(ui, line, frames).map(ViewerAsk::GoTo).or(ask)
 }
 
-/// Writes the file that is shown, its number and the rate at the right of `room`, and leaves out what does not fit.
-/// Returns the rest of `room`, for the scrubbing line.
+/// Shows the name of the frame's file, the frame's number and the rate as words at the right of `room`, and leaves out
+/// what does not fit. Returns the rest of `room`, for the scrubbing line.
 fn words(ui: &mut Ui, room: Rect, shown: &ViewerShown<'_>) -> Rect {
     let tokens = Tokens::of(ui);
     let frames = shown.frames;

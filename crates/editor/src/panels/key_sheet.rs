@@ -36,8 +36,8 @@ enum Doing {
     ListeningStill(CommandId, String),
     /// The command is to get these keys, but the listed commands have them. The sheet asks whether to take them.
     Asking(CommandId, Vec<Chord>, Vec<CommandId>),
-    /// The command works only while a keyframe on a lane is selected. Then these keys of the keyboard would no longer
-    /// reach the listed commands. The sheet asks whether the command is to get them all the same.
+    /// The command works only while a keyframe on a lane is selected. While one is, these keys of the keyboard would no
+    /// longer reach the listed commands. The sheet asks whether the command is to get the keys all the same.
     AskingToHide(CommandId, Vec<Chord>, Vec<CommandId>),
     /// The sheet asks whether to reset all keys to the preset's.
     AskingReset,

@@ -180,7 +180,7 @@ pub enum Ask {
     DoMerged(Command, String),
     /// Show the document as this command would leave it (while a slider is dragged). `Do` or `EndPreview` follows.
     Preview(Command),
-    /// Show the document as it is again.
+    /// End the preview, and show the document as it is.
     EndPreview,
     /// Select this.
     Select(Selection),

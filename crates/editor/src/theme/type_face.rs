@@ -22,7 +22,7 @@ pub fn head() -> FontId {
     semibold(13.0)
 }
 
-/// Titles of dialogs, of steps, and of the sheets for files and rendering: Inter SemiBold 15.
+/// Titles of dialogs, of the steps on the welcome sheet, and of the sheets for files and rendering: Inter SemiBold 15.
 pub fn title() -> FontId {
     semibold(15.0)
 }

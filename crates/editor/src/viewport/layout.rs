@@ -46,7 +46,7 @@ impl Layout {
         let (top, bottom) = area.split_top_bottom_at_fraction(0.5);
         let beside = [left, right].map(|at| half(at, CHIPS, CHIPS));
         let stacked = [half(top, CHIPS, 4.0), half(bottom, 4.0, CHIPS)];
-        // The two halves may differ by rounding, so both pictures get the smaller size.
+        // The upper and the lower half may differ by rounding, so both pictures get the smaller size.
         let least = stacked[0].width().min(stacked[1].width());
         let stacked = stacked.map(|at| Rect::from_center_size(at.center(), vec2(least, least / aspect)));
         let is_stacked = least > beside[0].width();

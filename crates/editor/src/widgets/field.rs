@@ -60,7 +60,7 @@ pub struct FieldResponse {
     pub began: bool,
     /// In this pass a drag ended, typing ended without `Esc`, or there was a step or a reset.
     pub ended: bool,
-    /// The change was one step of the wheel, of an arrow key or of a screen reader.
+    /// In this pass the wheel, an arrow key or a screen reader stepped or set the value.
     pub stepped: bool,
     /// The change came from the reset icon or from a double click.
     pub reset: bool,
@@ -101,7 +101,7 @@ impl<'a> NumberField<'a> {
         }
     }
 
-    /// Shows these words as the label, for a name that is too long for one.
+    /// Shows these words as the label, for a name that is too long to be the label itself.
     pub fn label(self, words: &'a str) -> Self {
         Self { label: Some(words), ..self }
     }

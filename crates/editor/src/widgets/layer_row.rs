@@ -17,7 +17,7 @@ pub struct LayerRow<'a> {
     pub selected: bool,
     /// Whether its eye is shut.
     pub hidden: bool,
-    /// Whether the layer paints nothing for another reason; its name is then drawn in the weak colour.
+    /// Whether the layer would paint nothing even with its eye open; its name is then drawn in the weak colour.
     pub idle: bool,
     /// Pictures of its brushes, at most two.
     pub pictures: Vec<TextureId>,

@@ -1,5 +1,5 @@
-//! The editor's own controls. Each has a name, which screen readers say and by which tests find it. Each can be reached
-//! with the keyboard and is at least 24 points high.
+//! The editor's own widgets. Each control among them has a name, which screen readers say and by which tests find it,
+//! can be reached with the keyboard, and is at least 24 points high.
 
 mod axis_ball;
 mod brush_thumbnail;

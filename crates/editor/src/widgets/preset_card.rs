@@ -1,4 +1,4 @@
-//! A card for a preset: a picture of the scene with it, and its name.
+//! A card for a preset: its name under a picture of the scene that is painted with the preset.
 
 use egui::{Rect, Response, Role, Sense, Stroke, StrokeKind, TextureId, Ui, Vec2, pos2, vec2};
 

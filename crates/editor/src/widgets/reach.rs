@@ -56,7 +56,7 @@ pub(crate) fn enter_part(ctx: &Context, part: &str) {
     });
 }
 
-/// To be called by each control with its name: takes the focus if it is the one that is wanted.
+/// To be called by each control with its name. Gives the control the focus if it is the wanted one.
 pub(crate) fn reached(response: &Response, name: &str) {
     let wanted = response.ctx.data(|data| data.get_temp::<Wanted>(id()));
     if wanted.is_some_and(|wanted| wanted.is_here && *wanted.name == *name) {

@@ -33,7 +33,7 @@ pub struct TreeRow<'a> {
     pub selected: bool,
     /// Words at its right end.
     pub note: &'a str,
-    /// Whether it has animation keys; a small ochre diamond at the right shows it.
+    /// Whether a small ochre diamond at the right shows that it is animated.
     pub keyed: bool,
     /// Whether it is hidden: its eye is shut.
     pub hidden: bool,

@@ -16,7 +16,7 @@ const EASY_BYTES: usize = 128 << 20;
 /// If the disk has no room, pictures in memory take at most this many bytes: 260 such frames.
 const MOST_BYTES: usize = 1 << 30;
 
-/// Pictures in memory never take more than the available memory divided by this.
+/// Pictures go into memory only until they take the available memory divided by this.
 const SHARE: u64 = 4;
 
 /// How much memory pictures may take, bytes.

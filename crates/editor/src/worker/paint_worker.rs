@@ -108,7 +108,7 @@ struct Drawn {
     strokes: (usize, Vec<usize>),
     /// What the next draft may recall of this picture; `None` if it has no strokes.
     recall: Option<Arc<Recall>>,
-    /// Counts the pictures drawn of the view. The next draft tries some of the strokes that are absent from this one;
+    /// Counts the pictures drawn of the view. The next draft tries some of the strokes that this picture lacks;
     /// [`Recall::of`] picks them by the count. Each view has its own count: if two views shared one, each would only
     /// get every other number.
     turn: u32,

@@ -9,7 +9,7 @@ use impasto_painting::{Frame, FrameOptions, Painting, Quality, Recall, StrokeCol
 use super::ViewJob;
 
 pub(super) struct DrawOptions<'a> {
-    /// Width and height of the picture in pixels; smaller than the view's in a draft.
+    /// Width and height of the picture in pixels: those of the view, or less in a draft.
     pub(super) size_px: [u32; 2],
     /// Whether it is drawn as for a file, not as a draft.
     pub(super) is_exact: bool,

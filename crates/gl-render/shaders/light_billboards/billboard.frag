@@ -18,7 +18,8 @@ out vec4 over;                   // premultiplied, encoded
 const float DIMMED = 0.35;
 const float DISC = 0.55;
 
-// A line just within the circle that touches the quad's sides.
+// The ring in the channels of `icons`: a line just inside the circle that fits into the quad, and a wider line under
+// it.
 vec2 ring() {
     vec2 middle = 0.5 * (first_two.xy + last_two.zw);
     float radius = length(on_plane - middle) / (0.5 * distance(first_two.xy, first_two.zw));

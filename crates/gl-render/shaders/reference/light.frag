@@ -25,9 +25,9 @@ layout(location = 2) out vec4 highlight; // what `color` leaves out, display-lin
 const vec2 STRONG = vec2(0.15, 0.40);
 
 #ifndef DRAFT
-// The share of the shadow-casting light that arrives, 0..1. Seen at a flat angle, a pixel covers more of the surface
-// than a texel of the shadow map, and a single point would be lit or not by chance. There the result is a mean over the
-// samples that show the body.
+// The share of the shadow-casting light that arrives, 0..1. Where a surface is seen at a flat angle, a pixel covers
+// more of it than a texel of the shadow map does, and a single point would be lit or not by chance. There the result is
+// a mean over the samples that show the body.
 float shadow_at(LitPoint at) {
     if (samples == 1) return shadow_of_point(at);
     float id = texelFetch(depth_and_id, ivec2(gl_FragCoord.xy), 0).y;

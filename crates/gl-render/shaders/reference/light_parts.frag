@@ -4,9 +4,9 @@
 uniform sampler2D albedo_and_lit;
 uniform sampler2D normal;        // and gloss
 uniform sampler2D depth_and_id;
-uniform sampler2D openness;      // ambient occlusion, 1 in the open; half the size
+uniform sampler2D openness;      // ambient occlusion: 0 enclosed .. 1 open; half the picture's size
 
-layout(location = 0) out vec4 light_and_shadow;  // rgb: arriving light; a: share of the shadow-casting light
+layout(location = 0) out vec4 light_and_shadow;  // rgb: arriving light; a: arriving share of the shadow-casting light
 layout(location = 1) out vec4 open;
 
 void main() {

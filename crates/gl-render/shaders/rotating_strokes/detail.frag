@@ -86,7 +86,8 @@ void main() {
             if (there.y == 0.0 || there.x > front.x) outline += 0.5;
             continue;
         }
-        // One part of the body stands in front of another: the depth leaps by more than its slope explains.
+        // The place at `outward` is on the body too. It counts as past an outline if the body's part here stands
+        // in front of its part there: the depth then leaps by more than the surface's slope explains.
         float depth = texelFetch(depth_and_id, at, 0).x;
         vec2 before = texelFetch(depth_and_id, clamp(at - outward, ivec2(0), last), 0).xy;
         float leap = there.x - depth - (before.y == front.y ? max(depth - before.x, 0.0) : 0.0);

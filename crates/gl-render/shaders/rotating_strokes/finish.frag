@@ -10,7 +10,7 @@ uniform sampler2D reference_color;   // alpha 1 where a body is, or less where n
 #ifndef DRAFT
 uniform sampler2D surface;           // x: depth; y: body id + half the share of the pixel that shows something else
 uniform sampler2D height;            // of the paint, in brush thicknesses, and how wet it is
-uniform sampler2D soft_height;       // half the size
+uniform sampler2D soft_height;       // `height` averaged by `soften.frag`; half the picture's size
 uniform sampler2D canvas;            // one tile: height, and its slope in x and in y, each stored around 0.5
 uniform vec3 to_light;               // unit, in the picture's space
 uniform vec4 canvas_axes;            // canvas tiles per pixel: along x, along y
@@ -35,8 +35,8 @@ const float THICKNESS_PX = 1.6;      // of paint of height 1, pixels of the scen
 const float WEAVE_PX = 0.09;
 #ifndef DRAFT
 // Wet paint of one colour runs together. MELT: how far, 0..1. MELT_PX: over which two distances, pixels of the scene's
-// own size. SAME: at this difference of colour (of square roots of linear values) a neighbour counts 1/e of an equal
-// one. MELTED_RELIEF: how much relief is left.
+// own size. SAME: the difference of colour (of square roots of linear values) at which a neighbour counts 1/e as much
+// as one of the same colour. MELTED_RELIEF: how much relief is left where paint has run together.
 const float MELT = 0.85;
 const vec2 MELT_PX = vec2(2.2, 4.5);
 const float SAME = 0.05;

@@ -55,7 +55,7 @@ vec3 graded(vec3 lab, vec3 wide, int kind) {
     }
     if (kind == ACCENTS) lab = wide + (lab - wide) * 1.45;
     if (kind == LIGHTS) lab.x += 0.043;
-    // A line is the darker tone of what it bounds.
+    // A contour line is a darker tone of the body that it bounds.
     if (kind == CONTOUR) lab = vec3(0.62 * lab.x, lab.yz * 1.1);
     float lightness = mix(lab.x, planes(lab.x), 0.25);
     // Darks keep some colour and never turn black.

@@ -22,7 +22,7 @@ flat in float leaning;
 #endif
 
 uniform sampler2DArray brush_marks; // paint, height, tint
-uniform sampler2D surface;       // x: depth; y: body id + half the share that shows something else
+uniform sampler2D surface;       // x: depth; y: body id + half the share of the pixel that shows something else
 uniform float units_per_px_at_1; // world units per pixel at depth 1; at any depth if rays are parallel
 uniform float orthographic;
 
@@ -115,7 +115,8 @@ float laid(float tint) {
     float others = 2.0 * fract(here.y);
     float reach_px = body.z * (1.0 + 0.7 * tint);
     if (floor(here.y) != own.y) return past_body(vec2(here.x, floor(here.y)), reach_px);
-    // Where something else shows in a part of the pixel, paint covers that part if it reaches over it.
+    // The part of the pixel that shows something else gets paint as far as paint reaches past the body: all of that
+    // part from a reach of one pixel on.
     float whole = 1.0 - others * (1.0 - clamp(reach_px, 0.0, 1.0));
     return here.y == 0.0 ? whole : whole * on_plane(here.x);
 }
@@ -141,7 +142,7 @@ void main() {
     float past_end = max(abs(2.0 * u - 1.0) - own.z, 0.0);
     float least = paint.a;
 #ifdef LINE
-    // Where the surface turns away the brush leaves less and less of its mark.
+    // The nearer to edge-on the surface is seen, the less of its mark the brush leaves.
     least = mix(1.0 + mark.z, least + run_dry, smoothstep(0.0, 1.0, 2.0 * line.y));
 #endif
     float alpha = smoothstep(least - mark.z, least + mark.z, texel.r - STEEPNESS * past_end);

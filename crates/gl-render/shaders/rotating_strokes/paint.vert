@@ -30,14 +30,14 @@ uniform mat4 view_from_world;
 uniform int kind;                // layer of paint
 #endif
 uniform float mark_rows;         // texels across a mark
-uniform sampler2D mark_bounds;   // a row per mark, a texel per threshold of paint: the box around what lies above it
+uniform sampler2D mark_bounds;   // a row per mark, a texel per threshold: the box around all texels with more paint
 #ifndef DRAFT
 uniform sampler2D below;         // the picture before this layer, premultiplied
 uniform sampler2D depth_and_id;
 #endif
 
 #ifdef STORES
-uniform int first_stroke;        // number of the first of these strokes in the picture
+uniform int first_stroke;        // number, within the picture, of the first stroke of this draw
 flat out uint number;
 #endif
 
@@ -151,7 +151,7 @@ void main() {
     float share = 0.98 * (1.0 - dryness) * mix(0.5, 1.0, there);
     // A fading stroke shrinks from its ends to a quarter of its length, then fades as a whole.
     float extent = max(there, 0.25);
-    // Half the soft edge, as a share of the mark's area. The whole edge is about a pixel wide.
+    // Half the width of the soft edge, in values of the mark's paint, so that the whole edge is about a pixel wide.
     float soft = clamp(1.2 * (size.x + size.y) / (size.x * size.y), 0.02, 0.14);
     paint = vec4(resolved.rgb, mix(1.0 + soft, soft + 0.02, share));
 #ifdef DRAFT

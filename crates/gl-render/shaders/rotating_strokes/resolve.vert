@@ -28,8 +28,8 @@ const float LEAST = 0.25;
 const float LEAST = 0.004;
 #endif
 
-// From this thinness of its face on, a stroke's colour is its own albedo, lit: single pixels of a thin body are light
-// or dark by chance. The less thin the face, the more the picture's colour counts.
+// From this `thinness` on (see `surroundings.glsl`), a stroke's colour is its own albedo, lit: single pixels of a thin
+// body are light or dark by chance. The less thin it is, the more the picture's colour counts.
 const float THIN = 0.6;
 
 // Colours are averaged with a Gaussian. BLUR: its standard deviation across the stroke, in widths of the stroke, for
@@ -38,7 +38,8 @@ const float THIN = 0.6;
 const float LEAST_BLUR_PX = 1.1;
 const float BLUR[8] = float[8](0.33, 0.20, 0.20, 0.22, 0.30, 0.60, 0.25, 0.25);
 
-// How far highlights are spread over their body, as in `RotatingStrokes`, pixels of the scene's own size.
+// How far highlights are spread over their body, pixels of the scene's own size. The same value as in
+// `styles/rotating_strokes.rs`.
 const float SPREAD_PX = 16.0;
 // Strokes of a highlight gather round its peak. GATHERED: a stroke's distance from the peak, as a share of the distance
 // of its particle (the point of the surface that carries it). A stroke fades as the highlight at its particle falls

@@ -7,8 +7,9 @@ uniform sampler2D normal;        // of the surface, world space, towards the eye
 uniform sampler2D detail;        // in blocks: change of colour or turn, outline, highlight, body id + half its share
 uniform float block_px;          // side of a block
 
-// How far from the stroke's centre the ends of its face are looked for, to tell how thin the face is. In pixels of a
-// picture of half the scene's size or less; more in larger ones.
+// The face of a stroke is the part of its body around it that has about the stroke's normal. AROUND_PX: how far from
+// the stroke's centre the ends of the face are looked for, to tell how thin the face is. In pixels of a picture of half
+// the scene's size or less; more in larger ones.
 const float AROUND_PX = 8.0;
 
 // Cosine of the angle between a pixel's normal and the stroke's: below the first the pixel shows another face of the
@@ -78,7 +79,7 @@ float freedom(vec2 center_px, float id) {
 #else
     const int SIDE = 4;
 #endif
-    // The centre is a mean over pixels up to this far away: in a gap between two leaves that is one pixel wide, a
+    // The value of the centre is a mean over pixels up to this far away: in a gap one pixel wide between two leaves, a
     // single pixel would decide by chance.
     float center_wide_px = clamp(4.0 * px_scale, 1.0, 0.5 * float(SIDE));
     float covered = 0.0;

@@ -1,5 +1,5 @@
-// Ink on the paper: the blurred wash, the strokes over it, and the effect of the paper on both. It computes in sRGB
-// values: wash and strokes each take a share of what is below (the source's mix subtracts instead).
+// Ink on the paper: the blurred wash, the strokes over it, and the effect of the paper on both. This shader computes in
+// sRGB values: wash and strokes each take a share of what is below (`mix.frag` subtracts instead).
 #include "shared/encode.glsl"
 #include "sumi_e/paper.glsl"
 uniform sampler2D soft;          // silhouette, interior, seal red, body

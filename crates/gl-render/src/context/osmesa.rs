@@ -86,7 +86,7 @@ fn attributes((major, minor): (u8, u8)) -> [i32; 14] {
 
 struct Osmesa {
     context: Handle,
-    /// OSMesa keeps its address while the context is current, so it is boxed and never moved.
+    /// OSMesa keeps the buffer's address while the context is current, so the buffer is boxed and never moved.
     buffer: Box<UnsafeCell<[u8; BUFFER_BYTES]>>,
     make_current: MakeCurrent,
     get_proc_address: GetProcAddress,

@@ -29,7 +29,7 @@ impl fmt::Display for Driver {
 }
 
 impl Driver {
-    /// What the system must provide for this driver.
+    /// What the system must provide for this driver; nothing for [`Driver::Auto`], which stands for both others.
     pub fn parts(self) -> &'static [Part] {
         match self {
             Driver::Auto => &[],

@@ -60,7 +60,7 @@ pub(crate) struct Limits {
 
 impl Limits {
     pub(crate) fn read(gl: &glow::Context) -> Self {
-        // SAFETY: the context is current; the names are defined in OpenGL 3.3.
+        // SAFETY: the context is current; names that OpenGL 3.3 does not define are asked only of 4.3 or later.
         unsafe {
             let mut viewport = [0; 2];
             gl.get_parameter_i32_slice(glow::MAX_VIEWPORT_DIMS, &mut viewport);

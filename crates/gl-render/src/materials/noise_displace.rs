@@ -222,7 +222,7 @@ impl<'a> Placed<'a> {
         Self { index, body, depth, bounds: if is_displaced { mesh.bounds } else { bounds } }
     }
 
-    /// Whether its bounding box lies within that of `outer`, grown by 5 % of its size on each side.
+    /// Whether this body's box lies within the box of `outer`, after the outer box is grown by 5 % on each side.
     fn is_within(&self, outer: &Self) -> bool {
         let (Some((low, high)), Some((outer_low, outer_high))) = (self.bounds, outer.bounds) else {
             return false;

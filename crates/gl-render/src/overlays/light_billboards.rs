@@ -44,7 +44,7 @@ pub enum BillboardIcon {
 /// How large a billboard is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BillboardSize {
-    /// Half its side in world units: the farther away it is, the smaller it looks.
+    /// Half its side in world units: in perspective, the farther away it is, the smaller it looks.
     World(f32),
     /// Half its side in pixels, wherever it stands.
     Pixels(f32),

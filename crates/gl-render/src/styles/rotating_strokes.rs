@@ -156,7 +156,8 @@ impl RotatingStrokes {
         Ok(())
     }
 
-    /// Copies the picture before a layer whose strokes pick up wet paint from it.
+    /// Copies the picture, if strokes of this layer will pick up wet paint from it. To be called before the layer is
+    /// laid.
     fn copy_below(&self, input: &StyleInput<'_>, layer: LayerRun) {
         let Some(targets) = &self.targets else { return };
         let picks_up = strokes_of(input, layer).iter().any(|stroke| stroke.paint.pickup > 0);

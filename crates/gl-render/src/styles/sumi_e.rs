@@ -1,12 +1,12 @@
 //! Ink on paper: a dark silhouette over an interior of four tones.
 //!
-//! The style has two rules. First, the rule of its source, the RenderMonkey effect "Sumi-e Drawing"
-//! (`docs/techniques/sumi_e.md`). Targets, 8 bits each: `silhouette`, `blurred silhouette`, `interior`,
-//! `blurred interior`. Passes: those of [`SOURCE_PASSES`].
+//! The style has two ways of drawing, called rules ([`InkRule`]). The first is the rule of its source, the RenderMonkey
+//! effect "Sumi-e Drawing" (`docs/techniques/sumi_e.md`). Targets, 8 bits a channel: `silhouette`,
+//! `blurred silhouette`, `interior`, `blurred interior`. Passes: those of [`SOURCE_PASSES`].
 //!
-//! Second, our own rule. Targets: `wash` (silhouette, interior, seal red, body), `soft` and `wide` (the wash blurred a
-//! little, and far), `strokes`. Passes: wash, soften (four times), resolve (finds ink, presence and place of each
-//! stroke), ink strokes (a billboard each), lay.
+//! The second is our own rule. Targets: `wash` (silhouette, interior, seal red, body), `soft` and `wide` (the wash
+//! blurred a little, and far), `strokes`. Passes: wash, soften (four times), resolve (finds ink, presence and place of
+//! each stroke), ink strokes (a billboard each), lay.
 
 mod paper;
 mod programs;

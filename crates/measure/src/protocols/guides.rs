@@ -23,8 +23,9 @@ const FACED: f64 = 0.35;
 /// The largest difference allowed between a stroke on a guide and the guide as drawn, degrees.
 const MOST_DEG: f64 = 0.5;
 
-/// Adds the result to the row of M11. Only guides that comb at full strength and fall off are measured. Returns false
-/// if a stroke on such a guide does not show as drawn, or if there are such guides but no stroke lies on them.
+/// Adds the result to the row of M11. It covers only guides that comb at full strength on their line and less away
+/// from it (not [`Falloff::Flat`]). Returns false if a stroke on such a guide does not show as drawn, or if there are
+/// such guides but no stroke lies on them.
 pub(super) fn add(context: &mut MeasureContext<'_>, row: &mut Row) -> Result<bool, MeasureError> {
     let scene = context.loaded.scene.clone();
     let (mut errors, mut guides) = (Vec::new(), 0);

@@ -1,4 +1,4 @@
-//! Tests of what needs particles: no place needs more than is found.
+//! Tests of where particles are needed: no place needs more than the bound that is found for it.
 
 use super::*;
 use glam::{DAffine3, DVec2};

@@ -59,8 +59,8 @@ impl SeenFrom<'_> {
 const MOST_FRAMES: usize = 4096;
 const MOST_POSES: usize = 200_000;
 
-/// The most joints and targets, summed over all frames. If the shot states more, every object whose vertices move is
-/// taken to have any shape. If a single object has more, it alone is.
+/// The most joints and targets, summed over all frames. If the shot states more, particles lie everywhere on every
+/// object whose vertices move. If a single object has more, they do so on that object.
 const MOST_JOINTS: usize = 500_000;
 
 /// A view, with the poses of all objects.
@@ -110,7 +110,7 @@ impl<'a> Seen<'a> {
         self.cameras.get_or_init(find).as_deref()
     }
 
-    /// The cameras besides that of the scene; `None` if it may be seen from anywhere.
+    /// The cameras besides that of the scene; `None` if the painting may be seen from anywhere.
     fn also(&self) -> Option<&'a [(CameraPose, f64)]> {
         match self.from {
             SeenFrom::Shot { also, .. } => Some(also),

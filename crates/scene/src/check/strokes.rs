@@ -217,7 +217,7 @@ fn check_order(strokes_path: &str, order: &[String], findings: &mut Findings) {
     }
 }
 
-/// The ground has a tone and no strokes, and only the scene has one.
+/// The ground has a tone and no strokes. The scene may have a ground, a region may not.
 fn check_ground(layer_path: &str, layer: &LayerSettings, of_scene: bool, findings: &mut Findings) {
     let is_ground = layer.name == GROUND;
     if is_ground && !of_scene {

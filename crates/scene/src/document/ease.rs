@@ -67,8 +67,8 @@ impl Ease {
             .fold([0.0, 1.0], |[least, most], share| [f64::min(least, share), f64::max(most, share)])
     }
 
-    /// The two handles of the [`Ease::Curve`] that equals it. No curve equals `Step` or `Bounce`: they get the handles
-    /// of `Linear` and `Out`.
+    /// The two handles of the [`Ease::Curve`] that equals this ease. No curve equals `Step` or `Bounce`: they get the
+    /// handles of `Linear` and `Out`.
     pub fn handles(self) -> [[f64; 2]; 2] {
         const THIRD: f64 = 1.0 / 3.0;
         match self {

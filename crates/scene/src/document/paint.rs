@@ -81,8 +81,8 @@ layer_numbers! {
     pickup: 0.0..=1.0,
 }
 
-/// A brush by name, a picture of the user's own (light is paint, or dark on a light background), or a list of them: one
-/// named twice is taken twice as often.
+/// A brush by name, a picture of the user's own, or a list of brushes and pictures: one named twice is taken twice as
+/// often. In a picture, light is paint; if its background is light, dark is paint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BrushMix(pub Vec<String>);
 

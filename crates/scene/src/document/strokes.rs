@@ -77,7 +77,7 @@ const FACTOR: Shown = Shown { unit: "×", drag: 0.0..=8.0, step: 0.1, decimals: 
 stroke_numbers! {
     body {
         /// How long strokes of the body layer are in the picture, pixels at the scene's size. Strokes of other layers
-        /// keep their shape, and the ratio of their area to that of these.
+        /// keep their shape, and their area changes in proportion to that of body strokes.
         length_px {
             limits: 0.001..=MAX_STROKE_PX,
             resolved: |strokes| f64::from(strokes.body().length_px),

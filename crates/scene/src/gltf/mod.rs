@@ -3,7 +3,7 @@
 //!
 //! A node's mesh includes the uneven scale and shear of the node's place in the world at rest. Turn, place and even
 //! scale are left to the object's pose. A triangle's group is the one that the file states (`_GROUP`), or else that of
-//! its primitive; materials keep their names.
+//! its primitive (in a mesh of the whole file: its node); materials keep their names.
 
 mod bend;
 mod joints;

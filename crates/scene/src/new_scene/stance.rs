@@ -51,7 +51,7 @@ pub(super) struct Stance {
 /// From which side a model is seen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ViewFrom {
-    /// Three quarters from the front. The side that shows the most small form is taken as the front.
+    /// Three quarters from the front. The side that shows the most detail is taken as the front.
     #[default]
     Auto,
     /// From +Z of the upright model.
@@ -165,8 +165,8 @@ impl Samples {
         })
     }
 
-    /// The three-quarter view that shows the most small form. The front of a model with a mirror plane is sought along
-    /// that plane.
+    /// The three-quarter view that shows the most bent surface, see [`Self::form_seen`]. The front of a model with a
+    /// mirror plane is sought along that plane.
     fn best_view(&self) -> DVec3 {
         let (bent, lean) = (self.bent(), self.lean());
         let mirrors = self.mirrors();

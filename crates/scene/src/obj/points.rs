@@ -8,7 +8,7 @@ use super::cleaned::Cleaned;
 pub(super) struct NamedPoints {
     /// How many there are.
     pub count: usize,
-    /// For each corner of each face, in order, the line that it names, counted from 0.
+    /// For each corner of each face, in order, the `v` line that it names, counted from 0.
     pub of_corner: Vec<u32>,
 }
 

@@ -10,8 +10,8 @@ use rayon::prelude::*;
 
 use super::text::{Lines, finite};
 
-/// The largest coordinate. At a few times this size, the length of a cross product would overflow in single precision:
-/// under its root stand fourth powers of coordinates.
+/// The largest coordinate. At a few times this size, the length of a cross product would overflow in single precision,
+/// since its square grows with the fourth power of the coordinates.
 pub(super) const MAX_COORDINATE: f64 = 1e9;
 
 /// Texture coordinates of this size or more count as unusable.
@@ -31,7 +31,7 @@ pub(super) enum Kind {
 /// Indices of a corner, counted from 1, by [`Kind`]; 0 where the corner has none.
 pub(super) type Indices = [u32; 3];
 
-/// How many values, faces and corners the plain lines of a piece have: all of its lines, or those before some line.
+/// How many values, faces and corners the plain lines of a piece have: all its plain lines, or those before some line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Counts {
     /// Positions, texture coordinates and normals, by [`Kind`].
@@ -44,7 +44,7 @@ pub(super) struct Counts {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Rest {
     pub text: Range<usize>,
-    /// What the plain lines of the piece before these hold.
+    /// The counts of the piece's plain lines before these lines.
     pub before: Counts,
 }
 

@@ -17,7 +17,7 @@ pub(super) fn enter(shot: Arc<Shot>, scene: &mut Scene) -> Vec<Lost> {
     for (index, object) in scene.objects.iter_mut().enumerate().filter(|(_, object)| object.mesh.is_empty()) {
         if let Some(&of) = shot.object_of_name.get(&object.name) {
             object.mesh.clone_from(&shot.objects[of].object.mesh);
-            // Keys of its own move the object as a whole, but its points still move as in the shot.
+            // An object with keys of its own gets the cache too: the keys move it as a whole, the cache its points.
             if object.cache.is_none() {
                 object.cache.clone_from(&shot.objects[of].object.cache);
             }

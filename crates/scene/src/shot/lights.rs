@@ -8,8 +8,8 @@ use super::Shot;
 use crate::document::{Color, Light, LightKind};
 
 /// The intensity that a sun of one watt per square metre gets in a scene. It makes a white surface as bright as in the
-/// program that made the shot, which is 1/π. The soft shoulder of the reference render darkens middle values to about
-/// 0.7 of theirs, so the intensity is 1/π divided by 0.7.
+/// program that made the shot, which is 1/π. The soft shoulder of the reference render multiplies middle values by
+/// about 0.7, so the intensity is 1/π divided by 0.7.
 const OF_WATT: f64 = 0.455;
 
 /// Lux per watt per square metre, as exporters convert.

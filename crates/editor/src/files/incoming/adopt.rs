@@ -57,9 +57,9 @@ pub enum AdoptError {
     },
 }
 
-/// Makes a mesh available to a scene. A mesh inside the scene's folder is used where it is. Any other is copied to
-/// `meshes/NAME/` in that folder, with the files that belong to it ([`mesh_format::companions`]) and are inside the
-/// mesh's own folder. No existing file is overwritten.
+/// Makes a mesh available to a scene. A mesh inside the scene's folder is used where it is, if the scene can find it by
+/// its name. Any other is copied to `meshes/NAME/` in that folder, with the files that belong to it
+/// ([`mesh_format::companions`]) and are inside the mesh's own folder. No existing file is overwritten.
 ///
 /// # Errors
 /// [`AdoptError`], with the words to show.

@@ -81,8 +81,8 @@ fn this_version() -> u32 {
     VERSION
 }
 
-/// Reads the preferences in a folder. Never fails: a file that cannot be used, or that a newer Impasto wrote, is
-/// renamed to `editor.ron.bad`, and the defaults are used.
+/// Reads the preferences in a folder. Never fails: if the file cannot be used, or a newer Impasto wrote it, the
+/// defaults are used, and the file is renamed to `editor.ron.bad` if that is possible.
 pub fn load(folder: &Path) -> Loaded {
     let path = folder.join(FILE);
     let why = match read_regular_file(&path, MAX_BYTES) {

@@ -11,7 +11,8 @@ use crate::panels::brush_thumbnails::thumbnail;
 use crate::widgets::{self, Tip};
 
 pub(super) struct BrushRow<'a> {
-    /// The layer of paint that has these brushes; the buttons' names end with it. Empty for the strokes themselves.
+    /// The layer of paint that has these brushes; the buttons' names end with it. Empty for the brushes that a region
+    /// or the scene states for its strokes.
     pub(super) of: &'a str,
     /// The brushes that are used now; one named twice is taken twice as often.
     pub(super) mix: &'a [String],

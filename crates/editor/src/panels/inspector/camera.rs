@@ -46,7 +46,7 @@ fn lens(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
     row(ui, "Projection", |ui| {
         let mut parallel = usize::from(matches!(camera.lens, Lens::Orthographic { .. }));
         if widgets::segmented(ui, &["Perspective", "Parallel"], &mut parallel).changed() {
-            // The target keeps its size in the picture.
+            // What is at the target keeps its size in the picture.
             let distance = was.eye.distance(was.target).max(MIN_LENGTH);
             asker.ask(set(match was.lens {
                 Lens::Perspective { fov_y_deg, .. } => {

@@ -108,7 +108,7 @@ impl EditedLayer {
 }
 
 impl EditedStrokes<'_> {
-    /// The command that replaces what is stated for the layer of the same name by `layer`.
+    /// The command that puts `layer` in place of what is stated for the layer of the same name.
     pub(super) fn set_layer(&self, layer: LayerSettings) -> Command {
         self.set(StrokeChange::PaintLayer(Box::new(layer)))
     }

@@ -15,7 +15,7 @@ use crate::widgets::NumberField;
 pub(super) struct Number<'a> {
     /// The name for screen readers.
     pub(super) name: &'a str,
-    /// The label, where the name is too long for one.
+    /// The label, where the name is too long to be the label itself.
     pub(super) label: Option<&'a str>,
     /// What the number belongs to. It tells numbers of the same name apart where one selection has several.
     pub(super) of: &'a str,

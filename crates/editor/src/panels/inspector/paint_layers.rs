@@ -1,5 +1,5 @@
-//! The section *Paint layers* of the inspector: the layers of paint as a list, the last laid at the top, and under it
-//! the numbers of the one that is selected.
+//! The section *Paint layers* of the inspector: a list of the layers of paint, with the one that is laid last at the
+//! top, and under the list the numbers of the selected layer.
 
 use egui::{Align, Layout, Rect, Response, Ui, UiBuilder};
 use impasto_editor_model::command::StrokeChange;
@@ -38,8 +38,8 @@ pub(super) fn section_of(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<
     });
 }
 
-/// Whether the style is brush strokes. Only in this style does the order of layers matter, and only here do touches
-/// lie over the layers.
+/// Whether the style is brush strokes. In the other styles the order of layers does not matter, and no touches lie over
+/// them.
 fn is_painted(asker: &Asker<'_, '_>) -> bool {
     matches!(asker.scene().style, Style::RotatingStrokes(_))
 }

@@ -87,7 +87,8 @@ pub(super) fn note(ui: &mut Ui, words: &str) {
     ui.add(egui::Label::new(RichText::new(words).font(type_face::small()).color(weak)).wrap());
 }
 
-/// The head of the inspector, such as an icon, a name and a note. [`at_end`] lays out what stands at its right end.
+/// The head of the inspector, for example with an icon, a name and a note. [`at_end`] lays out what stands at its right
+/// end.
 pub(super) fn head(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
     let tokens = Tokens::of(ui);
     ui.painter().hline(ui.max_rect().x_range(), ui.cursor().top() + 0.5, (1.0, tokens.div));

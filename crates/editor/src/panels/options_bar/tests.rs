@@ -8,7 +8,7 @@ use impasto_editor_model::{Document, Session};
 use super::*;
 use crate::theme::{self, Theme};
 
-/// German translations: at least as long as any words that the bar may have to show.
+/// German translations, as examples of long words. What is not listed stays English.
 fn german(words: &'static str) -> &'static str {
     match words {
         "Along" => "Entlang",

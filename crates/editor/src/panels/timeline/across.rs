@@ -114,7 +114,7 @@ pub(in crate::panels) fn number(ui: &Ui, at: Pos2, align: Align2, frame: f64) {
     ui.painter().text(at, align, format!("{frame}"), type_face::ruler(), Tokens::of(ui).weak);
 }
 
-/// Marks each frame that playback has dropped with a bar, whose upper edge is at `top`.
+/// Draws a bar, with its upper edge at `top`, at each frame that playback has dropped.
 pub(in crate::panels) fn drops(ui: &Ui, across: FrameScale, top: f32, shown: &PanelInput<'_>) {
     let wide = ((across.right - across.left) / across.span() as f32).max(2.0);
     for frame in shown.time.playback.missed() {

@@ -41,7 +41,7 @@ impl LaneLayout<'_> {
     }
 }
 
-/// What the pointer remembers between passes.
+/// What is remembered between passes.
 #[derive(Clone, Debug, Default)]
 struct Memory {
     down: bool,
@@ -105,7 +105,7 @@ pub(super) fn hand(ui: &mut Ui, layout: &LaneLayout<'_>, shown: &PanelInput<'_>,
     ui.data_mut(|data| data.insert_temp(id, memory));
 }
 
-/// The left one of the two keys that a place of a lane lies between; `None` if it does not lie between two keys.
+/// The last key at or before a place on a lane; `None` before the first key, and from the last key on.
 fn between(layout: &LaneLayout<'_>, at: Pos2) -> Option<KeyAt> {
     let place = layout.place(at);
     let lane = layout.lanes.get(place.lane)?;

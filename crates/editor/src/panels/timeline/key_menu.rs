@@ -79,7 +79,7 @@ impl KeyMenu {
         }
     }
 
-    /// The rows: words, keys, and what each does.
+    /// The rows: the words of each, its key on the keyboard, and what it does.
     fn rows(&self, copied: &[KeyAt]) -> Vec<(String, &'static str, Does)> {
         let time = |time: Time| Does::Ask(Box::new(Ask::Do(Command::Time(time))));
         let counted = |count: usize| if count == 1 { "key".to_owned() } else { format!("{count} keys") };

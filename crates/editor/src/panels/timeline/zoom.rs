@@ -1,4 +1,4 @@
-//! Zooms the timeline: which frames its ruler spans, all of them or those that the user zoomed to.
+//! Zooms the timeline: decides which frames its ruler spans, all or only those that the user zoomed to.
 
 use egui::{Id, Rect, Ui};
 

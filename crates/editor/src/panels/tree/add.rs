@@ -1,4 +1,4 @@
-//! The menu beside the scene tree that adds meshes, lights and regions to the scene.
+//! The menu in the head of the scene tree that adds meshes, lights and regions to the scene.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,4 @@
-//! Draws a tint where an amount is painted. The amount is a factor: warm where it is above 1, cool where it is below.
+//! Draws a tint where an amount is painted: warm where the painted factor is above 1, cool where it is below.
 
 use egui::{Color32, Mesh, Rect, Shape};
 

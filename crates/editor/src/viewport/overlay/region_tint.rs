@@ -24,7 +24,7 @@ pub struct RegionTint {
     runs: Vec<[usize; 3]>,
     edge: Outline,
     cells_per_point: f64,
-    /// Where its name is drawn, in points from the picture's upper left corner: the place in its cells that is
+    /// Where its name should be drawn, in points from the picture's upper left corner: the place in its cells that is
     /// nearest to their mean.
     middle_points: DVec2,
 }

@@ -92,8 +92,8 @@ impl NumberField<'_> {
         (done, cancelled)
     }
 
-    /// Resets the value to its default on a double click, and returns whether there was one. The first click opens the
-    /// text field, so the second one lands there.
+    /// Resets the value after a double click on the text field, and returns whether it did. Without a default it does
+    /// nothing. The first click opens the text field, so the second one lands there.
     pub(super) fn is_double_clicked(&mut self, ui: &Ui, id: egui::Id, frame: Rect) -> bool {
         let Some(default) = self.default else { return false };
         let is_here = is_double_click_in(ui, frame);

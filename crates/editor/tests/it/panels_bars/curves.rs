@@ -119,7 +119,7 @@ fn escape_takes_a_drag_back() {
     assert!(matches!(eases(harness.state(), 37.0)[1], Ease::Curve(..)));
     harness.key_press(Key::Escape);
     harness.step();
-    // With the focus, the handle gets the key; without it, the window would consume the key.
+    // While the handle has the focus, Esc goes to the handle. Otherwise the window would consume Esc.
     assert!(harness.ctx.memory(|memory| memory.focused()).is_some(), "Esc took the focus from the handle");
     harness.run();
     assert_eq!(eases(harness.state(), 37.0), [Ease::Smooth; 2]);

@@ -38,8 +38,8 @@ pub struct Page {
     pub shows: Shows,
     pub choices: welcome::Choices,
     pub questions: Vec<Question>,
-    /// What the bars asked for, except changes of the session or the frame: the page makes those itself. Events on keys
-    /// are here as the commands that came of them.
+    /// What the bars asked for, except changes of the session or the frame: the page makes those itself. Events on
+    /// animation keys are here as the commands that they led to.
     pub asked: Vec<Ask>,
     pub left: Option<welcome::Left>,
     pub answer: Option<Answer>,

@@ -3,7 +3,7 @@
 use impasto_core::hash;
 use impasto_core::presence::smoothstep;
 
-/// Side of the tile in texels; one texel a pixel at the scene's size.
+/// Side of the tile in texels. At the scene's own size, a texel covers one pixel.
 pub(super) const SIDE: u32 = 288;
 
 /// Distance from one thread to the next, pixels: 80 threads in a tile.

@@ -12,7 +12,7 @@ const FOOT: f64 = 0.025;
 const LEAST_SUPPORT: f64 = 0.06;
 
 /// A model counts as not stable at all if its middle lies this far outside the area that it stands on, and as partly
-/// stable if it lies less far outside. In square roots of the area of the model's hull as seen from above.
+/// stable if it lies less far outside. The unit is the square root of the area of the model's hull, seen from above.
 const LEAN: f64 = 0.15;
 
 /// An axis is surely up when its score is this much above the next best.
