@@ -76,9 +76,9 @@ fn lines_apart_deg(a: f64, b: f64) -> f64 {
     off.min(std::f64::consts::PI - off).to_degrees()
 }
 
-/// Bends a mesh by a map of space, and compares how strokes turn with how the map turns. Returns the differences in
-/// degrees, sorted, of the strokes that face the eye in both frames. `reference` is the frame in whose picture
-/// directions are stated: 0, in which the mesh is straight, or 10, in which it is bent.
+/// Bends a mesh by a map of space. Returns by how many degrees the turn of each stroke differs from the turn that the
+/// map gives to the surface's picture there, sorted. Only strokes that face the eye in both frames count. `reference`
+/// is the frame in whose picture directions are stated: 0, in which the mesh is straight, or 10, in which it is bent.
 fn errors(mesh: &TriangleMesh, map: &dyn Fn(DVec3) -> DVec3, scene: Scene, reference: f64) -> Vec<f64> {
     let target = shapes::moved(mesh, map);
     let painting = prepare(shapes::morphing(scene, [mesh.clone(), target])).expect("the scene is good");

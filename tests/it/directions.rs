@@ -485,7 +485,7 @@ fn sizes_follow_the_surface_as_far_as_size_follow_says() {
     }
 }
 
-/// On a ball, a stated axis leaves the surface in two caps, together a tenth of it.
+/// The poles of a ball are two caps, where the stated axis comes out of it. Together they are a tenth of its surface.
 #[test]
 fn poles_are_where_the_stated_axis_leaves_the_surface() {
     for (direction, axis) in [(Direction::Up, Vec3::Y), (Direction::Around([1.0, 0.0, 0.0]), Vec3::X)] {

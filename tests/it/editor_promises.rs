@@ -144,7 +144,7 @@ fn a_missing_texture_is_located_from_the_list_of_problems() {
     assert_eq!(editor.quit(), Some(0));
 }
 
-/// A mesh that is to replace another one is read again for that object, and not as a further object.
+/// `Retry` gives the mesh to the object whose mesh it was to replace, and adds no object.
 #[test]
 fn a_mesh_that_could_not_replace_another_is_retried_for_the_same_object() {
     let Some(screen) = Screen::open() else { return };

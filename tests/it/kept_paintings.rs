@@ -236,7 +236,7 @@ fn small(solver: Solver) -> Arc<LoadedScene> {
     shapes::loaded(scene, [shapes::sphere(12, 6)])
 }
 
-/// A painting that is made for further cameras, or for wider pictures, is never taken for another one.
+/// A kept painting is never taken if it was made for other further cameras, or for narrower or wider pictures.
 #[test]
 fn what_further_cameras_and_wider_pictures_need_has_a_key_of_its_own() {
     let loaded = small(Solver::Tangent);

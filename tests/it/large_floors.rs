@@ -35,8 +35,8 @@ fn floor(size: f64, cells: u32) -> impasto_core::TriangleMesh {
     shapes::moved(&shapes::sheet(cells), move |at| DVec3::new(at.x, 0.0, -at.y) * f64::from(half))
 }
 
-/// How many times over strokes would cover each of four bands of 40 rows. The bands are the lowest 160 rows of the
-/// picture, from the top down.
+/// The area of all strokes (length times width times presence) in each of four bands of 40 rows, as a multiple of the
+/// band's area. The bands are the lowest 160 rows of the picture, from the top down.
 fn covered(painting: &Painting, frame: f64) -> [f64; 4] {
     let frame = painting.at(frame, &FrameOptions::new(SIZE_PX));
     let mut covered = [0.0; 4];
@@ -76,7 +76,8 @@ fn a_floor_is_painted_alike_however_far_it_runs() {
 /// Strokes grow with the floor that they lie on, or are lifted off it, while the camera comes nearer and looks aside.
 #[test]
 fn strokes_that_follow_the_size_or_are_lifted_have_particles_where_they_are_seen() {
-    // The last number is the frame of the reference: strokes are small beside it where the camera is farther away.
+    // The last number is the frame of the reference. In frames with the camera farther away than in the reference,
+    // strokes are smaller.
     for (follow, offset, reference) in
         [(0.6, 0.0, 0), (1.0, 0.0, 0), (0.0, 0.8, 0), (0.6, 0.5, 0), (0.4, 0.0, 9)]
     {
@@ -92,7 +93,7 @@ fn strokes_that_follow_the_size_or_are_lifted_have_particles_where_they_are_seen
         };
         let (small, ..) = of(40.0);
         let (large, particles, is_partial) = of(1000.0);
-        // Half of what lies everywhere on a floor of this size, and some more.
+        // A little more than half of the particles that a floor of this size has if they lie everywhere.
         assert!(is_partial && particles < 250_000, "{follow}, {offset}: {particles} particles");
         for (small, large) in small.iter().flatten().zip(large.iter().flatten()) {
             assert!(*small > 2.4, "{small}");
@@ -229,8 +230,8 @@ fn a_floor_that_bends_has_the_same_strokes_with_fewer_particles() {
         let [along, across] = [0.7 * at.x, 0.9 * at.z + 0.4].map(f64::sin);
         DVec3::new(at.x + 0.4 * across, at.y + 1.1 * along * across, at.z + 0.3 * along)
     };
-    // Strokes that are offset to below the floor face the eye for longer when it turns away. Large faces reach past the
-    // camera.
+    // Strokes that are offset to below the floor face the eye for longer when the floor turns away. Large faces reach
+    // past the camera.
     for (lens, offset, faces) in [
         (scene.camera.lens.clone(), None, 54),
         (scene.camera.lens.clone(), Some(-0.3), 54),

@@ -52,8 +52,8 @@ fn a_text_takes_the_place_of_a_file_and_a_broken_one_leaves_the_last_good() {
     assert!(renderer.render(&exact).unwrap() == own);
 }
 
-/// EGL still takes its context for current after OSMesa has made its own current. Without care, the EGL renderer would
-/// then draw, and free its objects, in OSMesa's context.
+/// When OSMesa's context is made current, EGL still believes that EGL's context is current. Without care, the EGL
+/// renderer would then draw, and free its objects, in OSMesa's context.
 #[test]
 fn renderers_of_two_drivers_on_one_thread_keep_apart() {
     let painting = painting();

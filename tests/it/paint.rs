@@ -220,7 +220,8 @@ fn extreme_settings_still_give_a_picture() {
     }
 }
 
-/// The standard deviation of green from its mean over 9 × 9 pixels, over the pixels where `inside` holds.
+/// How much green differs from its mean over the 9 × 9 pixels around: the root mean square over the pixels where
+/// `inside` holds.
 fn roughness(rgba8: &[u8], width: usize, inside: impl Fn(usize, usize) -> bool) -> f64 {
     let green = |x: usize, y: usize| f64::from(rgba8[(y * width + x) * 4 + 1]);
     let (mut sum, mut count) = (0.0, 0.0);
@@ -294,8 +295,8 @@ fn paint_ends_at_a_crease() {
     let painting = prepare(shapes::loaded(scene, [shapes::cube()])).unwrap();
     renderer.render(&painting.at(0.0, &options(size_px))).unwrap();
     let paint = renderer.read_paint();
-    // Green by row, from the top: light on the top of the cube, dark on its front. So few strokes leave gaps, which are
-    // not counted.
+    // Green by row, from the top: light on the top of the cube, dark on its front. The strokes are so few that they
+    // leave gaps, which are not counted.
     let row = |y: usize| {
         let painted = paint[y * 640 + 280..y * 640 + 360].iter().filter(|pixel| pixel[3] > 0.9);
         let greens: Vec<f64> = painted.map(|pixel| f64::from(pixel[1])).collect();

@@ -242,7 +242,7 @@ fn hidden_strokes_are_absent_and_open_ones_whole() {
         if !(14.0..626.0).contains(&x) || !(14.0..346.0).contains(&y) {
             continue;
         }
-        // What the pixels show: the bodies within reach of the occlusion taps.
+        // The bodies that show in the pixels within reach of the occlusion taps.
         let around: Vec<u32> = (-14..=14)
             .flat_map(|dy| (-14..=14).map(move |dx| (dx, dy)))
             .map(|(dx, dy)| {

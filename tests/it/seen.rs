@@ -1,4 +1,5 @@
-//! Tests that the alpha of a stroke that nothing hides comes from its rank and facing alone, even at a grazing angle.
+//! Tests that the alpha of a stroke that nothing hides comes from supply, rank and facing alone, even at a grazing
+//! angle.
 
 use glam::DVec3;
 use impasto_core::presence;
@@ -9,7 +10,8 @@ use impasto_tests::pictures::renderer;
 use impasto_tests::shapes;
 
 /// The eye looks up by 5, 8 or 20 degrees over a level floor. Judged by its normal and the gaze alone, the floor would
-/// face away, but the eye sees it. Nothing stands on it, so only rank and facing decide how far each stroke is present.
+/// face away, but the eye sees it. Nothing stands on it, so only supply, rank and facing decide how far each stroke is
+/// present.
 #[test]
 fn strokes_of_a_bare_floor_are_whole_under_an_eye_that_looks_up() {
     let floor = || shapes::moved(&shapes::sheet(8), |at| DVec3::new(8.0 * at.x, 0.0, -8.0 * at.y));

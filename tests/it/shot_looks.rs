@@ -70,8 +70,8 @@ fn a_shot_is_as_bright_as_where_it_was_made_within_limits() {
         light(&loaded(&home.shot()))
     };
     let watts = |watts: f64| lit(watts * 683.0);
-    // A usual sun keeps its brightness: a white wall is as bright as in the program that made the shot. Light grows in
-    // proportion to the sun.
+    // A usual sun keeps its brightness: a white wall is as bright as in the program that made the shot. The sun's
+    // brightness is in proportion to its watts.
     let [usual, around, day] = watts(3.0);
     assert!((usual - 3.0 * 0.455).abs() < 1e-3 && (around / usual - 0.11).abs() < 1e-3, "{usual} {around}");
     assert!((watts(2.0)[0] * 1.5 / usual - 1.0).abs() < 1e-3);

@@ -33,7 +33,7 @@ fn normals_that_run_along_their_faces_are_made_anew() {
         "{:?}",
         mesh.mesh.normals
     );
-    // One sliver with such normals beside a large face keeps them, since smoothing makes such slivers.
+    // A single sliver beside a large face keeps such normals, since smoothing often gives them to slivers.
     let sliver = "v 1 0 0\nv 1 0.001 0\nv 1 0 0.001\nvn 0 0 1\n";
     let text = format!("{QUAD}{sliver}f 1//1 2//1 3//1 4//1\nf 5//1 6//1 7//1\n");
     let (mesh, warnings) = read(&text, "");

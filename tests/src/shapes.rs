@@ -207,8 +207,8 @@ pub fn loaded(scene: Scene, meshes: impl IntoIterator<Item = TriangleMesh>) -> A
     })
 }
 
-/// The scene with holes in its objects: a texture whose alpha rises from 0 at the left to 1 at the right, drawn where
-/// alpha is at least `cutoff`.
+/// The scene with holes in its objects. They get a texture whose alpha rises from 0 at the left to 1 at the right, and
+/// are drawn where alpha is at least `cutoff`.
 pub fn with_holes(loaded: &LoadedScene, cutoff: f32) -> Arc<LoadedScene> {
     const TEXELS: u32 = 256;
     let row: Vec<[u8; 4]> = (0..TEXELS).map(|alpha| [255, 255, 255, alpha as u8]).collect();

@@ -168,7 +168,8 @@ fn light_falls_on_a_displaced_sheet_as_on_one_that_was_modelled_so() {
     }
 }
 
-/// The planted fault is a slope that is a third too small, along either axis of the noise or of the model.
+/// The planted faults are slopes along U or V that are a third too small, in all directions of the model or along one
+/// of its axes alone.
 #[test]
 fn a_fault_of_displaced_normals_is_seen_in_the_light() {
     let mut renderer = renderer(Driver::Egl);
