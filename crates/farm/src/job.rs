@@ -37,7 +37,7 @@ struct Run {
 
 impl Run {
     fn count(self) -> usize {
-        ((self.last - self.first) / self.step) as usize + 1
+        (self.last.abs_diff(self.first) / self.step.unsigned_abs()) as usize + 1
     }
 
     fn text(self) -> String {
@@ -116,6 +116,10 @@ mod tests {
             ("-5--1", "-5--1"),
             ("1,2,3,2,1,7", "1-3,7"),
             ("-9000000000000000000,9000000000000000000", "-9000000000000000000,9000000000000000000"),
+            (
+                "-9000000000000000000,0,9000000000000000000",
+                "-9000000000000000000-9000000000000000000:9000000000000000000",
+            ),
         ] {
             let found = frames(list);
             assert_eq!(found.text(), told, "of {list}");

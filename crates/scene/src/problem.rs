@@ -65,7 +65,7 @@ impl Problem {
 impl fmt::Display for Problem {
     /// `file:line:column: error: what is wrong; what to do about it`.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{}", harmless(&self.path.to_string_lossy()))?;
+        write!(formatter, "{}", escaped(&self.path.to_string_lossy(), MOST_OF_A_PATH))?;
         if let Some(place) = self.place {
             write!(formatter, ":{}:{}", place.line, place.column)?;
         }
@@ -82,20 +82,26 @@ impl fmt::Display for Problem {
 /// The most characters of a word that are shown: few names of files are longer, and a hostile word may have millions.
 const MOST_OF_A_WORD: usize = 200;
 
+/// The most characters of the path of a file: no system opens a longer one.
+const MOST_OF_A_PATH: usize = 4096;
+
 /// A text that is safe to show in a terminal: control characters except line feeds and tabs are escaped, and very long
 /// words are cut.
 pub fn harmless(text: &str) -> String {
+    escaped(text, MOST_OF_A_WORD)
+}
+
+fn escaped(text: &str, most_of_a_word: usize) -> String {
     let mut shown = String::with_capacity(text.len().min(1 << 12));
     let mut length = 0;
     for letter in text.chars() {
         length = if letter.is_whitespace() { 0 } else { length + 1 };
-        match length {
-            ..=MOST_OF_A_WORD if letter.is_control() && letter != '\n' && letter != '\t' => {
-                shown.extend(letter.escape_debug());
-            }
-            ..=MOST_OF_A_WORD => shown.push(letter),
-            _ if length == MOST_OF_A_WORD + 1 => shown.push('…'),
-            _ => {}
+        if length > most_of_a_word {
+            shown.extend((length == most_of_a_word + 1).then_some('…'));
+        } else if letter.is_control() && letter != '\n' && letter != '\t' {
+            shown.extend(letter.escape_debug());
+        } else {
+            shown.push(letter);
         }
     }
     shown
@@ -134,5 +140,10 @@ mod tests {
         assert_eq!(harmless("a \u{1b}[31mred\u{7}\n\tb é"), "a \\u{1b}[31mred\\u{7}\n\tb é");
         let long = format!("{} next {}", "x".repeat(10_000_000), "y".repeat(200));
         assert_eq!(harmless(&long), format!("{}… next {}", "x".repeat(200), "y".repeat(200)));
+        // The path of a file is told whole.
+        let path = Path::new("/farm").join("of_a_show/".repeat(30)).join("shot.ron");
+        let error = crate::assets::AssetError::NotAFile("a.obj".into());
+        let told = error.to_problem(Severity::Warning, &path, None).to_string();
+        assert!(told.starts_with(&format!("{}: warning", path.display())), "{told}");
     }
 }

@@ -118,6 +118,12 @@ impl<'a> PanelInput<'a> {
         self.keymap.shortcut_text_in(action, scope).unwrap_or_default()
     }
 
+    /// `words` with `{}` replaced by the shortcut of an action; empty if it has none.
+    pub fn with_keys_of(&self, action: Action, words: &str) -> String {
+        let keys = self.keys_of(action);
+        if keys.is_empty() { String::new() } else { words.replace("{}", &keys) }
+    }
+
     /// Why an action cannot be done now, in the words of its tooltip; `None` if it can.
     pub fn why_not(&self, action: Action) -> Option<&'static str> {
         let selected = self.document.selection().active().is_some();

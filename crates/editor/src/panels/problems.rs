@@ -8,6 +8,7 @@ mod trouble;
 
 use egui::{Align, Id, Panel, Rect, RichText, Role, Sense, Ui, WidgetInfo, vec2};
 use impasto_editor_model::editor::Mend;
+use impasto_editor_model::keymap::Action;
 
 use super::{Ask, PanelInput, row, row_from_right, text_width, within};
 use crate::icons;
@@ -100,7 +101,7 @@ pub fn problems(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) -> boo
         });
         if certain_count > 0 {
             let rect = part(left, whole.bottom() - FOOT, whole.bottom()).shrink2(vec2(12.0, 0.0));
-            within(ui, rect, row(), |ui| fix_all(ui, certain_count, asks));
+            within(ui, rect, row(), |ui| fix_all(ui, shown, certain_count, asks));
         }
         if has_text {
             ui.painter().vline(split, head_rect.bottom()..=whole.bottom(), (1.0, tokens.div));
@@ -150,19 +151,21 @@ fn head(ui: &mut Ui, shown: &PanelInput<'_>, count: usize, asks: &mut Vec<Ask>) 
             asks.push(Ask::SaveCopy);
         }
         let again = Button::new("Read again").icon(icons::REFRESH).show(ui);
-        if again.on_hover_text("Reads the file on disk once more. Ctrl Z takes it back.").clicked() {
+        let undo = shown.with_keys_of(Action::Undo, " {} takes it back.");
+        if again.on_hover_text(format!("Reads the file on disk once more.{undo}")).clicked() {
             asks.push(Ask::Mend(Mend::ReadAgain));
         }
     });
     stays
 }
 
-fn fix_all(ui: &mut Ui, count: usize, asks: &mut Vec<Ask>) {
+fn fix_all(ui: &mut Ui, shown: &PanelInput<'_>, count: usize, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.x = measure::GAP;
     let words = format!("Fix all that are certain ({count})");
     if Button::new(&words).name("Fix all that are certain").show(ui).clicked() {
         asks.push(Ask::Mend(Mend::FixCertain));
     }
-    let note = RichText::new("as one step, Ctrl Z takes it back").font(type_face::small());
+    let undo = shown.with_keys_of(Action::Undo, ", {} takes it back");
+    let note = RichText::new(format!("as one step{undo}")).font(type_face::small());
     ui.label(note.color(Tokens::of(ui).weak));
 }

@@ -2,6 +2,7 @@
 
 use egui::Ui;
 use impasto_editor_model::command::{Amounts, Command};
+use impasto_editor_model::keymap::Action;
 use impasto_scene::document::{Amount, PaintedAmount, Region};
 
 use super::Asker;
@@ -13,7 +14,8 @@ pub(super) fn section_of(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: &Region
     let open = is_wide(ui) || count > 0;
     section(ui, "Painted amounts", &count.to_string(), open, |ui| {
         if count == 0 {
-            note(ui, "Nothing is painted. Paint width, length, density or flatness (P).");
+            let keys = asker.shown.with_keys_of(Action::Amount, " ({})");
+            note(ui, &format!("Nothing is painted. Paint width, length, density or flatness{keys}."));
         }
         for (index, amount) in region.amounts.iter().enumerate() {
             row(ui, label(amount.of), |ui| list(ui, asker, (region, index), amount));

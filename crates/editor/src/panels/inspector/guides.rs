@@ -2,6 +2,7 @@
 
 use egui::{Align2, Color32, DragAndDrop, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
 use impasto_editor_model::command::{Command, Directions, Edit, GuideSettings};
+use impasto_editor_model::keymap::Action;
 use impasto_editor_model::{Item, Selection};
 use impasto_scene::document::{Falloff, Guide, GuideMode, Region};
 
@@ -23,7 +24,8 @@ pub(super) fn section_of(ui: &mut Ui, asker: &mut Asker<'_, '_>, [region, stored
     let open = is_wide(ui) || active.is_some();
     section(ui, "Guides", &count, open, |ui| {
         if region.guides.is_empty() {
-            note(ui, "No guides. Comb over the region, or draw a curve (V).");
+            let keys = asker.shown.with_keys_of(Action::GuideCurve, " ({})");
+            note(ui, &format!("No guides. Comb over the region, or draw a curve{keys}."));
         }
         let mut placed = Vec::new();
         for (index, guide) in region.guides.iter().enumerate() {

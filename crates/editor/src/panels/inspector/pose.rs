@@ -3,6 +3,7 @@
 
 use egui::Ui;
 use impasto_editor_model::command::{Arrange, Command, KeyOf, Pose, PoseField, Time};
+use impasto_editor_model::keymap::Action;
 use impasto_editor_model::session::Mode;
 use impasto_scene::document::{Ease, Object, ObjectKey};
 use impasto_scene::limits::{KEY_SCALE, MAX_FRAME};
@@ -27,11 +28,11 @@ pub(super) fn of_object(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]
     let title = if animate { format!("Pose at frame {frame}") } else { "Transform".to_owned() };
     let warns = animate && asker.shown.time.is_loose(&stored.name);
     let note = match (warns, animate && is_keyed) {
-        (true, _) => "not keyed, I keeps it",
-        (_, true) => "keyed",
-        _ => "",
+        (true, _) => format!("not keyed{}", asker.shown.with_keys_of(Action::SetKey, ", {} keeps it")),
+        (_, true) => "keyed".to_owned(),
+        _ => String::new(),
     };
-    section(ui, &title, note, true, |ui| {
+    section(ui, &title, &note, true, |ui| {
         let now = motion::key_at(asker.scene(), object, frame);
         let was = motion::key_at(asker.stored(), stored, frame);
         let set = |field: PoseField, value: f64| {

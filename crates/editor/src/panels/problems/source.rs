@@ -7,6 +7,7 @@ use egui::{Color32, Context, Id, Rect, RichText, Role, ScrollArea, TextEdit, Ui,
 use impasto_editor_model::Document;
 use impasto_editor_model::document::Source;
 use impasto_editor_model::editor::Mend;
+use impasto_editor_model::keymap::{Action, Scope};
 use impasto_scene::problem::TextPosition;
 
 use crate::panels::{Ask, PanelInput, row_from_right, within};
@@ -140,7 +141,9 @@ pub(super) fn source(
         within(ui, rect, row_from_right(), |ui| {
             ui.spacing_mut().item_spacing.x = measure::GAP;
             let button = Button::new("Read this text").primary().show(ui);
-            let tip = "Reads the scene from the text above (Ctrl Enter). The file on disk stays as it is.";
+            let keys = shown.keymap.shortcut_text_in(Action::ReadSource, Scope::Typing);
+            let keys = keys.map(|keys| format!(" ({keys})")).unwrap_or_default();
+            let tip = format!("Reads the scene from the text above{keys}. The file on disk stays as it is.");
             if button.on_hover_text(tip).clicked() {
                 asks.push(Ask::Mend(Mend::ReadText(memory.typed.clone())));
             }

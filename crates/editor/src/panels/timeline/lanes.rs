@@ -4,6 +4,7 @@ use egui::{
     Align2, Color32, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, UiBuilder, WidgetInfo, accesskit, pos2, vec2,
 };
 use impasto_editor_model::command::{KeyOf, StrokesOf, ease_name};
+use impasto_editor_model::keymap::Action;
 use impasto_editor_model::timeline::{KeysEvent, Lane, LaneKey, TimelineEvent};
 use impasto_editor_model::{Item, Selection};
 use impasto_scene::document::Ease;
@@ -121,9 +122,11 @@ pub(super) fn keys(ui: &mut Ui, row: LaneRow, lane: &Lane, shown: &PanelInput<'_
         let at = pos2(row.across.left + 8.0, middle);
         let is_auto = shown.session.auto_key && !lane.locked;
         let words = match (lane.of_shot, is_auto) {
-            (true, _) => "moves as the shot has it",
-            (false, true) => "no keys: move it, or press I",
-            (false, false) => "no keys, press I",
+            (true, _) => "moves as the shot has it".to_owned(),
+            (false, true) => {
+                format!("no keys: move it{}", shown.with_keys_of(Action::SetKey, ", or press {}"))
+            }
+            (false, false) => format!("no keys{}", shown.with_keys_of(Action::SetKey, ", press {}")),
         };
         ui.painter().text(at, Align2::LEFT_CENTER, words, type_face::small(), tokens.weak);
     }
