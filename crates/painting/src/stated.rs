@@ -74,7 +74,7 @@ impl DirectionRules<'_> {
         }
     }
 
-    /// The stated direction at a point, from all references that face it.
+    /// The stated direction at a point, from the references in `views` that face it.
     pub(crate) fn base(&self, point: SurfacePoint, views: &Views) -> StatedDirection {
         let line = self.line(point);
         let symmetry = symmetry(&self.rules[point.rule]);

@@ -22,8 +22,9 @@ const CELLS: usize = 32;
 /// A cell that would have more tries than this in a level is split.
 const MOST_TRIES: f64 = 48.0;
 
-/// Where faces lie on each other, there is only room for the particles of one face, and most tries are in vain. So a
-/// cell that had room for the share s of the particles meant for it gets the share `SPARE`·s of its tries, at most all.
+/// Where faces lie on each other, there is only room for the particles of one face, and most tries are in vain. So tries
+/// are saved in such cells: if a cell had room for a tenth of the particles meant for it, it gets `SPARE` tenths of its
+/// tries in the next level, but never more than all of them.
 const SPARE: f64 = 8.0;
 
 /// The least share of its tries that a cell gets: so room that opens up is found.
@@ -56,8 +57,8 @@ struct AskedCell {
 struct Filled {
     meant: f64,
     added: f64,
-    /// Of the particles meant for the cell, the share for which room was expected when the cell was made. It counts as
-    /// much as one particle that was meant.
+    /// What was expected of the cell when it was made: the share of the particles meant for it that it has room for.
+    /// In [`Filled::share`] this weighs as much as one particle that was meant and tried.
     expected: f64,
 }
 
@@ -310,8 +311,7 @@ impl CellLevel {
     ) -> Added {
         let tries = self.tries();
         active.refine(surface, (tries, self.ordinal(0.0)));
-        // A strict order is that of a body that hides most of itself. Its particles depend on the views anyway, and
-        // many such bodies are crowded in parts.
+        // Tries are saved in crowded parts. A body with a strict order hides most of itself, and is often crowded.
         let saves_tries = self.state.is_crowded() || active.needed.is_some_and(|needed| needed.is_strict);
         let of_cells = |(chunk, (cells, asked)): (usize, (&[Cell], &[AskedCell]))| {
             widest(Throwing {
@@ -365,7 +365,7 @@ impl CellLevel {
     fn thrown(&self, cell: &AskedCell, tried: f64) -> (u32, u32) {
         let seed = hash::combine(hash::combine(self.seed, cell.bits), self.ends[0] as u32);
         let tries = self.tries() * cell.share * tried;
-        // The cell's share of the level's tries. Chance decides whether the fraction that is left makes one more.
+        // Chance decides whether the fraction of a try makes one more.
         (seed, (tries + f64::from(hash::unit(seed))) as u32)
     }
 

@@ -64,8 +64,8 @@ pub(super) fn to_utf8(bytes: Vec<u8>) -> (Vec<u8>, bool) {
 /// Keywords of lines that end in a name. In such a line, a `#` belongs to the name.
 const NAMING: [&[u8]; 7] = [b"g", b"o", b"usemtl", b"mtllib", b"newmtl", b"map_Kd", b"map_kd"];
 
-/// Walks through the lines that have words. A `\` at the end of a line joins the next line to it. A `#` begins a
-/// comment, except in a name.
+/// Walks through the lines that have words. A `\` at the end of a line joins the next line to it. A `#` at the
+/// beginning of a word begins a comment, except in a name.
 pub(super) struct Lines<'a> {
     text: &'a [u8],
     at: usize,
