@@ -1,5 +1,5 @@
-//! Tiles of noise that colour bodies, on the GPU: each is uploaded once. Those that nothing holds in memory any more are
-//! freed when a new one is uploaded.
+//! Tiles of noise that colour bodies, on the GPU: each is uploaded once. Those that nothing holds in memory any more
+//! are freed when a new one is uploaded.
 
 use std::rc::Rc;
 use std::sync::{Arc, Weak};

@@ -22,9 +22,9 @@ const CELLS: usize = 32;
 /// A cell that would have more tries than this in a level is split.
 const MOST_TRIES: f64 = 48.0;
 
-/// Where faces lie on each other, there is only room for the particles of one face, and most tries are in vain. So tries
-/// are saved in such cells: if a cell had room for a tenth of the particles meant for it, it gets `SPARE` tenths of its
-/// tries in the next level, but never more than all of them.
+/// Where faces lie on each other, there is only room for the particles of one face, and most tries are in vain. So
+/// tries are saved in such cells: if a cell had room for a tenth of the particles meant for it, it gets `SPARE` tenths
+/// of its tries in the next level, but never more than all of them.
 const SPARE: f64 = 8.0;
 
 /// The least share of its tries that a cell gets: so room that opens up is found.

@@ -1,4 +1,4 @@
-//! Lines, words and places of an OBJ or MTL text, with any encoding and any line ends.
+//! Lines, words and places of an OBJ or MTL text, with any line ends. UTF-16 is known by its byte order mark.
 
 use std::borrow::Cow;
 use std::path::Path;
