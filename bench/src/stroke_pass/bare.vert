@@ -1,7 +1,7 @@
 // Places the four corners of a stroke and picks its level of detail: the least that drawing billboards takes.
 layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
-layout(location = 1) in vec4 size;           // length and width in px, unused
-layout(location = 2) in uvec4 marks;         // unused, mark
+layout(location = 1) in vec4 size;           // length and width in px; z, w: unused
+layout(location = 2) in uvec4 marks;         // w: mark; the rest: unused
 layout(location = 6) in vec4 resolved;       // colour, alpha
 layout(location = 7) in vec4 fitted;         // centre in px, moved along the stroke onto its body
 uniform vec2 size_px;

@@ -10,7 +10,8 @@ use impasto_core::TriangleMesh;
 use impasto_core::neighbours::Neighbours;
 use impasto_core::sampling::{Particle, Surface, hexagonal_spacing, progressive};
 
-/// Shares of the count. They are not matched to the levels of the order, so most of them end inside a level.
+/// Which beginnings of the order are measured, as shares of all particles. The order is made level by level, and most
+/// of these beginnings end inside a level.
 const BEGINNINGS: [f64; 7] = [0.02, 0.11, 0.25, 0.37, 0.5, 0.71, 1.0];
 
 /// The mean and the 0.1 % quantile of the distances to the nearest neighbour. Both are divided by the spacing of the

@@ -98,7 +98,7 @@ impl Target {
         target
     }
 
-    /// Adds a vertex, unless it does not move.
+    /// Adds a vertex if the target changes its position or its normal.
     pub fn push(&mut self, vertex: u32, position: Vec3, normal: Vec3) {
         if position != Vec3::ZERO || normal != Vec3::ZERO {
             self.vertices.push(vertex);

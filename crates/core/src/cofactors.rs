@@ -2,8 +2,8 @@
 
 use glam::{DMat3, Mat3};
 
-/// The inverse transpose times the determinant; defined for mirrored and flat matrices too. Takes a unit normal to a
-/// normal whose length is the area after the matrix over the area before.
+/// The inverse transpose times the determinant; defined for mirrored and flat matrices too. Takes the unit normal of a
+/// surface to a normal whose length is the factor by which `matrix` enlarges the surface's area.
 #[inline(always)]
 pub fn cofactors(matrix: DMat3) -> DMat3 {
     let DMat3 { x_axis: x, y_axis: y, z_axis: z } = matrix;

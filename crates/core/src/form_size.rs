@@ -14,8 +14,9 @@ const MOST_SAMPLES: usize = 2048;
 const LEAST_COSINE: f32 = 0.906;
 
 /// A sample on the same form as a point is also near the point's tangent plane: it lies off the plane by at most this
-/// share of its distance. Two points of a ball whose normals differ by 25 degrees lie off by about as much. So an eye
-/// ends at its lids, although the cheek faces the same way.
+/// share of its distance from the point. If two points of a ball have normals that differ by 25 degrees, each lies off
+/// the other's tangent plane by about as much. So the form of an eye ends at its lids, although the cheek faces the
+/// same way.
 const MOST_RISE: f32 = 0.22;
 
 /// The form ends at the radius at which it fills only this share of the disc with that radius; a right-angled corner of
@@ -25,8 +26,8 @@ const LEAST_SHARE: f32 = 0.2;
 /// The first radius that is tried, in spacings of the samples: within a smaller one there are too few samples.
 const FIRST_RADIUS: f32 = 2.5;
 
-/// How many radii are tried. Their squares, in squares of the first, are 1, 1.5, 2, 3, 4, 6, 8 and so on: all numbers
-/// from 1 on that a float holds in its exponent and the first bit of its mantissa.
+/// How many radii are tried. Divided by the square of the first, their squares are 1, 1.5, 2, 3, 4, 6, 8 and so on: all
+/// numbers from 1 on that a float holds in its exponent and the first bit of its mantissa.
 const RADII: usize = 24;
 
 /// The sizes are smoothed over samples within this radius, in spacings: 26 of them on a plane.
@@ -36,7 +37,7 @@ const SMOOTHING_RADIUS: f32 = 2.7;
 /// together, the radius is made smaller. So a size is found as quickly in a heap of triangles as on a plane.
 const MOST_NEIGHBOURS: usize = 128;
 
-/// At most this many samples are asked how far away their neighbours are.
+/// The radius with [`MOST_NEIGHBOURS`] is found from the neighbours of at most this many samples.
 const ASKED: usize = 64;
 
 /// The size of the form all over a surface, measured at samples of it.
@@ -49,8 +50,8 @@ const ASKED: usize = 64;
 pub struct FormSize {
     /// The samples, in the order of their buckets.
     blocks: Vec<Block>,
-    /// Where the blocks of each bucket begin, and the end of the last. A bucket holds the cells of a grid that have its
-    /// hash.
+    /// Where the blocks of each bucket begin; last, the number of all blocks. A bucket holds the samples in all those
+    /// cells of a grid whose hash is the bucket's index.
     starts: Vec<u32>,
     smoothing_radius: f32,
     least: f32,
@@ -70,7 +71,8 @@ const LANES: usize = 16;
 /// Samples of a bucket side by side, so that they are weighed in wide registers.
 #[derive(Clone, Copy, Debug)]
 struct Block {
-    /// By axis and sample. What fills up the last block of a bucket lies infinitely far away, so it has no weight.
+    /// By axis and sample. Lanes without a sample, in the last block of a bucket, lie infinitely far away, so that they
+    /// have no weight.
     positions: [[f32; LANES]; 3],
     normals: [[f32; LANES]; 3],
     sizes_ln: [f32; LANES],
@@ -80,7 +82,7 @@ struct Block {
 struct Axes([Vec<f32>; 6]);
 
 impl FormSize {
-    /// Measures a surface; the same for the same surface and seed.
+    /// Measures a surface. The same surface and seed give the same result.
     pub fn of(surface: &Surface<'_>, seed: u32) -> Self {
         let points = sampling::samples(surface, MOST_SAMPLES, seed);
         let spacing = hexagonal_spacing(surface.area(), points.len().max(1)) as f32;
@@ -272,8 +274,8 @@ fn bucket_of(cell: [i32; 3], buckets: usize) -> usize {
     hash::combine(hash::combine(x, y), z) as usize & (buckets - 1)
 }
 
-/// ln of the size of the form round a sample. `beyond` holds the squared distances to the samples of the same form, in
-/// squares of the first radius; `density` is the number of samples per unit of area.
+/// ln of the size of the form round a sample. `beyond` holds the squared distances to all samples, in squares of the
+/// first radius, infinite for samples on other forms; `density` is the number of samples per unit of area.
 fn size_ln_from(beyond: &[f32], first_radius: f32, density: f32) -> f32 {
     // How many samples of the form lie between one radius and the next.
     let mut counts = [0u32; RADII];
@@ -286,7 +288,7 @@ fn size_ln_from(beyond: &[f32], first_radius: f32, density: f32) -> f32 {
             counts[step] += 1;
         }
     }
-    // For the last radius: its ln, and the ln of the ratio of the area covered to a fifth of the disc.
+    // The previous radius: its ln, and ln(covered area / a fifth of the area of the disc with that radius).
     let mut last: Option<[f32; 2]> = None;
     let mut covered = 0;
     for (step, count) in counts.iter().enumerate() {
@@ -295,8 +297,8 @@ fn size_ln_from(beyond: &[f32], first_radius: f32, density: f32) -> f32 {
         let fill_ln = (covered as f32 / (density * LEAST_SHARE * std::f32::consts::PI * radius_sq)).ln();
         let radius_ln = 0.5 * radius_sq.ln();
         if fill_ln < 0.0 {
-            // Interpolates between the last radius and this one. If even the first radius is too large, the size is the
-            // radius of a disc of which the samples found cover a fifth.
+            // Interpolates between the previous radius and this one. If even the first radius is too large, the size is
+            // the radius of a disc of which the samples found cover a fifth.
             let [last_radius_ln, last_fill_ln] = last.unwrap_or([radius_ln + 0.5 * fill_ln, 0.0]);
             let part = if last.is_some() { last_fill_ln / (last_fill_ln - fill_ln) } else { 0.0 };
             return last_radius_ln + part * (radius_ln - last_radius_ln);

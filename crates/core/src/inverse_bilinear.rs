@@ -1,7 +1,7 @@
 //! Where a point lies in a quadrilateral: the inverse of bilinear interpolation.
 //!
-//! Let q = p − p₀, b₁ = p₁ − p₀, b₂ = p₂ − p₀, b₃ = p₀ − p₁ − p₂ + p₃ (how far the quad is from a parallelogram), and
-//! the wedge a∧b = a.x b.y − a.y b.x. A point p = p₀ + b₁u + b₂v + b₃uv has
+//! For a point p and the corners p₀ to p₃, let q = p − p₀, b₁ = p₁ − p₀, b₂ = p₂ − p₀, b₃ = p₀ − p₁ − p₂ + p₃ (how far
+//! the quad is from a parallelogram), and the wedge a∧b = a.x b.y − a.y b.x. Then p = p₀ + b₁u + b₂v + b₃uv gives
 //!
 //! ```text
 //! A v² + B v + C = 0,   A = b₂∧b₃,   B = b₃∧q − b₁∧b₂,   C = b₁∧q
@@ -9,9 +9,10 @@
 //! ```
 //!
 //! s is the sign of the quad's area; on a convex quad b₁∧b₂ has the same sign. This form of the root also holds where
-//! A is 0 (rectangles, parallelograms, trapezoids), and for either winding. Where its denominator would cancel, the
-//! same root is computed as (−B − s√) / 2A. u follows from X or from Y, whichever has the larger denominator.
-//! `crates/gl-render/shaders/shared/inverse_bilinear.glsl` computes the same in 32 bits.
+//! A is 0 (rectangles, parallelograms, trapezoids), and for either winding. Where the two terms of its denominator
+//! have opposite signs, and so might cancel, the same root is computed as (−B − s √(B² − 4AC)) / 2A. u follows from X
+//! or from Y, whichever has the larger denominator. `crates/gl-render/shaders/shared/inverse_bilinear.glsl` computes
+//! the same in 32 bits.
 
 use glam::DVec2;
 
@@ -26,9 +27,9 @@ pub fn bilinear(at: DVec2, [p0, p1, p2, p3]: [DVec2; 4]) -> DVec2 {
 /// (u, v) of a point in a quad whose corners are at (0, 0), (1, 0), (0, 1) and (1, 1), in this order, wound either way.
 /// Inside the quad both are within 0..=1.
 ///
-/// The bilinear map of a concave quad folds over itself. A point inside gets the (u, v) of the fold that is wound
-/// like the quad. Points that no (u, v) reaches, points far outside, and quads without area give numbers without
-/// meaning: at most [`FARTHEST`] from 0 and never NaN, for coordinates up to 1e30.
+/// The bilinear map of a concave quad folds over itself, so two (u, v) may lead to one point. A point inside gets the
+/// (u, v) at which the map winds as the quad does. Points that no (u, v) reaches, points far outside, and quads without
+/// area give numbers without meaning: at most [`FARTHEST`] from 0 and never NaN, for coordinates up to 1e30.
 pub fn inverse_bilinear(point: DVec2, [p0, p1, p2, p3]: [DVec2; 4]) -> DVec2 {
     let (q, b1, b2, b3) = (point - p0, p1 - p0, p2 - p0, p0 - p1 - p2 + p3);
     let a = b2.perp_dot(b3);

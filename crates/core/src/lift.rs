@@ -46,10 +46,10 @@ impl Lift {
     }
 
     /// Horn's estimate over neighbours (source paper eq. 2): `Σ d pᵀ / Σ|p|²`. Here d is a neighbour's offset in
-    /// model space, and p is the same offset in pixels of the reference picture. The angle is exactly that of the
-    /// paper's sum with each neighbour weighted by `z_neighbour / z_stroke`. The estimate is doubled, so that it maps
-    /// the reference to about itself, as `tangent` does. `None` with fewer than three neighbours, or where Σ|p|² is
-    /// at most 0.25 px².
+    /// model space, and p is the same offset in pixels of the reference picture. In any view, φ(J N) is exactly the
+    /// angle of the paper's sum with each neighbour weighted by `z_neighbour / z_stroke`. The estimate is doubled, so
+    /// that it maps the reference to about itself, as `tangent` does. `None` with fewer than three neighbours, or where
+    /// Σ|p|² is at most 0.25 px².
     pub fn horn(offsets: impl Iterator<Item = (DVec3, DVec2)>) -> Option<Self> {
         let (mut along, mut across, mut sum, mut count) = (DVec3::ZERO, DVec3::ZERO, 0.0, 0);
         for (d, p) in offsets {

@@ -4,8 +4,9 @@
 //! position ─▶ lookup: S·v·NV + (t, t) ─▶ tile: N, repeated ─▶ v + (saturate(N) − ½)·NS
 //! ```
 //!
-//! v is the vertex, S the body's pose if the noise stands still in the world (else the identity), NV the textures per
-//! unit, t how far the noise has travelled, N the noise, and NS the scale of the displacement.
+//! v is the vertex, S the body's pose if the noise stands still in the world (else the identity), NV how often the
+//! texture repeats per unit of length, t how far the noise has travelled, N the noise, and NS the scale of the
+//! displacement.
 
 mod built_in;
 mod tile;
@@ -25,10 +26,10 @@ pub const SECONDS_PER_TILE: f64 = 20.0;
 /// The directions along which a vertex is moved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Along {
-    /// Each axis by a channel of the noise.
+    /// Along X by the noise's red channel, along Y by green, along Z by blue.
     #[default]
     Channels,
-    /// The normal, by the first channel.
+    /// Along the normal, by the red channel.
     Normal,
 }
 
@@ -90,7 +91,7 @@ pub fn travelled(seconds: f64, period_secs: Option<f64>) -> DVec2 {
 }
 
 /// The shift of the vertices' lookup. Without a period it is `(t, t)`: what [`travelled`] gives, turned by 45 degrees
-/// and scaled by √2. A circle is turned and scaled in the same way.
+/// and scaled by √2. The circle of a noise with a period is turned and scaled in the same way.
 pub fn vertex_shift(travelled: DVec2) -> DVec2 {
     DVec2::new(travelled.x - travelled.y, travelled.x + travelled.y)
 }

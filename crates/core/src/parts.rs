@@ -11,7 +11,8 @@ use crate::{TriangleMesh, shells};
 pub struct Part {
     /// Centroid of its surface, model space.
     pub center: DVec3,
-    /// Unit principal axes, the longest first; each points to the side on which its largest component is positive.
+    /// Principal axes, as unit vectors; the one along which the part is longest comes first. Each points to the side on
+    /// which its component of greatest magnitude is positive.
     pub axes: [DVec3; 3],
     /// Length from end to end along each axis, model units.
     pub extents: [f64; 3],
@@ -90,7 +91,7 @@ impl Moments {
         let area = (b - a).cross(c - a).length() * 0.5;
         self.area += area;
         self.first += (a + b + c) / 3.0 * area;
-        // The mean over the three midpoints of the edges integrates squares over a triangle exactly.
+        // The mean of a quadratic function over a triangle is exactly its mean over the midpoints of the three edges.
         for point in [(a + b) * 0.5, (b + c) * 0.5, (c + a) * 0.5] {
             let point = point.to_array();
             for (row, sums) in self.second.iter_mut().enumerate() {

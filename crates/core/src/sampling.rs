@@ -78,7 +78,7 @@ impl Particle {
     }
 }
 
-/// The visible sides of a mesh's triangles (its faces), with a running sum of their areas.
+/// The faces of a mesh, which are the visible sides of its triangles, with a running sum of their areas.
 #[derive(Clone, Debug)]
 pub struct Surface<'mesh> {
     mesh: &'mesh TriangleMesh,

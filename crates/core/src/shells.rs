@@ -39,7 +39,7 @@ pub fn sides(mesh: &TriangleMesh) -> Vec<Side> {
         .collect()
 }
 
-/// For each triangle the number of its shell, counted from 0 in the order in which shells begin.
+/// For each triangle the number of its shell. Shells are counted from 0 in the order of their first triangles.
 pub fn numbers(mesh: &TriangleMesh) -> Vec<u32> {
     let (mut shells, _) = find(mesh);
     let mut number_of_root: HashMap<usize, u32> = HashMap::new();

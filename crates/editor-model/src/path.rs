@@ -32,8 +32,8 @@ pub(crate) const STAMP_SHARE: f64 = 0.25;
 const TOLERANCE_PX: f64 = 0.5;
 /// The same on a body that bends. A straight gesture there is a curve on the surface at rest, and needs more points.
 const BENT_TOLERANCE_PX: f64 = 0.1;
-/// If two steps are farther apart on the surface than this many pixels, it is checked whether the surface is connected
-/// there.
+/// If two neighbouring steps are farther apart on the surface than this many pixels, it is checked whether the surface
+/// is connected between them.
 const LEAP_PX: f64 = 4.0;
 /// A hand that tries to hold a pen in one place moves it by up to this distance.
 const TREMBLE_PX: f64 = 4.0;
@@ -276,9 +276,9 @@ impl SurfacePath {
         stamps
     }
 
-    /// The pieces as guides, each with few points that keep it within half a pixel of the piece (on a bent body, a
-    /// tenth). Pieces shorter than two steps give none. `seen` is the view that the path was drawn in, `reference` the
-    /// view that the region's directions refer to.
+    /// The pieces as guides, each with few points that keep it within half a pixel of the piece (a tenth of a pixel on
+    /// a body that bends). Pieces shorter than two steps give none. `seen` is the view that the path was drawn in,
+    /// `reference` the view that the region's directions refer to.
     pub fn guides(&self, style: &GuideStyle, seen: &ObjectView, reference: &ObjectView) -> Vec<Guide> {
         self.guides_turned(style, [seen, reference], &|_, _| 0.0)
     }
@@ -403,8 +403,8 @@ impl SurfacePath {
     }
 }
 
-/// The angle at which a line shows at one of its points, counter-clockwise: the tangent of the arc through the point
-/// and its two neighbours.
+/// The angle, radians counter-clockwise, at which a line shows at one of its points: the direction there of the arc
+/// through the point and its two neighbours.
 fn line_rad(points: &[PathPoint], index: usize) -> f64 {
     let piece = |from: usize| points[from + 1].at_px - points[from].at_px;
     let last = points.len() - 2;

@@ -37,8 +37,8 @@ pub(crate) struct BodyProgram {
     variants: [Option<Program>; 2],
 }
 
-/// A pose scales unevenly if its axes differ in squared length, or are off a right angle, by more than this share.
-/// Rounding to single precision makes a smaller difference.
+/// A pose scales unevenly if the squared lengths of its axes differ by more than this share, or if the cosine between
+/// two axes is larger than this. Rounding to single precision makes a smaller difference.
 const UNEVEN: f64 = 1e-4;
 
 /// The matrix that takes normals from model space to the world: the pose itself, or its inverse transpose if the pose

@@ -77,7 +77,7 @@ pub struct PaintedLayer {
     pub kind: LayerKind,
     /// Its paint alone, premultiplied, display-linear; top row first.
     pub rgba: Vec<[f16; 4]>,
-    /// How much of each pixel would show each of its strokes if no later layer lay over them.
+    /// Which of its strokes each pixel would show, and in what share of the pixel, if no later layer lay over them.
     pub shares: PixelShares,
 }
 

@@ -16,8 +16,8 @@ use bounds::Texel;
 pub(crate) struct Marks {
     brushes: Arc<Brushes>,
     pub(crate) texture: Texture,
-    /// A row for each mark, with a texel for each threshold of paint: the box around all texels of the mark with more
-    /// paint than that.
+    /// A row for each mark. For each threshold of paint, the row has the box around all texels of the mark that have
+    /// more paint than the threshold.
     pub(crate) bounds: Texture,
 }
 

@@ -47,7 +47,7 @@ impl Component {
 pub(crate) enum Shape {
     Scalar,
     Vector(usize),
-    /// Square, by its side.
+    /// Square, with this many rows.
     Matrix(usize),
 }
 
@@ -141,7 +141,7 @@ pub(crate) struct Accessor {
     pub is_normalized: bool,
     pub shape: Shape,
     pub count: usize,
-    /// If this is `None`, all elements are zero, unless `is_absent` is set.
+    /// If this is `None` and `is_absent` is not set, all elements are zero, except those that `sparse` replaces.
     pub run: Option<Run>,
     /// Why it cannot be read, if the bytes of one of its views are compressed or not in the file.
     pub is_absent: Option<&'static str>,

@@ -26,7 +26,7 @@ pub enum Lens {
         aspect: Option<f64>,
         /// Nearest distance that shows, more than 0.
         znear: f64,
-        /// Farthest distance that shows, more than `znear` unless one of the two is animated; `None`: infinite.
+        /// Farthest distance that shows, more than `znear`; `None`: infinite.
         zfar: Option<f64>,
     },
     /// Things keep their size.
@@ -37,7 +37,7 @@ pub enum Lens {
         ymag: f64,
         /// Nearest distance that shows, not negative.
         znear: f64,
-        /// Farthest distance that shows, more than `znear` unless one of the two is animated.
+        /// Farthest distance that shows, more than `znear`.
         zfar: f64,
     },
 }

@@ -234,7 +234,7 @@ impl<'a> MeasureContext<'a> {
         Ok(self.renderer.render(frame)?)
     }
 
-    /// Luma of a plain render of a frame: what strokes take their colours from.
+    /// Luma of a frame's plain render ([`Style::Reference`]), from which strokes take their colours.
     ///
     /// # Errors
     /// When drawing fails.

@@ -39,7 +39,7 @@ impl Default for Flicker {
 
 impl Flicker {
     /// Adds three neighbouring frames: |I₊(x + v₊) − 2 I(x) + I₋(x + v₋)| at every pixel x whose surface point is seen
-    /// in all three.
+    /// in all three. I is luma; v₋ and v₊ lead from x to where the point is in the frame before and in the one after.
     pub fn add(&mut self, frame: f64, [first, middle, last]: [&Plane; 3], along: &Along<'_>) {
         let width = middle.size_px[0];
         for (pixel, (before, after)) in along.before.iter().zip(along.after).enumerate() {
@@ -60,7 +60,7 @@ impl Flicker {
         }
     }
 
-    /// The second difference, as a share of 255, below which this `share` (0..=1) of the pixels stay.
+    /// The second difference that this `share` (0..=1) of the pixels do not exceed, divided by 255.
     pub fn percentile(&self, share: f64) -> f64 {
         let wanted = (share * self.pixels as f64).ceil() as usize;
         let mut sum = 0;

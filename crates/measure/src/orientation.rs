@@ -33,8 +33,8 @@ impl Tensors {
 }
 
 /// How far the streaks of `turned` are off on average. They should be the streaks of `straight`, turned
-/// counter-clockwise by `angle_rad`. The error is `½ arg Σ conj(T₀ e^{2iφ}) T_φ`, radians in (−π/2, π/2]. Also returns
-/// over how many pixels of the mask it was taken.
+/// counter-clockwise by `angle_rad`. The error is `½ arg Σ conj(T₀ e^{2iφ}) T_φ`, radians in (−π/2, π/2], with T₀ from
+/// `straight`, T_φ from `turned` and φ = `angle_rad`. Also returns over how many pixels of the mask it was taken.
 pub fn error_rad(straight: &Tensors, turned: &Tensors, angle_rad: f64, mask: &[bool]) -> (f64, usize) {
     let size_px = turned.real.size_px;
     let (sin, cos) = (2.0 * angle_rad).sin_cos();

@@ -28,8 +28,8 @@ pub const NEIGHBOURS: usize = 10;
 /// Neighbours lie within this many stroke lengths on the picture: strokes farther apart do not touch.
 const TOUCHING: f64 = 1.5;
 
-/// A stroke is near a singular point that is less than this many times as far away as the farthest of the neighbours
-/// that the stroke is compared with.
+/// A stroke is near a singular point if its distance to the point is less than this many times its distance to the
+/// farthest of the neighbours that it is compared with.
 const ROUND_A_POINT: f64 = 1.5;
 
 /// The difference between the angles of a stroke and a neighbour.

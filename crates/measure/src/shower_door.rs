@@ -30,7 +30,7 @@ pub struct Pair<'a> {
 }
 
 /// Shower door over the pixels whose surface point shows in both pictures and has moved by more than half a stroke.
-/// Brushwork is the picture minus its blur, H = I − G_{ℓ/2} * I, within each body's own pixels.
+/// Brushwork is the picture minus its blur, H = I − G_{ℓ/2} * I, within each body's own pixels; ℓ is `stroke_px`.
 pub fn shower_door(pair: &Pair<'_>) -> ShowerDoor {
     let brushwork = [0, 1].map(|side| fine(pair.pictures[side], pair.body_ids[side], 0.5 * pair.stroke_px));
     let size_px = brushwork[0].size_px;

@@ -14,8 +14,8 @@ use crate::strokes::{MeasuredStroke, StrokeKey, StrokesByKey};
 /// stroke.
 const STEP: f64 = 0.35;
 
-/// A surface hides a stroke if it is nearer than the stroke's nearest end by more than this share of the depth of the
-/// stroke.
+/// A surface hides a stroke if it is nearer to the eye than the stroke's nearest end, by more than this share of the
+/// stroke's depth.
 const NEARER: f64 = 0.01;
 
 /// If the cosine between the normal of a stroke's surface and the direction to the eye is smaller than this, this value

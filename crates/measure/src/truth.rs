@@ -155,7 +155,7 @@ impl BodyView<'_> {
     }
 }
 
-/// The local map between the pictures of two views, at a point of a surface.
+/// A, the local map from the picture of one view to that of another, at a point of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScreenTurn {
     /// φ(A), the rotation of the similarity nearest to A, radians.

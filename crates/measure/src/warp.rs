@@ -4,7 +4,7 @@ use impasto_gl_render::{MotionPixels, ReferencePixels};
 
 use crate::plane::{Plane, Taps};
 
-/// Depths agree when they differ by less than this share.
+/// Two depths agree if they differ by at most this share of the depth.
 const DEPTH_SHARE: f32 = 0.01;
 
 /// For each pixel of the first picture, where its surface point shows in the second, in columns and rows. `None` where

@@ -70,13 +70,13 @@ impl BodyAmounts {
         self.of_rule.is_empty()
     }
 
-    /// The factor on an amount at a point of the surface that belongs to a rule.
+    /// The painted factor on width, length, density or flatness at a point of the surface; `rule` is the point's rule.
     pub(crate) fn at(&self, of: Amount, rule: u16, position: Vec3, normal: Vec3) -> f32 {
         let painted = self.of_rule.iter().find(|painted| painted.rule == rule);
         painted.map_or(1.0, |painted| painted.at(of, position, normal))
     }
 
-    /// The factors painted onto the size and the number of strokes at a point of the surface that belongs to a rule.
+    /// The painted factors on length, width and density at a point of the surface; `rule` is the point's rule.
     pub(crate) fn painted(&self, rule: u16, position: Vec3, normal: Vec3) -> Painted {
         let painted = self.of_rule.iter().find(|painted| painted.rule == rule);
         painted.map_or(Painted::NOTHING, |painted| painted.painted(position, normal))
@@ -185,7 +185,7 @@ impl PlacedDab {
     }
 }
 
-/// The factors painted onto the size and the number of one particle's strokes.
+/// The painted factors at one place: on the length and the width of strokes, and on how densely they lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Painted {
     pub(crate) length: f32,

@@ -164,7 +164,8 @@ pub(crate) struct BentMemo(Mutex<VecDeque<Remembered>>);
 struct Remembered {
     frame: f64,
     shapes: Vec<BodyShape>,
-    /// Weak, so that a body is found again only while somebody else holds it. `None` for a body at rest.
+    /// Weak: this list does not keep bodies alive, so one is found again only while something else holds it. `None` for
+    /// a body at rest.
     bodies: Vec<Option<Weak<Bent>>>,
     /// The same bodies, if the memo itself holds them.
     kept: Option<BentBodies>,

@@ -65,7 +65,8 @@ impl Sampled {
         }
     }
 
-    /// The rank of a particle, in (0, 1]: its ordinal over how many particles the whole surface would have.
+    /// The rank of a particle, in (0, 1]: its ordinal (about how many particles come before it in the order of the
+    /// whole surface) divided by how many the whole surface would have.
     pub(crate) fn rank(&self, index: usize) -> f32 {
         ((self.particles.ordinal(index) + 0.5) / self.count_on_whole as f32).min(1.0)
     }
@@ -167,10 +168,13 @@ impl SampleInputs {
     }
 
     /// The first `count` particles of a body, or fewer where faces lie on each other ([`ProgressiveOrder::len_of`]). If
-    /// `before` has them, they are taken from it. If not, further ones are sampled and appended to those of `before`;
-    /// with the paper's rule, where particles are not needed everywhere, and in a crowded order
-    /// ([`ProgressiveOrder::grow`]), all are sampled anew. `before` must come from equal inputs. `surface` is called
-    /// only if particles are sampled.
+    /// particles are not needed everywhere, these are only the needed ones, and `count` says how many the whole surface
+    /// would have.
+    ///
+    /// If `before` has these particles, they are taken from it. If not, further ones are sampled and appended to those
+    /// of `before`. But all are sampled anew with the paper's rule, if particles are not needed everywhere, and in a
+    /// crowded order ([`ProgressiveOrder::grow`]). `before` must come from equal inputs. `surface` is called only if
+    /// particles are sampled.
     pub(crate) fn sample<'a, 'mesh: 'a>(
         &self,
         before: Option<Arc<Sampled>>,

@@ -20,8 +20,8 @@ use crate::view::PictureView;
 pub(crate) struct Context<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) rules: &'a Arc<Vec<RegionRule>>,
-    /// A sample of the views, each with the objects' poses: that of the reference, and a few spread evenly over the
-    /// timeline. The number of particles that an object needs is first found from these.
+    /// A few of the views: that of the reference, and some spread evenly over the timeline. Each has the objects' poses
+    /// beside it. The number of particles that an object needs is first found from these.
     pub(crate) views: &'a [(PictureView, Vec<DAffine3>)],
     /// For each of these views, the objects' shapes.
     pub(crate) shapes: &'a [Vec<BodyShape>],

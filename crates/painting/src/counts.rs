@@ -233,7 +233,7 @@ impl Unneeded {
         if follow || surface.has_cache() {
             return Self::None;
         }
-        // Noise moves a vertex along each of three axes.
+        // Noise moves a vertex by at most `reach` along each of three axes.
         Self::OfMoving { noise: noise.map_or(0.0, |noise| 3.0f64.sqrt() * f64::from(noise.noise.reach())) }
     }
 }

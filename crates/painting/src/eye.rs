@@ -1,4 +1,4 @@
-//! A view of a body. Gives upper bounds on how densely it sees the parts of the surface.
+//! A view of a body. Gives upper bounds on how many pixels a unit of the body's surface fills in it.
 
 use glam::{DAffine3, DVec2, DVec3, DVec4};
 use impasto_core::ScreenMap;
@@ -10,14 +10,15 @@ use crate::presence_bound::LEAST_COUNTED_FADE;
 use crate::seen_part::SeenPart;
 use crate::size_follow::{Following, px_per_unit};
 
-/// The parts of a cell count as alike while the cell's radius is at most this share of its depth.
+/// A cell counts as uneven (its parts may be seen very differently) while its radius is more than this share of its
+/// depth.
 const EVEN: f64 = 0.1;
 
-/// The parts of a cell count as alike while the most that strokes on it grow is at most this many times the least.
+/// A cell counts as uneven while strokes on it may grow more than this many times as much in one place as in another.
 const EVEN_GROWTH: f64 = 1.25;
 
-/// A cell that is not wholly inside the view is cut while its radius in pixels is more than this share of half the
-/// picture's shorter side.
+/// A cell that is not wholly inside the view counts as uneven while its radius in pixels is more than this share of
+/// half the picture's shorter side.
 const LARGE: f64 = 0.25;
 
 /// The planes that bound what a view sees, in model space; each with the length of its normal (its first three
@@ -34,15 +35,15 @@ fn is_beyond(planes: &Planes, center: DVec3, radius: f64) -> bool {
     planes.iter().any(|(plane, length)| plane.dot(center.extend(1.0)) > length * radius)
 }
 
-/// A sphere that holds all strokes of a cell, and how far they reach from its centre along the cell's normal or against
-/// it, model units.
+/// A sphere that holds the middles of all strokes of a cell, and how far these may lie from the sphere's centre along
+/// the cell's normal or against it, model units.
 struct Lifted {
     center: DVec3,
     radius: f64,
     thickness: f64,
 }
 
-/// A view of a body, ready to ask how densely it sees a cell.
+/// A view of a body, ready to tell how many pixels a unit of a cell's surface fills in it.
 pub(crate) struct Eye {
     map: ScreenMap,
     /// Nothing is seen where any of these is positive.
@@ -57,8 +58,8 @@ pub(crate) struct Eye {
     half_px: DVec2,
     near: f64,
     row_w_length: f64,
-    /// Takes a point to the direction from it to the eye, with a length of w³ times the pixels that a unit of surface
-    /// fills there if it faces the eye; w is the point's `row_w` product.
+    /// Takes a point to a vector from it towards the eye. The vector's length is w³ times the pixels that a unit of
+    /// surface at the point fills if it faces the eye; w is the dot product of `map.row_w` and the point.
     w3_to_eye: DAffine3,
     /// How much `w3_to_eye` changes at most for each unit that the point moves.
     w3_to_eye_change: f64,
@@ -67,7 +68,8 @@ pub(crate) struct Eye {
     mid_offset: f64,
     half_offsets: f64,
     most_offset: f64,
-    /// The body's own depths, which tell what it hides of itself; `None` unless it is a heap.
+    /// The body's own depths, which tell what it hides of itself; `None` unless it is a heap of faces that hide each
+    /// other.
     pub(crate) own: Option<OwnDepths>,
 }
 
@@ -109,8 +111,10 @@ impl Eye {
         !is_beyond(&self.picture, center, radius)
     }
 
-    /// Where the strokes of a cell may lie. Their particles' normals differ from the cell's by at most its spread, so
-    /// this is the cell moved along its normal, and a little larger; or, if that is smaller, all that is near the cell.
+    /// Where the strokes of a cell may lie: the smaller of two spheres. One is the cell's sphere, moved along the
+    /// cell's normal, and enlarged because offsets differ, and because normals differ from the cell's by up to its
+    /// `spread`. The other is the cell's sphere where it is, enlarged by the greatest distance of a stroke from the
+    /// surface.
     fn lifted(&self, cell: &Cell) -> Lifted {
         let apart = self.half_offsets + self.most_offset * cell.spread;
         let (moved, apart) = if apart < self.most_offset {
@@ -121,7 +125,7 @@ impl Eye {
         Lifted { center: cell.center + moved, radius: cell.radius + apart, thickness: cell.thickness + apart }
     }
 
-    /// The least and the greatest growth of the strokes in a sphere at this w.
+    /// The least and the greatest factor by which strokes in a sphere may grow; `w` is that of its centre.
     fn growth(&self, center: DVec3, radius: f64, w: f64) -> [f64; 2] {
         let Some((following, _)) = &self.following else { return [1.0; 2] };
         let apart = self.row_w_length * radius;
@@ -140,9 +144,9 @@ impl Eye {
         seen
     }
 
-    /// An upper bound on the pixels that a unit of surface at rest fills anywhere on such a part, divided by the fade
-    /// of strokes near an outline; 0 where it faces away. The part's corners must be finite. The normal there, times
-    /// the factor by which the area has grown since rest, must be a weighted mean of `area_normals`.
+    /// An upper bound on the pixels that a unit of surface at rest fills anywhere on this part, divided by the fade of
+    /// strokes near an outline; 0 if the part faces away. The part's corners must be finite. Anywhere on the part, the
+    /// normal times the factor by which the area has grown since rest must be a weighted mean of `area_normals`.
     pub(crate) fn most_on(&self, seen: &SeenPart, area_normals: impl Iterator<Item = DVec3>) -> f64 {
         let (towards_eye, lifted) = self.towards_eye(seen);
         let mut facing = f64::NEG_INFINITY;
@@ -165,21 +169,21 @@ impl Eye {
         self.most_of(seen, facing / whole, whole)
     }
 
-    /// The same where normals may point anywhere, and the area has grown at most `growth` times since rest.
+    /// As [`Eye::most_on`], where normals may point anywhere, and the area has grown at most `growth` times since rest.
     pub(crate) fn most_facing(&self, seen: &SeenPart, growth: f64) -> f64 {
         let (towards_eye, lifted) = self.towards_eye(seen);
         let longest = towards_eye.corners().iter().map(|towards| towards.length()).fold(0.0, f64::max);
         self.most_of(seen, 1.0, growth * (longest + lifted))
     }
 
-    /// At each corner, `w3_to_eye`; and how much that may differ at a stroke that is lifted off the surface.
+    /// The vector of `w3_to_eye` at each corner; and how much it may differ at a stroke that is lifted off the surface.
     fn towards_eye(&self, seen: &SeenPart) -> (SeenPart, f64) {
         let towards_eye = seen.moved(|corner| self.w3_to_eye.transform_point3(corner));
         (towards_eye, self.w3_to_eye_change * self.most_offset)
     }
 
-    /// The bound, from the greatest cosine of a normal with the direction to the eye, and the greatest w³ times pixels
-    /// of a unit of surface that faces the eye.
+    /// The bound of [`Eye::most_on`]. `facing` is the greatest cosine between a normal and the direction to the eye,
+    /// `w3_px` the greatest length of a vector of `w3_to_eye`, times the growth of the area.
     fn most_of(&self, seen: &SeenPart, facing: f64, w3_px: f64) -> f64 {
         let w_of = |corner: &DVec3| self.map.row_w.dot(corner.extend(1.0));
         let mut least_w = seen.corners().iter().map(w_of).fold(f64::MAX, f64::min);
@@ -189,7 +193,7 @@ impl Eye {
         self.most_at(least_w, facing, w3_px)
     }
 
-    /// The same, from the least w.
+    /// As [`Eye::most_of`], from the least w.
     fn most_at(&self, least_w: f64, facing: f64, w3_px: f64) -> f64 {
         let most = most_over_fade(facing, self.map.uneven.is_some()) * w3_px / least_w.powi(3);
         if most.is_nan() { f64::INFINITY } else { most }
@@ -232,8 +236,9 @@ impl Eye {
         // times as many pixels.
         let nearer = (1.0 + radius_per_depth) / (1.0 - radius_per_depth).powi(3);
         let thickness = thickness / radius * radius_per_depth;
-        // The cosine between the normal and the direction to the eye, at most: the eye's distance from the cell's
-        // plane, over its least or greatest distance from a point of the cell.
+        // An upper bound on the cosine between the normal and the direction to the eye: the eye's height over the
+        // cell's lowest point, along the cell's normal, divided by the eye's least distance from the cell or, if the
+        // height is negative, by its greatest.
         let above = cell.normal.dot(to_eye) / px_per_area + thickness;
         let facing =
             above / if above > 0.0 { 1.0 - radius_per_depth } else { 1.0 + radius_per_depth } + cell.spread;
@@ -282,7 +287,8 @@ fn w3_to_eye(map: &ScreenMap) -> DAffine3 {
 /// make up for those that fade.
 fn most_over_fade(facing: f64, uneven: bool) -> f64 {
     let least = f64::from(LEAST_COUNTED_FADE);
-    // The pose scales directions differently, so the facing in world space is not this one.
+    // The pose scales some directions more than others. The fade follows the facing in world space, and this one is in
+    // model space.
     if uneven {
         return facing / least;
     }
@@ -315,7 +321,7 @@ mod tests {
         }
     }
 
-    /// A bumpy field, from near and from afar, from above and along it, through either lens, with strokes on it,
+    /// A bumpy surface, seen from near and from afar, from above and along it, through either lens, with strokes on it,
     /// strokes lifted off it, and strokes that follow its size and reach into the picture.
     #[test]
     fn no_place_needs_more_than_its_cell() {
@@ -348,7 +354,7 @@ mod tests {
             ([0.3, 1.1, 0.2], [3.0, 1.0, -2.0], PixelLens::Perspective { focal_px: 300.0 }),
             ([1.0, -4.0, 2.0], [0.0, 0.0, 0.0], PixelLens::Perspective { focal_px: 400.0 }),
             ([4.0, 3.0, 4.0], [0.0, 0.0, 0.0], PixelLens::Orthographic { px_per_unit: 50.0 }),
-            // In the field itself.
+            // The eye is between the bumps.
             ([0.3, 0.55, 0.2], [3.0, 0.5, -2.0], PixelLens::Perspective { focal_px: 300.0 }),
             ([2.1, -0.4, 1.4], [-3.0, 0.2, 2.0], PixelLens::Perspective { focal_px: 300.0 }),
         ] {
@@ -475,7 +481,8 @@ mod tests {
             Eye::new(&sighting, Reach { margin: 1.0, reach_px: 0.0, following: None, offsets: [0.0; 2] });
         let of_ball = cells.all().iter().find(|cell| cell.triangles(&surface).count() > 1).expect("a cell");
         let (most, is_uneven) = eye.most_per_area(of_ball);
-        // The place straight ahead, if it faced the eye, and one at the near plane.
+        // The pixels that a unit of surface fills if it faces the eye: as far away as a corner of the ball, and at the
+        // near plane.
         let at_least = (focal_px / f64::from(radius)).powi(2);
         let at_near = (focal_px / near).powi(2);
         assert!(is_uneven && most > at_least && most < 5.0 * at_near, "{most}, {at_least}, {at_near}");

@@ -33,7 +33,8 @@ pub(crate) struct BodyField {
     solved: Vec<DVec2>,
     /// The directions of the samples after the guides that smooth have changed them; `None` if no guide smooths.
     relaxed: Option<Vec<DVec2>>,
-    /// How far the stated direction of each sample holds, 0..=1.
+    /// How firmly each sample is held to its stated direction, 0..=1. Where all samples near a particle have 1, the
+    /// particle takes the direction that is stated for it, as far as that is exact.
     anchors: Vec<f64>,
     /// Whether all anchors are 1. If so, a particle whose direction is stated exactly takes that direction.
     anchored: bool,
@@ -46,7 +47,7 @@ pub(crate) struct BodyField {
 pub(crate) struct Near<'a> {
     /// The samples near each of several particles.
     pub(crate) stencils: &'a Stencils,
-    /// The place of this particle among them.
+    /// The index of this particle among those of `stencils`.
     pub(crate) offset: usize,
 }
 
@@ -122,8 +123,8 @@ impl BodyField {
         })
     }
 
-    /// The direction of a particle: the field's direction mixed with the stated one, `base`. The further the stated
-    /// direction holds there, the more it counts.
+    /// The direction of a particle: the field's direction mixed with the stated one, `base`. The more firmly the
+    /// samples near it are held to their stated directions, and the more exact `base` is, the more `base` counts.
     pub(crate) fn direction(&self, near: Near<'_>, point: SurfacePoint, base: &StatedDirection) -> DVec3 {
         if self.anchored && base.exact >= 1.0 {
             return base.tangent;
@@ -162,8 +163,7 @@ impl BodyField {
         if is_opposite { -tangent } else { tangent }
     }
 
-    /// The field's direction at a particle, carried from the samples round it, and how far the stated direction holds
-    /// there.
+    /// The field's direction at a particle and the anchor there, both carried from the samples round it.
     fn carried(
         &self,
         solved: &[DVec2],

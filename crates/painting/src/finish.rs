@@ -55,8 +55,8 @@ impl FinishRule {
     }
 
     /// The transform that moves, turns and scales the canvas with `anchor`, the point that the camera looked at in the
-    /// reference pose. `None` where that point is too near to show, or behind the eye. A pixel of the picture is
-    /// `size_px` pixels at the scene's size, and `unit_px` units of the positions that are transformed.
+    /// reference pose. `None` where that point is too near to show, or behind the eye. One pixel of this picture is as
+    /// long as `size_px` pixels of a picture of the scene's size, and as `unit_px` units of [`Finish::canvas_from_px`].
     fn canvas_from_px(
         &self,
         anchor: DVec3,

@@ -28,15 +28,15 @@ const LAYERS: usize = LayerKind::ALL.len();
 const MOST_SHARE: f64 = 0.5;
 const MOST_SHARE_MOVING: f64 = 0.8;
 
-/// Where particles are left out of a body at rest, its nearest spots may get more than they would have had, until half
-/// of the whole surface's number is made or, if that is more, this many. A camera that turns all round on a floor needs
-/// that many.
+/// Where particles are left out of a body at rest, its nearest spots may get more of them than with particles
+/// everywhere. In all, a coat then makes at most half as many as with particles everywhere or, if that is more, this
+/// many. A camera that turns all round on a floor needs that many.
 const MOST_MADE: f64 = 50_000.0;
 
 /// The longest order, in particles: enough for a floor of some ten kilometres.
 const MOST_ON_WHOLE: f64 = 1e12;
 
-/// If the cells, before any is cut, and the views make more pairs than this, particles lie everywhere.
+/// If the number of cells, before any is cut, times the number of views is more than this, particles lie everywhere.
 const MOST_PAIRS: usize = 12_000_000;
 
 /// In each view, the vertices of a body that bends are moved, and the pieces of its cells are looked at. If that is
@@ -44,22 +44,22 @@ const MOST_PAIRS: usize = 12_000_000;
 /// out, particles lie everywhere: to look could take longer than to make them.
 const PAIRS_PER_PARTICLE: usize = 2;
 
-/// A cell that needs fewer particles than `FEW` is not cut. A first cell and its parts are cut at most `MOST_DEPTH`
-/// times in a row.
+/// A cell that needs fewer particles than `FEW` is not cut. Cells are cut into parts, these into smaller ones, and so
+/// on at most `MOST_DEPTH` times.
 const FEW: f64 = 4.0;
 const MOST_DEPTH: u32 = 12;
 
 /// An object whose faces cover its part of the picture at least `HEAP` times over is a heap: surface that the object
 /// itself hides needs no particles. If other groups of its mesh are objects too, `HEAP_OF_GROUP` times are enough. An
-/// order of a heap is made longer than it would be with particles everywhere only while at most `MOST_MADE_OF_HEAP` of
-/// its particles are made. To decide which cells are cut, an order longer than `MOST_OF_HEAP` counts as that long.
+/// order of a heap may be longer than with particles everywhere, as long as at most `MOST_MADE_OF_HEAP` of its
+/// particles are made. When cells of a heap are cut, an order longer than `MOST_OF_HEAP` particles counts as that long.
 const HEAP: f64 = 12.0;
 const HEAP_OF_GROUP: f64 = 6.0;
 const MOST_MADE_OF_HEAP: f64 = 20_000.0;
 const MOST_OF_HEAP: f64 = 400_000.0;
 
-/// Of sheets with two visible sides, each view misses about half of the surface. If more than this share of a heap is
-/// seen by no view, its order is strict ([`Needed::is_strict`]).
+/// If more than this share of a heap's surface is seen by no view, its order is strict ([`Needed::is_strict`]). It is
+/// more than a half, since one view misses about half of the surface of any sheets with two visible sides.
 const MUCH_UNSEEN: f64 = 0.6;
 
 /// Where the smooth normals at the corners of a triangle differ so much that their mean may be shorter than this, the
@@ -165,8 +165,9 @@ impl NeededInputs {
         counts
     }
 
-    /// The cells of a body that stays at rest. Beside each cell stands how long an order each layer needs there, for
-    /// each pixel that a unit of surface fills. `own` tells what a heap hides of itself in each view.
+    /// The cells of a body that stays at rest. Beside each stands, for each layer, how long an order it needs. This
+    /// length is stated per pixel that a unit of the cell's surface fills: 3 means that the order must have 3000
+    /// particles where a unit of surface fills 1000 pixels. `own` tells what a heap hides of itself in each view.
     fn seen_at_rest(
         &self,
         surface: &Surface<'_>,
@@ -209,8 +210,8 @@ impl NeededInputs {
         has_noise: bool,
         needed_per_px: impl Fn(&Cell) -> [f64; LAYERS] + Sync,
     ) -> Vec<(SeenCell, [f64; LAYERS])> {
-        // The bits of the most pixels that a unit of a cell's surface may fill: positive numbers are in the order of
-        // their bits.
+        // For each cell, the most pixels that a unit of its surface may fill, as the bits of a float: positive floats
+        // are in the order of their bits.
         let most: Vec<AtomicU64> = cells.all().iter().map(|_| AtomicU64::new(0)).collect();
         let body = self.counted.surface();
         let look = |sighting: &Sighting| {
@@ -246,8 +247,9 @@ impl NeededInputs {
     }
 }
 
-/// An upper bound on the pixels that a unit of surface at rest fills on a moved piece, divided by the fade of strokes
-/// near an outline; 0 where the view does not see it. `gradients` are F at the corners of the mesh's triangle.
+/// An upper bound on the pixels that a unit of surface at rest fills on a moved piece; 0 where the view does not see
+/// the piece. Near an outline the pixels are divided by the fade of the strokes there, since more strokes make up for
+/// those that fade. `gradients` are F at the corners of the mesh's triangle.
 fn most_on_piece(eye: &Eye, piece: &CellPiece, gradients: [Mat3; 3]) -> f64 {
     let seen = eye.seen_part(piece.corners);
     if seen.is_empty() {
@@ -271,7 +273,7 @@ fn most_on_piece(eye: &Eye, piece: &CellPiece, gradients: [Mat3; 3]) -> f64 {
     }
 }
 
-/// The longest order that any layer needs for each pixel that a unit of surface fills.
+/// The greatest of the lengths that the layers' orders need: see [`NeededInputs::seen_at_rest`].
 fn most(needed: &[f64; LAYERS]) -> f64 {
     needed.iter().copied().fold(0.0, f64::max)
 }
@@ -285,7 +287,7 @@ struct SeenCell {
     px_per_area: f64,
     /// The same, of only those views that have it in the picture itself and not just in the margin round it.
     px_in_picture: f64,
-    /// Whether its parts differ much.
+    /// Whether a view may need far more particles on some of its parts than on others, or may see only some of it.
     is_uneven: bool,
     parts: Vec<Self>,
 }
@@ -293,10 +295,10 @@ struct SeenCell {
 /// How a cell is to be cut.
 #[derive(Clone, Copy)]
 struct Cutting {
-    /// The longest order that any layer needs for each pixel that a unit of surface fills, in particles on the whole
-    /// surface.
+    /// The length of the longest order that any layer needs for the cell, in particles per pixel that a unit of surface
+    /// fills.
     needed: f64,
-    /// The length of the longest order that counts.
+    /// A longer order counts as this long, in particles.
     most_on_whole: f64,
     /// How often a part may be cut again.
     depth: u32,
@@ -329,15 +331,15 @@ impl SeenCell {
         seen
     }
 
-    /// Whether its parts differ much and it needs at least [`FEW`] particles: its share of an order that is `needed`
-    /// long for each pixel that a unit of surface fills, but at most `most_on_whole` long.
+    /// Whether it is uneven and needs at least [`FEW`] particles. It needs its share of an order that has `needed`
+    /// particles for each pixel that a unit of surface fills, but at most `most_on_whole`.
     fn is_to_cut(&self, needed: f64, most_on_whole: f64) -> bool {
         self.is_uneven
             && needed > 0.0
             && (needed * self.px_per_area).min(most_on_whole) * self.cell.share >= FEW
     }
 
-    /// Cuts the cell while it is to be cut.
+    /// Cuts the cell if it is to be cut, and then its parts in the same way.
     fn refine(&mut self, surface: &Surface<'_>, eyes: &[Eye], cutting: Cutting) {
         let Cutting { needed, most_on_whole, depth, cuts } = cutting;
         if depth == 0 || cuts == 0 || !self.is_to_cut(needed, most_on_whole) {
@@ -369,14 +371,14 @@ enum KindOfBody {
 struct SeenTree {
     /// For each cell, its share of the surface and, for each layer, the ordinal below which it needs particles.
     cells: Vec<(f64, [f64; LAYERS])>,
-    /// For each layer, the greatest such ordinal that a picture itself needs.
+    /// For each layer, the greatest such ordinal that a picture needs without the margin round it.
     most_in_picture: [f64; LAYERS],
     first_part: Arc<Vec<u32>>,
 }
 
 impl SeenTree {
-    /// Builds the tree from the first cells, with the order that each layer needs for each pixel that a unit of surface
-    /// fills.
+    /// Builds the tree from the largest cells. Beside each stands, for each layer, how long an order it needs: see
+    /// [`NeededInputs::seen_at_rest`].
     fn new(first: Vec<(SeenCell, [f64; LAYERS])>) -> Self {
         let (mut cells, mut first_part) = (Vec::new(), Vec::new());
         let mut most_in_picture = [0.0f64; LAYERS];
@@ -398,8 +400,8 @@ impl SeenTree {
         Self { cells, most_in_picture, first_part: Arc::new(first_part) }
     }
 
-    /// The count of a layer that has this many particles if they lie everywhere; `None` where it does not pay to leave
-    /// some out.
+    /// The count of the layer with the index `kind`, which has `everywhere` particles if they lie everywhere; `None`
+    /// where it does not pay to leave some out.
     fn count(&self, kind: usize, everywhere: f64, kind_of_body: KindOfBody) -> Option<CoatCount> {
         let smallest = || self.cells.iter().zip(&*self.first_part).filter(|(_, first)| **first == 0);
         let made = |count_on_whole: f64| -> f64 {
@@ -437,8 +439,9 @@ impl SeenTree {
     }
 }
 
-/// The longest order between these two lengths of which at most `most_made` particles are made; the shortest if there
-/// is none. `made` gives how many particles of an order of a length are made; it grows with the length.
+/// The greatest length, between these two, of an order of which at most `most_made` particles are made; `shortest` if
+/// even that is too long. `made` takes a length and gives how many particles of such an order are made. This number
+/// must grow with the length.
 fn longest([shortest, longest]: [f64; 2], most_made: f64, made: impl Fn(f64) -> f64) -> f64 {
     let longest = longest.max(shortest);
     if made(longest) <= most_made {

@@ -102,8 +102,8 @@ impl NoiseInputs {
 
 fn layers(surface: &SurfaceNoise, tile: Arc<Tile>) -> NoiseLayers {
     let count = surface.layer_count.max(1);
-    // With a `layer_count` of k, the product has 2(k − 1) factors. `Mean` takes the geometric mean of these, `Root` the
-    // k-th root of the product. With k = 1 there is no factor.
+    // The colour is a root of a product. With a `layer_count` of k, the product has 2(k − 1) factors. `Mean` takes
+    // their geometric mean, `Root` the k-th root of the product. With k = 1 there is no factor.
     let root_degree = match surface.mix {
         NoiseMix::Root => f64::from(count),
         NoiseMix::Mean => f64::from(2 * (count - 1).max(1)),

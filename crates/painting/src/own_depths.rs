@@ -26,11 +26,11 @@ const MOST_TESTS_IN_VIEW: f64 = 4e6;
 /// middle. The distance is that for small strokes: in a heap, few large strokes can be seen.
 const ASKED_PX: f64 = 8.7;
 
-/// The resolve shader begins to hide a small stroke `HIDDEN_PX + HIDDEN_SLANTED_PX / slant` pixels behind the nearest
-/// surface (pixels of the scene's own size, as a length at the stroke's depth). The slant is the cosine between the
-/// face's normal and the direction to the eye, at least `LEAST_SLANT`. Three times as far behind, the stroke is hidden
-/// wholly. Strokes that would be hidden in part count as hidden here, on purpose: in a heap, strokes of other faces lie
-/// over them.
+/// The resolve shader begins to hide a small stroke that lies `HIDDEN_PX + HIDDEN_SLANTED_PX / slant` pixels behind the
+/// nearest surface. These pixels are lengths: what a pixel of a picture of the scene's own size covers at the stroke's
+/// depth. The slant is the cosine between the face's normal and the direction to the eye, at least `LEAST_SLANT`. A
+/// stroke that lies three times as far behind is hidden wholly. Strokes that would be hidden in part count as hidden
+/// here, on purpose: in a heap, strokes of other faces lie over them.
 const HIDDEN_PX: f64 = 2.5;
 const HIDDEN_SLANTED_PX: f64 = 3.5;
 const LEAST_SLANT: f64 = 0.2;
@@ -53,14 +53,14 @@ pub(crate) enum Covered {
     Nowhere,
     /// Some of it may be hidden.
     InPart,
-    /// It faces away, or strokes on it are hidden or begin to be.
+    /// It faces away, or all strokes on it are hidden, at least in part.
     Wholly,
 }
 
 /// The nearest depths of a body in one view.
 pub(crate) struct OwnDepths {
     sighting: Sighting,
-    /// How far strokes are lifted, in units of depth.
+    /// How far strokes are lifted off their surface at most, in units of depth.
     lift: f64,
     /// The corner of the first square, pixels.
     low_px: DVec2,
@@ -263,8 +263,8 @@ impl Shown {
     }
 }
 
-/// How many columns and rows of squares a view has. Its particles reach `margin` half sizes of the picture from the
-/// middle.
+/// How many columns and rows of squares a view has. They reach as far from the middle of the picture as the view's
+/// particles: `margin` half sizes of the picture.
 fn grid_size(sighting: &Sighting, margin: f64) -> [usize; 2] {
     let size = (sighting.half_size_px * margin * 2.0 / CELL_PX).ceil().max(DVec2::ONE);
     [size.x as usize, size.y as usize]
@@ -408,7 +408,8 @@ mod tests {
             let found = own.greatest_over(DVec2::new(left, -3.0), DVec2::new(right, 4.0));
             let at_right = 5.5 + 0.5 * right / 80.0;
             // Depths are known only for each square, and for wide boxes for blocks of squares. So the result may be too
-            // small by the slope of one square, or too great by that of two squares and the box.
+            // small by what the depth grows over one square, or too great by what it grows over two squares and the
+            // box.
             let least = at_right - CELL_PX / 160.0;
             let most = at_right + (2.0 * CELL_PX + right - left) / 160.0;
             assert!((least..=most).contains(&found), "{left} to {right}: {found}, not {at_right}");

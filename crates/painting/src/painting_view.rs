@@ -317,8 +317,9 @@ impl CoatView<'_> {
         place.area_normal(self.at_rest_all().normal_of(index)).length().sqrt()
     }
 
-    /// The factor on a stroke's stated size where it follows the size of its surface: m^γ. m is the pixels per unit of
-    /// surface now over those in the reference picture, γ the region's `size_follow`.
+    /// The factor on a stroke's stated size where it follows the size of its surface: m^γ. m is the pixels that a unit
+    /// of length on the surface fills now over those that it fills in the reference picture, γ the region's
+    /// `size_follow`.
     pub(crate) fn growth(&self, index: usize, view: &PaintingView<'_>) -> f32 {
         let region = self.coat.traits.region(index);
         let follow = view.strokes_of(region).size_follow;

@@ -34,18 +34,20 @@ pub(crate) fn least(objects: usize) -> u32 {
 /// How far from the middle of the picture a face still counts, in half sizes of the picture.
 const MARGIN: f64 = 1.1;
 
-/// Faces that cover the picture more often than this, one behind the other, give their object no more particles: nearly
-/// all of them are hidden, as in a heap of thousands of large triangles. Groups of one mesh that are objects of their
-/// own share this limit, but the limit of each is at least `LEAST_DEEP`.
+/// Once an object's faces cover the picture this many times, one behind the other, further faces give the object no
+/// more particles: nearly all of them are hidden, as in a heap of thousands of large triangles. Groups of one mesh that
+/// are objects of their own share this limit, but the limit of each is at least `LEAST_DEEP`.
 const DEEPEST: f64 = 16.0;
 const LEAST_DEEP: f64 = 4.0;
 
-/// The deeper a heap, the more of its strokes hide each other. Beyond the limit above, the number of covers that count
-/// falls again, down to this.
+/// The deeper a heap, the more of its strokes hide each other. Therefore a heap beyond the limit above counts as
+/// covering the picture fewer times, the fewer the deeper it is: with a limit of 16, faces that cover it 20 times count
+/// as 16² / 20 = 12.8 times, 32 times as 8. They count at least this many times or, if that is less, as often as the
+/// limit.
 const DEEP_HEAP: f64 = 6.0;
 
-/// The share of its count that an object gets if its faces cover the picture `cover` times, at most `deepest` of which
-/// count.
+/// The share of the count found for an object that it gets if its faces cover the picture `cover` times: all of it up
+/// to the object's limit, which is `deepest` times.
 fn share_of_deep(cover: f64, deepest: f64) -> f64 {
     let counting = (deepest * deepest / cover).max(DEEP_HEAP.min(deepest));
     if cover > deepest { counting / cover } else { 1.0 }
@@ -63,8 +65,7 @@ pub(crate) fn groups_of_meshes(scene: &Scene) -> Vec<usize> {
     scene.objects.iter().map(of).collect()
 }
 
-/// How often the faces of an object may cover the picture and still give it particles, if it is one of this many groups
-/// of its mesh.
+/// The limit [`DEEPEST`] for an object that is one of this many groups of its mesh.
 pub(crate) fn deepest(groups: usize) -> f64 {
     (DEEPEST / groups.max(1) as f64).max(LEAST_DEEP)
 }
@@ -128,8 +129,8 @@ struct CountedFace<const LAYERS: usize> {
 /// How many particles each layer needs.
 pub(crate) struct Found<const LAYERS: usize> {
     pub(crate) needed: [f64; LAYERS],
-    /// Whether views see large faces in part, or very unevenly: then a small spot on such a face may need more
-    /// particles.
+    /// Whether views see large faces in part, or very unevenly. A small spot on such a face may then need more
+    /// particles than its share of `needed`.
     pub(crate) is_cut: bool,
     /// How often, on average, faces that face the eye cover the part of the picture where the object is; the greatest
     /// of all views.
@@ -139,8 +140,8 @@ pub(crate) struct Found<const LAYERS: usize> {
 /// How many particles each layer needs on the whole surface. They are enough that, in every view, nine tenths of the
 /// object's area in the picture have all the strokes that are wanted there. `wanted_per_px` gives the strokes per pixel
 /// wanted on a triangle, from its index, a point of it and its normal. `positions_at` gives the vertices' positions in
-/// a shape, or `None` at rest. If the faces cover the picture more than `deepest` times, the numbers are smaller: see
-/// [`share_of_deep`].
+/// a shape, or `None` at rest. If the faces cover the picture more than `deepest` times, fewer particles are enough:
+/// see [`share_of_deep`].
 pub(crate) fn find<const LAYERS: usize>(
     surface: &Surface<'_>,
     sightings: &[Sighting],
@@ -264,8 +265,8 @@ fn middles([a, b, c]: [DVec3; 3], cuts: usize) -> impl Iterator<Item = DVec3> {
 }
 
 /// Particles needed per unit of surface in one view, by layer, and how often the given faces cover the box round them.
-/// Only every `stride`-th face of the object is given. At most `deepest` covers of the picture count: see
-/// [`share_of_deep`].
+/// Only every `stride`-th face of the object is given. If all its faces cover the picture more than `deepest` times,
+/// fewer particles are needed: see [`share_of_deep`].
 fn needed_per_area<const LAYERS: usize>(
     faces: &[CountedFace<LAYERS>],
     (stride, deepest): (f64, f64),

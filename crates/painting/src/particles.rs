@@ -43,8 +43,8 @@ impl SampledPlaces {
         }
     }
 
-    /// How many particles belong to the first `wanted`; `None` if the order has not been sampled that far
-    /// ([`ProgressiveOrder::len_of`]).
+    /// How many particles count as the first `wanted`: `wanted` itself, but in a crowded order maybe fewer. `None` if
+    /// the order has not been sampled that far. See [`ProgressiveOrder::len_of`].
     pub(crate) fn len_of(&self, wanted: usize) -> Option<usize> {
         self.state.len_of(wanted, self.places.len(), &self.ordinals)
     }
@@ -69,7 +69,7 @@ impl Particles {
         Self { order: Arc::new(()), sampled: Arc::new(sampled), surface: Arc::clone(surface), count }
     }
 
-    /// Those that belong to the first `wanted` of the same order, if it has been sampled that far.
+    /// The particles that count as the first `wanted` of the same order, if it has been sampled that far.
     pub(crate) fn first(&self, wanted: usize) -> Option<Self> {
         self.sampled.len_of(wanted).map(|count| Self { count, ..self.clone() })
     }

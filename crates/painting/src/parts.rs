@@ -18,8 +18,8 @@ const LENGTH_SHARE: f64 = 0.6;
 /// The least cap, pixels at the scene's size.
 const LEAST_CAP_PX: f64 = 3.0;
 
-/// A stroke that fits the form is at most `FORM_SHARE` of the form's size wide. For strokes that would be wider than
-/// that, the limit is lower still, but never below `LEAST_FITTED_PX`.
+/// A stroke that fits the form is at most `FORM_SHARE` of the form's size wide. A stroke that is wider than that before
+/// it is fitted gets a lower limit, the lower the wider it is, but not below `LEAST_FITTED_PX`.
 const FORM_SHARE: f32 = 0.13;
 const LEAST_FITTED_PX: f32 = 10.0;
 
@@ -133,8 +133,9 @@ pub(crate) fn fit_of(kind: LayerKind, fit: f32) -> f32 {
     }
 }
 
-/// How much of a layer is wanted where the form has shrunk its strokes to this share of their size. There, many small
-/// strokes of the body layer would hide what lies below, and the layers of small strokes over it would add nothing.
+/// A factor, 0..=1, on the coverage of a layer where the form has shrunk its strokes to this share of their size.
+/// There, many small strokes of the body layer would hide what lies below, and the layers of small strokes over it
+/// would add nothing.
 pub(crate) fn wanted_where_small(kind: LayerKind, share: f32) -> f32 {
     match kind {
         LayerKind::Body => 1.0 - 0.4 * (1.0 - share).clamp(0.0, 1.0),

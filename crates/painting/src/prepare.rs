@@ -463,8 +463,8 @@ fn surface_inputs(loaded: &LoadedScene) -> Result<Vec<SurfaceInputs>, PrepareErr
         .collect()
 }
 
-/// Views that stand for the whole timeline: the reference, and up to 17 spread evenly over it, each with the poses of
-/// all objects; and the frame of each.
+/// Views that stand for the whole timeline: the reference, and up to 17 spread evenly over the timeline, each with the
+/// poses of all objects; and the frame of each view.
 fn sample_views(scene: &Scene) -> (Vec<(PictureView, Vec<DAffine3>)>, Vec<f64>) {
     let (first, last) = (scene.timeline.first as f64, scene.timeline.last as f64);
     let count = (last - first).clamp(0.0, 16.0) as u32;

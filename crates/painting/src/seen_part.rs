@@ -96,7 +96,7 @@ mod tests {
         let mut part = SeenPart::of_triangle([DVec3::ZERO, DVec3::X, DVec3::NAN]);
         part.cut(|corner| corner.x - 0.5);
         assert!(part.corners().iter().any(|corner| corner.is_nan()));
-        // Eight corners, of which every second one is cut off: more than there is place for.
+        // To cut off every second one of eight corners would leave twelve, more than there is place for.
         let corner = |at: usize| DVec3::new((at as f64).cos(), (at as f64).sin(), (at % 2) as f64);
         let mut part = SeenPart { corners: std::array::from_fn(corner), count: MOST_CORNERS };
         part.cut(|corner| corner.z - 0.5);

@@ -6,8 +6,8 @@ use impasto_core::ScreenMap;
 /// A stroke grows at most this many times, and shrinks at most to the inverse.
 pub(crate) const MOST_GROWTH: f32 = 64.0;
 
-/// The factor on a stroke's stated size: m^γ. m is the pixels per unit of surface now over those in the reference
-/// picture, γ the region's `size_follow`.
+/// The factor on a stroke's stated size: m^γ. m is the pixels that a unit of length on the surface fills now over those
+/// that it fills in the reference picture, γ the region's `size_follow`.
 pub(crate) fn growth(m: f64, follow: f64) -> f64 {
     let grown = m.powf(follow);
     if grown.is_finite() { grown.clamp(1.0 / f64::from(MOST_GROWTH), f64::from(MOST_GROWTH)) } else { 1.0 }

@@ -31,7 +31,8 @@ const THICKNESS_DEVIATION: f32 = 0.2;
 const BOW_DEVIATION: f32 = 0.35;
 const MOST_BOW: f32 = 0.9;
 
-/// Standard deviation of the logarithm of the factor on a bend, as a share of the size jitter.
+/// Chance multiplies a stroke's bend by a factor. This is the standard deviation of the factor's logarithm, as a share
+/// of the size jitter.
 const BEND_SHARE: f32 = 1.5;
 
 /// How strongly the slow noise of edges changes the overrun.
@@ -54,7 +55,7 @@ pub(crate) struct Candidate {
     pub(crate) albedo_srgb8: u32,
 }
 
-/// The size of a particle's stroke, and how many strokes are supplied there.
+/// The size of a particle's stroke, and what its presence follows from.
 struct Supplied {
     /// Length and width, pixels at the scene's own size, before chance changes them.
     size_px: [f32; 2],
@@ -217,9 +218,9 @@ impl PaintingView<'_> {
         Some((stroke, source))
     }
 
-    /// ln of the supply over the rank, ρ*·A/(ordinal + ½). Supply is the strokes wanted per pixel, ρ*, over the
-    /// particles per pixel; A is how many pixels the coat's whole area would fill at this particle's scale. The number
-    /// of particles cancels out, so doubling it leaves the first half of the particles unchanged.
+    /// ln(supply / rank). ρ* strokes are wanted per pixel, and the coat's whole area would fill A pixels at this
+    /// particle's scale. With n particles, the supply is ρ*·A / n and the rank (ordinal + ½) / n, so their ratio is
+    /// ρ*·A / (ordinal + ½). It does not depend on n: twice as many particles leave the first half unchanged.
     fn supply_ln(&self, coat: &CoatView<'_>, index: usize, area_px: f32, wanted_per_px: f32) -> f32 {
         let area_px = area_px / (self.px_scale * self.px_scale);
         let sampled = &coat.coat.sampled;

@@ -2,7 +2,8 @@
 
 use impasto_core::hash;
 
-/// Length and width also vary each on its own: standard deviations of their logarithms, as shares of the size jitter.
+/// Besides their common size, a stroke's length and width vary each on its own. These are the standard deviations of
+/// the two logarithms, as shares of the size jitter.
 pub(crate) const LENGTH_SHARE: f32 = 1.1;
 pub(crate) const WIDTH_SHARE: f32 = 0.75;
 

@@ -83,7 +83,7 @@ pub const MAX_SUNS: usize = 8;
 /// Lights of the kinds `Point` and `Spot`, together.
 pub const MAX_POINT_LIGHTS: usize = 16;
 
-/// Problems that one step of reading or checking lists; one more may count the rest.
+/// Problems that one step of reading or checking lists; one more problem may say how many are not listed.
 pub const MAX_PROBLEMS: usize = 100;
 
 /// Further references, in addition to the scene's own.

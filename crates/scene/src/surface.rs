@@ -69,8 +69,8 @@ pub(crate) struct Oddities {
     pub rough_faces: (usize, u32),
     /// How many faces have over 1,000 corners, and the index of the first.
     pub large_faces: (usize, u32),
-    /// How many triangles have normals in the file that run along them, and the index of the first one's face. New
-    /// normals are made for them.
+    /// How many triangles have normals in the file that run along them (lie nearly in the triangle's plane), and the
+    /// index of the first one's face. New normals are made for them.
     pub along_faces: (usize, u32),
     /// How many triangles lie on others with the same corners, and the index of the first one's face. They are left
     /// out.
@@ -221,9 +221,9 @@ impl<'a> Builder<'a> {
         Some(normals.iter().all(|normal| normal.as_dvec3().dot(across).abs() < NEARLY_ALONG))
     }
 
-    /// Cuts a range of the faces. If the range is only a part of the faces, cutting stops once all cores together have
-    /// `spent` too many tests, because [`Self::new`] then starts again. If it is all faces, cutting goes on to the end,
-    /// without tests once they are used up.
+    /// Cuts a range of the faces. If the range is only a part of the faces, its tests are added to `spent`, which all
+    /// cores share. Cutting stops once `spent` reaches the limit, because [`Self::new`] then starts again. If the range
+    /// is all faces, cutting goes on to the end, without tests once they are used up.
     fn cut(mut self, faces: Range<usize>, spent: &AtomicU64) -> Self {
         self.triangles.reserve(faces.len());
         let ends = &self.geometry.ends;

@@ -12,8 +12,8 @@ pub(crate) struct Steps<W, F> {
     pub(crate) work: W,
     /// Done on other threads, with what `work` returned.
     pub(crate) finish: F,
-    /// How many results may wait or be finished on other threads while the calling thread works on the next job. With
-    /// 0, the calling thread finishes them.
+    /// While the calling thread works on a job, at most this many results of earlier jobs are being finished on other
+    /// threads, or are finished and wait. With 0, the calling thread finishes each result itself.
     pub(crate) most_beside: usize,
 }
 

@@ -25,7 +25,7 @@ pub(crate) fn encode(
             ("Frame", Note::Number(drawn.number as i32)),
             ("Seed", Note::Text(scene.seed.to_string())),
             ("Style", Note::Text(scene.style.info().name.to_owned())),
-            // The view transform: to be shown, the linear colours are only encoded as sRGB, without tone mapping.
+            // The view transform: for display, the linear colours are only encoded as sRGB, without tone mapping.
             ("View", Note::Text("sRGB".to_owned())),
             ("paint.toLight", Note::Vector(finish.to_relief_light)),
             ("paint.relief", Note::Float(finish.relief)),

@@ -68,5 +68,6 @@ const OF_SCENE: &[Aov] = &[
 /// Bytes per pixel while AOVs of the scene are read and encoded.
 const OF_SCENE_READ: u64 = 230;
 
-/// The same if any AOV of the paint is wanted: as much as a file with all AOVs takes.
+/// Bytes per pixel while AOVs are read and encoded if one of them is of the paint: as much as a file with all AOVs
+/// takes.
 const OF_PAINT: u64 = 844;

@@ -137,8 +137,8 @@ impl Carrier {
         moved(at_rest, &blended(&corners, place.weights()), height)
     }
 
-    /// Culls particles. Returns one bit for each, in the order of their numbers, set where the particle faces the eye
-    /// and is within the bounds; 64 to a word, the first in the lowest bit.
+    /// Culls particles. Returns one bit for each, in the order that they had before sorting, set where the particle
+    /// faces the eye and is within the bounds; 64 to a word, the first in the lowest bit.
     pub fn within(
         &self,
         mesh: &TriangleMesh,
@@ -203,7 +203,7 @@ pub fn normals_around(gradients: [Mat3; 3], normals: [Vec3; 3]) -> impl Iterator
 /// An upper bound on the factor by which the area grows anywhere on a triangle, whatever its normal is. `gradients` are
 /// F at its corners.
 pub fn most_growth(gradients: [Mat3; 3]) -> f32 {
-    // A matrix makes a unit vector at most as long as the root of the sum of the squares of its entries.
+    // A matrix takes a unit vector to a vector at most as long as the matrix's Frobenius norm.
     let length =
         |cofactors: Mat3| cofactors.to_cols_array().iter().map(|entry| entry * entry).sum::<f32>().sqrt();
     let lengths = cofactors_around(gradients).map(length);
@@ -218,7 +218,7 @@ pub fn most_growth(gradients: [Mat3; 3]) -> f32 {
 /// its corners.
 fn cofactors_around(gradients: [Mat3; 3]) -> [Mat3; 6] {
     let [a, b, c] = gradients;
-    // Cofactors are quadratic in F: of u F + v G they are u² cof F + v² cof G + 2 u v (cof(F + G) − cof F − cof G)/2.
+    // Cofactors are quadratic: cof(u F + v G) = u² cof F + v² cof G + 2 u v (cof(F + G) − cof F − cof G)/2.
     let corners = gradients.map(cofactors_f32);
     let mixed =
         |(f, cof_f): (Mat3, Mat3), (g, cof_g): (Mat3, Mat3)| (cofactors_f32(f + g) - cof_f - cof_g) * 0.5;

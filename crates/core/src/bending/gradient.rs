@@ -143,8 +143,9 @@ fn places(TriangleMesh { positions, normals, .. }: &TriangleMesh, bonds: Bonds<'
     (place_of_vertex, vertex_of_place)
 }
 
-/// Adds the edges of a place with their weights, and returns the rows of M⁻¹. `corners` are the other two corners of
-/// its triangles, in order. Where all of these triangles are without area, no edge is added, so F will be zero.
+/// Adds the edges of a place with their weights, and returns the rows of M⁻¹. `corners` holds the other two corners of
+/// each of its triangles, in the order in which the triangle winds. Where all of these triangles are without area, no
+/// edge is added, so F will be zero.
 fn fit(positions: &[Vec3], vertex: u32, corners: &[[u32; 2]], edges: &mut Vec<Edge>) -> [Vec3; 3] {
     let rigid = DMat3::IDENTITY;
     let as_rows = |matrix: DMat3| [0, 1, 2].map(|row| matrix.row(row).as_vec3());

@@ -105,7 +105,8 @@ fn a_light_mark_that_reaches_two_borders_of_its_picture_is_no_dark_one() {
     }
 }
 
-/// For each row with paint in any mark of a brush: its number, and the columns of its first and last texel with paint.
+/// For each row of each mark of a brush, if the row has paint: its number, and the columns of its first and last texel
+/// with paint.
 fn ends_of_rows(name: &str) -> Vec<(usize, [usize; 2])> {
     let rows = |mark: &Mark| -> Vec<(usize, [usize; 2])> {
         let inked = |row: usize| {

@@ -15,8 +15,8 @@ pub struct Curvature {
 }
 
 /// Fits the shape operator S (symmetric, `n' ≈ n + S d`) to the neighbours of a point. `normal` is n; `near` gives the
-/// offset d and the unit normal n' of each neighbour. `None` unless two of them lie in clearly different directions
-/// from the point, and not just in opposite ones.
+/// offset d and the unit normal n' of each neighbour. `None` without neighbours, or where all of them lie nearly on one
+/// line through the point.
 pub fn principal(normal: DVec3, near: impl Iterator<Item = (DVec3, DVec3)>) -> Option<Curvature> {
     let [right, above] = tangent_axes(normal);
     let flat = |v: DVec3| DVec2::new(v.dot(right), v.dot(above));

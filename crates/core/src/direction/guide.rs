@@ -51,7 +51,7 @@ struct Corner {
 /// What a guide asks of the strokes at a point of the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Influence {
-    /// Strength times falloff, 0..=1.
+    /// Strength times falloff, 0..=1; lowered where the surface faces another way than at the guide.
     pub weight: f64,
     /// Unit vector along the gesture. It is not projected onto the surface.
     pub along: DVec3,
@@ -59,8 +59,8 @@ pub struct Influence {
     pub turn_rad: f64,
 }
 
-/// A guide has no effect where the cosine between the surface's normal and its own is below `NO_EFFECT_COS`, and full
-/// effect where the cosine is at least `FULL_EFFECT_COS`.
+/// A guide has no effect where the cosine between the surface's normal and the guide's is below `NO_EFFECT_COS`, and
+/// full effect where the cosine is at least `FULL_EFFECT_COS`.
 const NO_EFFECT_COS: f64 = 0.1;
 const FULL_EFFECT_COS: f64 = 0.4;
 

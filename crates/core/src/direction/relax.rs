@@ -26,8 +26,9 @@ impl FieldGraph {
     /// Solves some samples of the field `solved` again: the free ones, which have an entry in `holds`. Each is pulled
     /// by the constraint in its entry and by its neighbours. All other samples stay as they are.
     ///
-    /// The turn from one fixed side to the other is spread evenly over the free samples. Where the two sides are
-    /// opposite, all free samples turn the same way round. The same inputs give the same bits.
+    /// Where free samples lie between two fixed parts of the field, the turn from the directions of one part to those
+    /// of the other is spread evenly over them. If the two parts have opposite directions, all free samples turn the
+    /// same way round. The same inputs give the same bits.
     pub fn relaxed(&self, symmetry: Symmetry, solved: &[DVec2], holds: &[Option<Constraint>]) -> Vec<DVec2> {
         let free = FreeSamples::new(self, symmetry, holds);
         let mut field = solved.to_vec();
@@ -100,8 +101,11 @@ impl FreeSamples {
     }
 
     /// For each sample of a tear, a constraint that decides which way round the field turns there; `None` for others.
-    /// Its target is perpendicular to the line along which the blend changes, and on the same side of this line all
-    /// over the tear: the side that makes the turn shorter.
+    ///
+    /// From one side of a tear to the other, the blended numbers change along a line in the complex plane, for instance
+    /// from 1 through nearly 0 to −1. The target is the unit number perpendicular to this line (here i or −i), through
+    /// which the field then turns. It is on the same side of the line all over the tear: the side that makes the turn
+    /// shorter.
     fn leads(&self, field: &[DVec2], blend: &[DVec2]) -> Vec<Option<Constraint>> {
         let torn = |index: usize| blend[index].length() < TORN;
         let at = |tie: &Tie| tie.inner.map_or(field[tie.to], |inner| blend[inner]);
@@ -144,7 +148,8 @@ impl FreeSamples {
         found.into_iter().zip(blend).map(lead).collect()
     }
 
-    /// Turns every free sample so that the sum of the squared turns between neighbours is least.
+    /// Turns every free sample so that a sum is least: that of the squared angles between neighbours, and between free
+    /// samples and the targets of their constraints, each times its weight.
     fn even_out(&self, field: &mut [DVec2]) {
         let angle = |from: DVec2, to: DVec2| DVec2::new(from.x, -from.y).rotate(to).to_angle();
         let mut firm = Vec::with_capacity(self.inner.len());
@@ -163,8 +168,9 @@ impl FreeSamples {
         }
     }
 
-    /// Solves (firm + Σ w) x − Σ w ρ x' = pull over the free samples, where x' are their free neighbours, by conjugate
-    /// gradients from `start`; `carried` applies ρ. Sums run in a fixed order.
+    /// Solves (firm + Σ w) x − Σ w ρ x' = pull for the number x of each free sample, by conjugate gradients from
+    /// `start`. The first Σ runs over all neighbours of the sample, the second over the free ones, whose numbers are
+    /// x'. `carried` applies ρ. Terms are added in a fixed order, so the same inputs give the same bits.
     fn solve(
         &self,
         start: Vec<DVec2>,

@@ -12,8 +12,8 @@ use super::{Particle, Surface, barycentric};
 use crate::hash;
 use crate::wide::{Wide, widest};
 
-/// The first tries of a level are accepted a little more often than the last: after the share t of its tries, t +
-/// `FRONT_LOAD` t (1 − t) of its particles are there.
+/// The first tries of a level are accepted a little more often than the last: after the share t of its tries, the level
+/// has the share t + `FRONT_LOAD` t (1 − t) of its particles.
 const FRONT_LOAD: f64 = 0.157;
 
 /// In how many cells one task throws candidates.
@@ -27,19 +27,19 @@ const MOST_TRIES: f64 = 48.0;
 /// of its tries in the next level, but never more than all of them.
 const SPARE: f64 = 8.0;
 
-/// The least share of its tries that a cell gets: so room that opens up is found.
+/// The least share of its tries that a cell gets, so that room that opens up at finer spacings is found.
 const LEAST_TRIED: f64 = 1.0 / 32.0;
 
 /// The cells in which the present level is thrown.
 pub(super) struct ActiveCells<'a> {
     cells: Vec<Cell>,
-    /// What a level asks of each of these cells, in the same order. It is an array of its own because each level goes
-    /// through all of it, and reads the cell itself only for a try: where faces lie on each other, most cells get none.
+    /// What each level reads of all these cells, in the same order. It is an array of its own because a level reads the
+    /// cell itself only for a try, and where faces lie on each other, most cells get none.
     asked: Vec<AskedCell>,
     needed: Option<&'a Needed>,
 }
 
-/// What a level asks of a cell.
+/// What each level reads of a cell, even if the cell gets no try.
 #[derive(Clone, Copy)]
 struct AskedCell {
     /// Its share of the surface's area.
@@ -57,13 +57,13 @@ struct AskedCell {
 struct Filled {
     meant: f64,
     added: f64,
-    /// What was expected of the cell when it was made: the share of the particles meant for it that it has room for.
-    /// In [`Filled::share`] this weighs as much as one particle that was meant and tried.
+    /// The value that was expected of [`Filled::share`] when the cell was made. It counts like one more particle: if
+    /// 0.3 was expected, as if one more had been meant for the cell, and 0.3 of it added.
     expected: f64,
 }
 
 impl Filled {
-    /// The share of the particles meant for the cell that it has room for.
+    /// An estimate: of the particles meant for the cell, the share that it has room for.
     #[inline(always)]
     fn share(self) -> f64 {
         (self.added + self.expected) / (self.meant + 1.0)
@@ -77,7 +77,7 @@ impl Filled {
 }
 
 impl AskedCell {
-    /// A new cell, in which this share of the particles meant for it is expected.
+    /// A new cell, expected to have room for the share `expected` of the particles meant for it.
     fn new(cell: &Cell, index: u32, expected: f64) -> Self {
         let filled = Filled { meant: 0.0, added: 0.0, expected };
         Self { share: cell.share, bits: cell.bits, index, filled }
@@ -85,7 +85,7 @@ impl AskedCell {
 }
 
 impl<'a> ActiveCells<'a> {
-    /// The first cells of a surface, in which this share of the particles meant for them is expected.
+    /// The first cells of a surface, each expected to have room for the share `expected` of the particles meant for it.
     pub(super) fn new(surface: &Surface<'_>, needed: Option<&'a Needed>, expected: f64) -> Self {
         let cells: Vec<Cell> = Cells::new(surface).into_iter().collect();
         let asked = cells.iter().zip(0..);
@@ -145,7 +145,7 @@ impl<'a> ActiveCells<'a> {
         }
     }
 
-    /// Notes how many particles a level was meant to add, and the cell of each particle that it added.
+    /// Notes how many particles a level was meant to add on the whole surface, and the cell of each that it added.
     fn note(&mut self, meant: f64, added: impl Iterator<Item = u32>) {
         for asked in &mut self.asked {
             asked.filled.meant += meant * asked.share;
@@ -281,14 +281,15 @@ impl Throwing<'_> {
     }
 }
 
-/// The particles that a level adds, in its order.
+/// The particles that a level adds, in the order in which they were tried.
 #[derive(Default)]
 pub(super) struct Added {
     pub(super) particles: Vec<Particle>,
     pub(super) ordinals: Vec<f32>,
 }
 
-/// A candidate. Candidates are tried in the order of `turn`, where 2³² is the end of the level, and then of `bits`.
+/// A candidate. Candidates are tried in the order of `turn` (0 is the beginning of the level, 2³² its end), those with
+/// equal turns in the order of `bits`.
 #[derive(Clone, Copy)]
 struct Thrown {
     turn: u32,
@@ -311,7 +312,8 @@ impl CellLevel {
     ) -> Added {
         let tries = self.tries();
         active.refine(surface, (tries, self.ordinal(0.0)));
-        // Tries are saved in crowded parts. A body with a strict order hides most of itself, and is often crowded.
+        // Tries are saved in crowded orders, and in strict ones: a strict order is for a body that hides most of
+        // itself, and the faces of such a body often lie close to each other.
         let saves_tries = self.state.is_crowded() || active.needed.is_some_and(|needed| needed.is_strict);
         let of_cells = |(chunk, (cells, asked)): (usize, (&[Cell], &[AskedCell]))| {
             widest(Throwing {

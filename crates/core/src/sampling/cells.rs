@@ -80,7 +80,7 @@ impl Cells {
         let area = surface.area();
         let mut cells = Vec::new();
         // `run`: small faces that follow each other. `two_sided`: both sides of their triangles can be seen.
-        // `run_share`: their share of the area.
+        // `run_share`: the run's share of the surface's area.
         let (mut run, mut two_sided, mut run_share) = (0..0u32, false, 0.0);
         let close = |run: &Range<u32>, two_sided: bool, share: f64, cells: &mut Vec<Cell>| {
             if run.start < run.end && two_sided {
@@ -289,7 +289,7 @@ impl Cell {
 const CORNERS: [[f32; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
 
 impl Extent {
-    /// A point of the part, from the corners of its face.
+    /// A point of the part, or of a whole face, from the corners of the face.
     fn at(&self, [a, b, c]: [DVec3; 3], weights: [f32; 2]) -> DVec3 {
         let [v, w] = self.weights(weights).map(f64::from);
         a + (b - a) * v + (c - a) * w

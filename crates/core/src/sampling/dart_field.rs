@@ -20,7 +20,7 @@ pub(super) struct Accepted<'a> {
     pub(super) radius: f32,
 }
 
-/// Tells whether candidates crowd each other.
+/// Tells which candidates are crowded, by accepted particles or by each other.
 pub(super) struct DartField {
     /// For most pairs of candidates, they tell whether both are on the same side of the surface.
     cones: FaceCones,
@@ -44,8 +44,7 @@ impl DartField {
     }
 
     /// Goes through the darts of a level in order of their numbers, and drops each dart that is crowded by an earlier
-    /// one which was kept. Returns the kept darts in this order. `normal_of` finds the normal of the dart with a
-    /// number.
+    /// one which was kept. Returns the kept darts in this order. `normal_of` finds a dart's normal from its number.
     pub(super) fn thinned(
         &self,
         level: &Range<u32>,
@@ -78,7 +77,7 @@ impl DartField {
             stays[(dart.number - level.start) as usize] = index as u32;
         }
         for (later, earlier) in pairs {
-            // Pairs are sorted, so all that could drop the earlier one has been handled.
+            // Pairs are sorted, so all pairs that could drop the earlier dart have been handled.
             if stays[earlier as usize] != NONE {
                 stays[later as usize] = NONE;
             }
@@ -87,7 +86,7 @@ impl DartField {
     }
 }
 
-/// Ends at a particle that is on a candidate's side of the surface.
+/// Ends a search at the first particle that is on the candidate's side of the surface.
 struct Crowds<'a, F> {
     cones: &'a FaceCones,
     accepted: &'a Accepted<'a>,
@@ -117,7 +116,7 @@ struct Rivals<'a, F> {
     normal_of: &'a F,
     /// The first number of the level.
     first: u32,
-    /// Pairs of the dart and a rival, counted from `first`.
+    /// Pairs of numbers, the dart's and a rival's, both counted from `first`.
     found: Vec<(u32, u32)>,
 }
 

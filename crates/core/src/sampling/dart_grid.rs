@@ -26,7 +26,7 @@ pub(super) trait Visitor {
 struct Near {
     position: Vec3,
     radius_sq: f32,
-    /// Whether the first of the two buckets of a row is that of the position's own x.
+    /// Whether the position's own x lies in the first, not the second, of the two cells that are read in each row.
     is_first: bool,
 }
 

@@ -1,5 +1,5 @@
-//! A cone of normals for each face. For most pairs of particles it tells from their faces alone whether they are on the
-//! same side of the surface.
+//! A cone of normals for each face. For most pairs of particles, the cones of their faces alone tell whether both are
+//! on the same side of the surface.
 
 use glam::Vec3;
 

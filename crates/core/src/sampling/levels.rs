@@ -33,16 +33,16 @@ pub(super) const LEAST_CHUNK: usize = 1024;
 
 /// How much of a progressive order has been made.
 ///
-/// The first levels, up to at least 8,192 particles, are thrown on the whole surface, and a particle's ordinal is its
-/// index. Later levels may be thrown on a part of the surface only, where the particles before a given one cannot be
-/// counted. So in all later levels an ordinal is computed from the turn among the tries of the level. In this way
-/// neither a particle nor its ordinal depends on what is far away. How many tries a cell gets depends on what earlier
-/// levels found there, but only in a crowded order ([`ProgressiveState::is_crowded`]) and in a strict one
-/// ([`super::Needed::is_strict`]). In a crowded order, particles stop being counted as soon as it is known to be
-/// crowded.
+/// The first levels, up to at least 8,192 particles, are counted: they are thrown on the whole surface, and the ordinal
+/// of a particle is its index. Later levels may be thrown on a part of the surface only, where the particles before a
+/// given one cannot be counted. So in all later levels a particle's ordinal is computed from its turn among the tries
+/// of its level. In this way neither a particle nor its ordinal depends on what is far away. How many tries a cell gets
+/// depends on what earlier levels found there, but only in a crowded order ([`ProgressiveState::is_crowded`]) and in a
+/// strict one ([`super::Needed::is_strict`]). As soon as an order is known to be crowded, its counted levels end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProgressiveState {
-    /// Candidates of the sequence that were thrown so far. Levels that are thrown cell by cell have their own.
+    /// How many candidates of the sequence were used so far. Levels that are thrown cell by cell make candidates of
+    /// their own, and use the sequence only to fill up.
     pub(super) thrown: u32,
     /// How many particles the last level was meant to end with.
     pub(super) level_end: usize,
@@ -75,7 +75,8 @@ impl ProgressiveState {
 
     /// Whether an order on the whole surface may be in this state with this many particles.
     pub fn fits(self, particles: usize) -> bool {
-        // Unless an order is crowded, levels are at least half filled; a quarter leaves room for rounding.
+        // Unless an order is crowded, levels are at least half filled. Only a quarter is asked for here, which leaves
+        // room for rounding.
         let is_filled = self.is_crowded() || self.level_end / 4 <= particles.saturating_add(1);
         self.counted[0] <= particles && is_filled
     }
@@ -95,9 +96,9 @@ impl ProgressiveState {
         self.counted[0]
     }
 
-    /// Whether the counted levels found room for hardly any more particles than the half that is always added, as where
-    /// several faces lie on each other. From then on, particles are only added where there is room: where several faces
-    /// coincide, as many as one of them holds. When a later call asks for more, the order is made anew.
+    /// Whether the counted levels ended with hardly more than half of the particles that they were meant to end with,
+    /// as where several faces lie on each other. From then on, particles are only added where there is room: where
+    /// several faces coincide, as many as one of them holds. When a later call asks for more, the order is made anew.
     pub(super) fn is_crowded(self) -> bool {
         let [count, level_end] = self.counted;
         level_end >= CROWDED_FROM && (count as f64) < 1.1 * LEAST_FILLED * level_end as f64

@@ -12,8 +12,8 @@ use super::dart_grid::{Dart, DartGrid};
 use super::levels::{LEAST_CHUNK, LEAST_FILLED, ProgressiveState, TRIES, next_level_end, spacing};
 use super::{Particle, Surface};
 
-/// Levels are thrown on the whole surface, and their particles counted, until there are this many or the order is
-/// crowded: see [`ProgressiveState`]. Calls that ask for fewer end sooner.
+/// Until an order has this many particles or is crowded, its levels are counted: thrown on the whole surface, with each
+/// particle's index as its ordinal. See [`ProgressiveState`]. Calls that ask for fewer particles end sooner.
 const LEAST_COUNTED: usize = 8192;
 
 /// Distinct places on a surface differ by at least about this share of its greatest coordinate.
@@ -38,7 +38,8 @@ pub fn progressive(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Partic
 }
 
 /// Samples of a surface: `count` of them, but at most 8,192; none on an empty surface. They are spread as particles
-/// are. Where faces lie on each other and leave too little room, samples without distances are added, evenly by area.
+/// are. Where faces lie on each other and leave too little room, samples that keep no distance from others are added,
+/// evenly by area.
 pub fn samples(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Particle> {
     let mut order = ProgressiveOrder::default();
     if surface.faces.is_empty() {
@@ -59,8 +60,8 @@ pub fn samples(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Particle> 
 pub struct ProgressiveOrder {
     /// The particles.
     pub particles: Vec<Particle>,
-    /// For each particle its ordinal: about how many particles come before it when the whole surface has all of its
-    /// particles. Empty where each ordinal is the particle's index.
+    /// For each particle its ordinal: about how many particles come before it in an order on the whole surface (fewer
+    /// if that order is crowded). Empty if each ordinal is the particle's index.
     pub ordinals: Vec<f32>,
     /// How much of the order has been made.
     pub state: ProgressiveState,
@@ -85,15 +86,15 @@ impl ProgressiveOrder {
         }
     }
 
-    /// How many particles belong to the first `count`. `None` if the order does not reach that far. In a crowded order,
-    /// they are the particles whose ordinals are less than `count`, which may be fewer than that.
+    /// How many particles count as the first `count`: `count` itself, but in a crowded order the number of ordinals
+    /// less than `count`, which may be smaller. `None` if the order does not reach that far.
     pub fn len_of(&self, count: usize) -> Option<usize> {
         self.state.len_of(count, self.particles.len(), &self.ordinals)
     }
 
-    /// A new order. The particles whose ordinals are their indices lie on the whole surface, all others where they are
-    /// needed. Except near the borders of what is needed, particles and ordinals are those of the whole order, unless
-    /// `needed` is strict or faces lie on each other.
+    /// A new order. The first particles, whose ordinals are their indices, lie on the whole surface, all others where
+    /// they are needed. There, except near the borders of what is needed, particles and ordinals are the same as in an
+    /// order for the whole surface. They differ if `needed` is strict or faces lie on each other.
     pub fn where_needed(surface: &Surface<'_>, seed: u32, needed: &Needed) -> Self {
         let mut order = Self::default();
         if surface.faces.is_empty() {
@@ -125,8 +126,8 @@ struct Levels<'a> {
     finest: f32,
     /// Where particles are needed; `None` if they are needed everywhere.
     needed: Option<&'a Needed>,
-    /// Of the particles meant for the last counted level, the share that found room; 1 until a counted level is thrown
-    /// by this `Levels`.
+    /// How many particles found room in the last counted level, per particle that it was meant to add; 1 until this
+    /// `Levels` has thrown a counted level.
     found: f64,
     /// Made when a level is first thrown cell by cell.
     cells: Option<ActiveCells<'a>>,
@@ -162,7 +163,7 @@ impl<'a> Levels<'a> {
         spacing(self.surface, next_level_end(self.order.state.level_end)) < self.finest
     }
 
-    /// Whether ordinals are still indices in the next level.
+    /// Whether the next level is a counted one, in which ordinals are indices.
     fn is_counting(&self) -> bool {
         self.order.particles.len() < LEAST_COUNTED && !self.order.state.is_crowded()
     }
@@ -176,7 +177,7 @@ impl<'a> Levels<'a> {
         }
     }
 
-    /// Throws a level in which ordinals are indices.
+    /// Throws a counted level, in which ordinals are indices.
     fn throw_counted(&mut self) {
         let Self { order: ProgressiveOrder { particles, state, .. }, candidates, field, grid, found, .. } =
             self;
@@ -231,8 +232,9 @@ impl<'a> Levels<'a> {
         let accepted = Accepted { grid, particles, radius: level.radius };
         let mut added = level.added(surface, cells, field, &accepted);
         if needed.is_none() && !state.is_crowded() {
-            // Where the spacing is too fine for f32, few tries are accepted. What is missing to half of the particles
-            // meant for the level is then taken from the sequence of candidates, which is even by area.
+            // Where the spacing is too fine for f32, few tries are accepted. If the level then has less than half of
+            // the particles that it was meant to add, candidates of the sequence, which is even by area, make up that
+            // half.
             let least = (LEAST_FILLED * (level_end - state.level_end) as f64) as usize;
             let missing = least.saturating_sub(added.particles.len());
             let numbers: Vec<u32> =
@@ -250,7 +252,8 @@ impl<'a> Levels<'a> {
     }
 }
 
-/// A level's candidates that no accepted particle crowds, in any order; `of_chunk` finds those among some numbers.
+/// A level's candidates that no accepted particle crowds, in any order. `of_chunk` finds them among the candidates with
+/// the numbers that it is given.
 fn clear_of(level: Range<u32>, of_chunk: impl Fn(Range<u32>) -> Vec<Dart> + Sync) -> Vec<Dart> {
     let threads = rayon::current_num_threads();
     let chunk = (level.len() / (2 * threads)).clamp(LEAST_CHUNK, MOST_CHUNK);

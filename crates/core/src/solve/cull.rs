@@ -22,7 +22,8 @@ pub struct Bounds {
     pub half_px: [f32; 2],
     /// Nearest and farthest depth, exclusive.
     pub near_far: [f32; 2],
-    /// A particle's ordinal must be less than this times its projected area in px² per unit of surface.
+    /// A particle's ordinal (its place in the progressive order) must be less than this times its projected area in px²
+    /// per unit of surface.
     pub most_per_area: f32,
 }
 

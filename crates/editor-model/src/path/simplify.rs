@@ -27,7 +27,8 @@ pub(crate) fn guide_within(points: &[GuidePoint], tolerance: f64) -> Vec<GuidePo
     points.iter().zip(keep).filter(|(_, keep)| *keep).map(|(point, _)| point.clone()).collect()
 }
 
-/// For each point, whether it stays: the points with indices `ends` do, and those that `tolerance` needs between them.
+/// For each point, whether it stays. The points at the indices `ends` stay, and between them as many as keep the line
+/// within `tolerance` of all points.
 fn needed(places: &[DVec3], ends: &[usize], tolerance: f64) -> Vec<bool> {
     let mut keep = vec![false; places.len()];
     for &end in ends {

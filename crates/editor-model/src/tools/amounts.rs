@@ -8,9 +8,9 @@ use crate::session::ToolOptions;
 /// Dabs of a drag lie this share of the radius apart, which looks even.
 pub(super) const DAB_SHARE: f64 = 0.5;
 
-/// The falloffs (1 − r²)² of all dabs of a long drag, [`DAB_SHARE`] apart, summed at one of its dabs: `1 + 2 (1 − ¼)²`.
-/// A dab multiplies by 1 + (factor − 1) · falloff, about factor^falloff, so a drag multiplies by about
-/// factor^`OVERLAP`.
+/// A dab has the falloff (1 − r²)², with r the distance from its middle in radii. In the middle of one dab of a long
+/// drag, the falloffs of all its dabs, which lie [`DAB_SHARE`] apart, have this sum: `1 + 2 (1 − ¼)²`. A dab multiplies
+/// by 1 + (factor − 1) · falloff, about factor^falloff, so a drag multiplies by about factor^`OVERLAP`.
 const OVERLAP: f64 = 2.125;
 
 /// The factor of one dab. Together, the dabs of a drag that raises give 1 + strength. Those of a drag that lowers give

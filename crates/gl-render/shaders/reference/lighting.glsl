@@ -2,7 +2,7 @@
 // shadows; without a sun, the brightest point light does.
 
 // A column per light, made by `column` in lighting.rs. Row 0: direction to a sun (w 0) or place of a point light (w 1).
-// Row 1: radiance; w: slope of the cone. Row 2: axis of the cone; w: its offset.
+// Row 1: radiance; w: slope. Row 2: axis of the cone; w: offset. The cone lets (slope * cosine + offset)² through.
 uniform sampler2D lights;
 uniform int light_count;
 uniform int shadowed_light;      // index of the light that casts shadows, or -1

@@ -2,7 +2,7 @@
 uniform sampler2D depth_and_id;
 #include "rotating_strokes/surface.glsl"
 
-out vec2 surface;                // x: depth; y: body id + 0.499 × the share of the pixel that shows something else
+out vec2 surface;                // x: depth; y: body id; its fraction: 0.499 × the share of the pixel off that body
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);

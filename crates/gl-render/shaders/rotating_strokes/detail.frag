@@ -11,7 +11,8 @@ uniform float px_scale;              // output pixels per pixel of the scene's o
 uniform mat4 view_from_world;
 uniform int block_px;                // side of a block
 
-out vec4 detail;                     // change or turn, outline, highlight; a: body id + 0.499 × its share of the block
+out vec4 detail;                     // change or turn, outline, highlight; a: body id; its fraction: 0.499 × the
+                                     // body's share of the block
 
 // Change of Oklab per pixel of the scene's own size: no detail below the first, full detail above the second.
 const vec2 CHANGE = vec2(0.004, 0.034);

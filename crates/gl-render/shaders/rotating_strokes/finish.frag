@@ -8,7 +8,7 @@ uniform sampler2D normal;            // of the surface, world space, towards the
 uniform sampler2D picture;           // premultiplied, display-linear
 uniform sampler2D reference_color;   // alpha 1 where a body is, or less where noise colours it
 #ifndef DRAFT
-uniform sampler2D surface;           // x: depth; y: body id + half the share of the pixel that shows something else
+uniform sampler2D surface;           // x: depth; y: body id; its fraction: half the share of the pixel off that body
 uniform sampler2D height;            // of the paint, in brush thicknesses, and how wet it is
 uniform sampler2D soft_height;       // `height` averaged by `soften.frag`; half the picture's size
 uniform sampler2D canvas;            // one tile: height, and its slope in x and in y, each stored around 0.5

@@ -22,7 +22,7 @@ flat in float leaning;
 #endif
 
 uniform sampler2DArray brush_marks; // paint, height, tint
-uniform sampler2D surface;       // x: depth; y: body id + half the share of the pixel that shows something else
+uniform sampler2D surface;       // x: depth; y: body id; its fraction: half the share of the pixel off that body
 uniform float units_per_px_at_1; // world units per pixel at depth 1; at any depth if rays are parallel
 uniform float orthographic;
 
@@ -82,7 +82,7 @@ float past_body(vec2 here, float reach_px) {
     float bias = 2.0 * units_per_px_at_1 * mix(depth, 1.0, orthographic);
     float away_px = length(from_center_px);
     vec2 inward = -from_center_px / max(away_px, 1e-3);
-    // Over a body in front of the stroke goes only a soft edge; over the background and bodies behind, more paint.
+    // Over a body in front of the stroke, only a soft edge is laid; over the background and bodies behind, more paint.
     if (here.y != 0.0 && here.x < depth - bias) reach_px = 0.35;
 #ifdef DRAFT
     const int PLACES = 2;
@@ -115,8 +115,8 @@ float laid(float tint) {
     float others = 2.0 * fract(here.y);
     float reach_px = body.z * (1.0 + 0.7 * tint);
     if (floor(here.y) != own.y) return past_body(vec2(here.x, floor(here.y)), reach_px);
-    // The part of the pixel that shows something else gets paint as far as paint reaches past the body: all of that
-    // part from a reach of one pixel on.
+    // Paint that reaches past the body also covers the part of the pixel that shows something else: a reach of 0.3
+    // pixels covers 0.3 of that part, a reach of one pixel or more all of it.
     float whole = 1.0 - others * (1.0 - clamp(reach_px, 0.0, 1.0));
     return here.y == 0.0 ? whole : whole * on_plane(here.x);
 }

@@ -30,7 +30,7 @@ uniform mat4 view_from_world;
 uniform int kind;                // layer of paint
 #endif
 uniform float mark_rows;         // texels across a mark
-uniform sampler2D mark_bounds;   // a row per mark, a texel per threshold: the box around all texels with more paint
+uniform sampler2D mark_bounds;   // a row per mark: per threshold of paint, the box around all that lies above it
 #ifndef DRAFT
 uniform sampler2D below;         // the picture before this layer, premultiplied
 uniform sampler2D depth_and_id;
@@ -69,7 +69,7 @@ const float WET_PICKUP = 0.25;
 const float BYTE = 1.0 / 255.0;
 
 #ifndef DRAFT
-// rgb: mean colour (not premultiplied) at twenty places below the first half of the stroke. a: how much of it is picked
+// rgb: mean colour (not premultiplied) at twenty places below the first 40 % of the stroke. a: how much of it is picked
 // up. Only places on the stroke's own body count, since paint past its border belongs to what lies beside it. The fewer
 // places count, the less is picked up; where hardly any paint lies, nothing. The places are far apart, so that a body
 // that passes in front of the stroke covers them one after the other, over many frames.
@@ -93,11 +93,11 @@ vec4 paint_below(vec2 center_px, mat2 turn) {
 const vec2 MARK_SIZE = vec2(256.0, 96.0);
 const float FILL = 0.84;
 const int STEPS = 32;
-// Levels coarser than this are not exact halves of the finest.
+// The last mipmap level whose sides are exactly half those of the level before; the next one rounds.
 const float COARSEST = 5.0;
 
-// The part of the quad outside which the mark has no more paint than `least` at this level: the range along the mark,
-// then the range across it.
+// The part of the quad that holds all of the mark's paint above `least` at this level: the range along the mark, then
+// the range across it.
 vec4 painted_part(float least, float level, float bow, float flip) {
     int amount = int(floor(least * float(STEPS) - 0.05));
     float coarser = floor(level) + 1.0;

@@ -16,8 +16,8 @@ layout(location = 5) in vec4 reach;          // overrun in px, slow noise of hue
 #include "rotating_strokes/surroundings.glsl"
 #include "rotating_strokes/mixing.glsl"
 
-out vec4 resolved;               // colour and how much is there
-out vec4 fitted;                 // centre in px where it lies on its body, lightness, turn added to its angle
+out vec4 resolved;               // colour, presence
+out vec4 fitted;                 // centre in px, moved onto its body; lightness; turn added to the angle
 
 const float FREE = 1e6;
 const float MOST_FULL = 1.35;
@@ -43,8 +43,8 @@ const float BLUR[8] = float[8](0.33, 0.20, 0.20, 0.22, 0.30, 0.60, 0.25, 0.25);
 const float SPREAD_PX = 16.0;
 // Strokes of a highlight gather round its peak. GATHERED: a stroke's distance from the peak, as a share of the distance
 // of its particle (the point of the surface that carries it). A stroke fades as the highlight at its particle falls
-// below NEAR_PEAK of the peak, and over the second half of GATHER_PX (pixels of the scene's own size) from the peak. So
-// none pops as its particle comes near or goes.
+// below NEAR_PEAK of the highlight at the peak. It also fades as its particle's distance from the peak grows from half
+// of GATHER_PX to GATHER_PX (pixels of the scene's own size). So no stroke pops as its particle comes near or goes.
 const float GATHERED = 0.3;
 const float GATHER_PX = 60.0;
 const float NEAR_PEAK = 0.7;
@@ -178,15 +178,15 @@ float fullness(float lightness, float grading) {
 float wanted(vec3 detail) {
     // Reaches 1 early, so that a highlight that grows as it runs over a bump gets no stronger strokes than before.
     if (kind == LIGHTS) return smoothstep(0.0, 0.14, detail.b);
-    // Edges are lost in places.
+    // Outlines ask for strokes, except here and there, by slow noise.
     float rim = min(1.4 * detail.g, 1.0) * clamp(0.55 * (0.6 + 0.5 * reach.z), 0.0, 1.0);
     float inside = kind == FORM ? detail.r - 0.05 : 0.6 * detail.r - 0.2;
     return clamp(max(inside, 0.0) + rim, 0.0, 1.0);
 }
 
 // The peak of the highlight that this place belongs to, found by climbing the blurred highlights of the body. On a
-// single Gaussian spot, one whole step would lead to the peak. The steps are shorter, so as not to leap over the border
-// of a leaf.
+// single Gaussian spot, one whole step would lead to the peak. The steps are shorter, so as not to leap off a narrow
+// body, such as a leaf.
 vec2 peak_px(float id) {
     vec2 at_px = place.xy;
     float reach_px = SPREAD_PX * px_scale;
@@ -216,7 +216,8 @@ float even_depth(float depth) {
 }
 
 // Whether the depth leaps between the stroke's centre and a place on its body, 0..1. `there` is the `even_depth` of the
-// place: along a plane, the value halfway to it is the mean of 1 and `there`. So ground that recedes has no line.
+// place. Along a plane, `even_depth` halfway to the place is the mean of 1 and `there`. Only a difference from this
+// mean counts as a leap, so a floor that recedes has none.
 float broken(vec2 halfway_px, float there, vec2 own) {
     // Nothing is known of what lies outside the picture.
     if (any(lessThan(halfway_px, vec2(0.0))) || any(greaterThan(halfway_px, size_px))) return 0.0;
@@ -231,7 +232,7 @@ float broken(vec2 halfway_px, float there, vec2 own) {
         if (surface.y == own.y) middle += near.x * near.y * vec2(even_depth(surface.x), 1.0);
         else if (surface.y != 0.0 && surface.x < own.x) in_front += near.x * near.y;
     }
-    // Something in front tells nothing of the body's end; something behind is past it.
+    // Pixels of something in front tell nothing of where the body ends; pixels of something behind lie past its end.
     float uneven = abs(1.0 - 2.0 * middle.x / max(middle.y, 1e-4) + there);
     return middle.y * smoothstep(0.5 * LEAP.x, LEAP.y, uneven) + (1.0 - middle.y - in_front);
 }

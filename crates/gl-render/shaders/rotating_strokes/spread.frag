@@ -1,5 +1,6 @@
 // Blurs the detail of each body within that body: a Gaussian, one axis at a time.
-uniform sampler2D detail;            // change, outline, highlight; a: body id, plus half the body's share of the block
+uniform sampler2D detail;            // change or turn, outline, highlight; a: body id; its fraction: half the body's
+                                     // share of the block
 uniform vec2 axis;                   // the step from one tap to the next, in texels
 
 out vec4 spread;

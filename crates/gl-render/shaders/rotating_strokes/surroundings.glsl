@@ -4,12 +4,13 @@ uniform sampler2D reference_color;
 uniform sampler2D highlight;     // what highlights add to `reference_color`, display-linear; only for kind LIGHTS
 uniform sampler2D depth_and_id;
 uniform sampler2D normal;        // of the surface, world space, towards the eye; 0 where noise colours it
-uniform sampler2D detail;        // in blocks: change of colour or turn, outline, highlight, body id + half its share
+uniform sampler2D detail;        // per block: change of colour or turn, outline, highlight; a: body id; its fraction:
+                                 // half the body's share of the block
 uniform float block_px;          // side of a block
 
 // The face of a stroke is the part of its body around it that has about the stroke's normal. AROUND_PX: how far from
-// the stroke's centre the ends of the face are looked for, to tell how thin the face is. In pixels of a picture of half
-// the scene's size or less; more in larger ones.
+// the stroke's centre the ends of the face are looked for, to tell how thin the face is. It is in pixels, for pictures
+// of half the scene's size or less. In larger pictures it grows in proportion: to 16 pixels at the scene's size.
 const float AROUND_PX = 8.0;
 
 // Cosine of the angle between a pixel's normal and the stroke's: below the first the pixel shows another face of the
@@ -164,18 +165,19 @@ float is_past(vec2 at_px, vec2 own, float free) {
     return there.y == 0.0 || there.x > own.x ? 1.0 : 0.0;
 }
 
-// How far the stroke's own face has ended on both sides.
+// How far the stroke's own face has ended both at `offset_px` from the centre and on the opposite side.
 float is_past_both(vec2 center_px, vec2 offset_px, vec2 own, float free) {
     float past = is_past(center_px + offset_px, own, free);
     return past == 0.0 ? 0.0 : past * is_past(center_px - offset_px, own, free);
 }
 
-// The largest distance at which `thinness` looks whether the face has ended, relative to the first one.
+// The largest distance at which `thinness` looks whether the face has ended, as a multiple of the distance it tries
+// first.
 const float FURTHER = 1.2;
 
 // How thin the stroke's own face is, 0..1: the share of directions in which the face ends nearby on both sides. Another
-// face one pixel wide, such as the side of a shutter, is no end. So the stroke's face must have ended at a nearer or a
-// further distance, too. Where it has ended only at the further one, the direction counts half.
+// face one pixel wide, such as the side of a shutter, is no end. So a direction counts only if the face has also ended
+// at a second distance, nearer or further than the first. If it has not at the nearer one, the direction counts half.
 float thinness(vec2 center_px, vec2 own, float free) {
     float around_px = AROUND_PX * max(2.0 * px_scale, 1.0);
     // Nothing is known beyond the picture. Near its border, taps go less far, and what they find counts less.

@@ -7,8 +7,8 @@ layout(location = 2) in uvec4 marks;         // random bits, body id, albedo, ma
 layout(location = 3) in uvec2 bytes;         // opacity, thickness, pickup, dryness (lowest byte first); mixing
 layout(location = 4) in vec4 normal_and_bow; // normal in world space; bow of the mark (see `Stroke`)
 layout(location = 5) in vec4 reach;          // overrun in px, slow noise of hue and of edges, skew
-layout(location = 6) in vec4 resolved;       // colour and how much is there
-layout(location = 7) in vec4 fitted;         // centre in px after its shift onto its body, how dark it is
+layout(location = 6) in vec4 resolved;       // display colour, presence
+layout(location = 7) in vec4 fitted;         // centre in px, moved onto its body; how dark it is
 layout(location = 8) in vec2 shape;          // taper, bend in radians
 
 uniform vec2 size_px;
@@ -18,7 +18,7 @@ uniform float dryness;           // of the scene
 out vec2 mark_at;                // place on the mark, 0..1; on a shaped stroke, px along and across it
 out vec2 from_center_px;
 flat out vec4 ink;               // rgb: what it takes from white; a: paint value in the middle of the mark's soft edge
-flat out vec4 mark;              // its number, level of detail, half its soft edge, bow
+flat out vec4 mark;              // number of the mark, level of detail, half the width of its soft edge, bow
 flat out vec4 body;              // opacity, how dry it ends, overrun in px, sign of the flip
 flat out vec2 own;               // depth and id of the body
 flat out vec4 form;              // see shared/stroke_shape.glsl

@@ -16,8 +16,8 @@ uniform vec3 ink;
 uniform vec3 seal;
 uniform int kind;                // layer of paint
 
-out vec4 resolved;               // display colour and how much is there
-out vec4 fitted;                 // centre in px where it lies on its body, how dark, unused
+out vec4 resolved;               // display colour, presence
+out vec4 fitted;                 // centre in px, moved onto its body; how dark it is; unused
 
 // The layers of paint that have ink strokes, numbered as in `LayerKind`.
 const int BODY = 1;

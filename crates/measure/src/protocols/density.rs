@@ -141,7 +141,7 @@ fn of_object(
     })
 }
 
-/// Depths of one surface differ by less than this share within a pixel.
+/// Within a pixel, depths of one surface differ by less than this share of the depth.
 const DEPTH_SHARE: f32 = 0.004;
 
 /// Whether the pixel under a stroke's centre shows the surface that the stroke lies on, not one in front of it.

@@ -94,7 +94,8 @@ fn keep_moving(correspondences: &mut [Option<[f64; 2]>], motion: &MotionPixels) 
     }
 }
 
-/// The warp errors between pictures `frames` apart, summed over pixels: only their ratio has a meaning.
+/// The warp errors of our angles and of fixed angles between pictures `frames` apart, each summed over pixels: only the
+/// ratio of the two has a meaning.
 #[derive(Clone, Copy)]
 struct Turned {
     frames: u32,

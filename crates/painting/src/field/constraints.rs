@@ -9,8 +9,8 @@ use super::guides::FIRM;
 use super::inputs::{FieldInputs, SamplePoint};
 use super::samples::FieldSamples;
 
-/// Where no reference faces the surface, the stated direction is a guess. It pulls weakly: directions that are known
-/// win over it up to a distance of about this share of the body's size.
+/// Where no reference faces the surface, the stated direction is a guess. It pulls so weakly that a direction that is
+/// known wins over the guesses round it, as far away as about this share of the body's size.
 const GUESS_REACH: f64 = 0.25;
 
 /// How firmly all neighbours of a sample together pull at it.
@@ -30,8 +30,8 @@ impl FieldInputs {
         FieldGraph::new(positions, normals, *spacing, |a, b| self.joined(points[a].point, points[b].point))
     }
 
-    /// How far the stated direction of each sample holds, 0..=1. It does not hold at all where the sample's rule is
-    /// `free`, since guides or the curvature decide there. Towards a soft seam it holds less and less.
+    /// How firmly each sample is held to its stated direction, 0..=1. It is 0 where the sample's rule is `free`, since
+    /// guides or the curvature decide there. It falls to 0 towards a soft seam.
     pub(super) fn anchors(&self, points: &[SamplePoint], free: &[bool]) -> Vec<f64> {
         let reach_of = |rule: usize| match self.rules[rule].seam {
             Seam::Soft(distance) => distance,
@@ -53,7 +53,7 @@ impl FieldInputs {
                     .filter(|other| other.point.normal.dot(own.normal) > 0.0)
                     .map(|other| {
                         let reach = reach_of(own.rule).max(reach_of(other.point.rule));
-                        // Half the spacing: the border lies between the two samples.
+                        // Half the spacing is taken off, since the border lies between the two samples.
                         let distance = own.position.distance(other.point.position);
                         (distance - 0.5 * self.samples.spacing).max(0.0) / reach.max(f64::MIN_POSITIVE)
                     })

@@ -17,8 +17,8 @@ use crate::references::{SurfacePoint, Views, shown_rad};
 use crate::regions::{BodyGuide, BodyGuideView};
 use crate::stated::symmetry;
 
-/// How firmly a direction that is stated outright, or a guide on its own line, pulls at a sample. One neighbour pulls
-/// with a firmness of 1.
+/// How firmly a direction that is stated outright pulls at a sample, and how firmly a guide pulls at a sample on the
+/// guide's own line. One neighbour pulls with a firmness of 1.
 pub(super) const FIRM: f64 = 300.0;
 
 /// How firmly smoothing holds a sample to its solved direction: `HELD` where no guide loosens it, `LET_GO` where one
@@ -69,7 +69,7 @@ impl FieldInputs {
                 ScreenMap::new(view, DAffine3::IDENTITY, lens)
             }
         };
-        // The body as it is bent in the guide's view, or in the reference; `None` where it is at rest there.
+        // The body as it is bent in the guide's view or, if the guide has none, in the reference; `None` at rest.
         let bent = match &guide.view {
             Some(view) => view.stands.bent.as_ref(),
             None => self.references.of_rule(rule).stands.bent.as_ref(),
@@ -145,8 +145,9 @@ impl FieldInputs {
         self.guides.iter().any(|guide| guide.mode == GuideMode::Smooth)
     }
 
-    /// What holds the samples that a guide loosens; `None` for all other samples. Each smoothing guide multiplies the
-    /// pull towards the solved direction by a small factor. A combing guide after it pulls towards its gesture.
+    /// What still holds each sample that a smoothing guide loosens; `None` for all other samples. Each smoothing guide
+    /// multiplies the pull on the sample by a small factor. Combing guides that come after it in the file pull towards
+    /// their gestures.
     pub(super) fn holds(
         &self,
         points: &[SamplePoint],

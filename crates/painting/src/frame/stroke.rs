@@ -26,8 +26,8 @@ pub struct Stroke {
     /// Fades strokes out before their surface turns away: 0 edge-on .. 1.
     pub facing_fade: f32,
     /// ln(D/u). u is the rank of the particle. D is the supply: the strokes wanted per pixel, if the layer is wanted in
-    /// full, over the particles per pixel. Where strokes fade, D is greater, to make up for that. At 0, half of the
-    /// stroke is there, before `facing_fade`.
+    /// full, divided by the particles per pixel. Where strokes fade, D is greater, to make up for that. If this number
+    /// is 0, half of the stroke is there, before `facing_fade`.
     pub supply_ln: f32,
     /// Random bits of the stroke, the same in every frame.
     pub bits: u32,

@@ -79,8 +79,8 @@ pub(crate) struct KeptCoat {
     pub(crate) ordinals: Vec<f32>,
     /// How many of them, from the first on, the coat has.
     pub(crate) count: usize,
-    /// How many particles were wanted; a surface without area has none, whatever is wanted, and one whose faces lie on
-    /// each other has fewer.
+    /// How many particles were wanted on the whole surface. A surface without area has none, whatever is wanted, and a
+    /// surface whose faces lie on each other has fewer.
     pub(crate) wanted: usize,
     /// How many the coat would have on its whole surface, and whether it has these.
     pub(crate) count_on_whole: usize,

@@ -8,9 +8,8 @@ use impasto_core::{ScreenMap, TriangleMesh, hash};
 use crate::body_shape::BodyShape;
 use crate::presence_bound::LEAST_COUNTED_FADE;
 
-/// Triangles with a different deformation gradient at each corner, which bends, stretches and turns them: near to the
-/// eye, round it and far from it, also with strokes that are lifted off them, and with smooth normals that lie on both
-/// sides of the triangle.
+/// Triangles near the eye, round it and far from it. A different deformation gradient at each corner bends, stretches
+/// and turns them. Some have strokes that are lifted off them, some have smooth normals that lie on both sides of them.
 #[test]
 fn no_place_of_a_moved_piece_needs_more_than_the_piece() {
     let random = |which: u32| hash::unit(hash::scramble(which)) - 0.5;

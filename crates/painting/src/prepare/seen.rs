@@ -60,7 +60,7 @@ const MOST_FRAMES: usize = 4096;
 const MOST_POSES: usize = 200_000;
 
 /// The most joints and targets, summed over all frames. If the shot states more, particles lie everywhere on every
-/// object whose vertices move. If a single object has more, they do so on that object.
+/// object whose vertices move. If a single object has more, particles lie everywhere on that object.
 const MOST_JOINTS: usize = 500_000;
 
 /// A view, with the poses of all objects.
@@ -154,7 +154,7 @@ impl<'a> Seen<'a> {
             && self.loaded.scene.stage.shot.is_none()
     }
 
-    /// Every view of an object at rest, equal ones in a row once; `None` if there may be others.
+    /// Every view of an object at rest, but of equal views in a row only one; `None` if there may be other views.
     pub(crate) fn sightings(&self, object: usize) -> Option<Vec<Sighting>> {
         let mut sightings: Vec<Sighting> = Vec::new();
         for (view, poses) in self.views()? {
@@ -166,8 +166,8 @@ impl<'a> Seen<'a> {
         Some(sightings)
     }
 
-    /// Every view of an object whose vertices move, equal ones in a row once. `None` if there may be others: an
-    /// editor's free camera may stay where it is while the frames change.
+    /// Every view of an object whose vertices move, but of equal views in a row only one. `None` if there may be other
+    /// views: an editor's free camera may stay where it is while the frames change.
     pub(crate) fn sightings_moving(&self, object: usize) -> Option<Vec<Sighting>> {
         if !self.also()?.is_empty() {
             return None;

@@ -28,7 +28,7 @@ usual_fields! {
         pub space: NoiseSpace = NoiseSpace::World,
         /// How fast the noise changes from place to place along X and Y, textures per unit, from -1000 to 1000.
         pub value: [f64; 2] = [0.1; 2],
-        /// How far the vertices move, from the least noise to the greatest, units of the object's own space.
+        /// How far apart the least and the greatest noise put a vertex, units of the object's own space.
         pub scale: f64 = 0.1; within NOISE_RATE,
         /// What the vertices are moved along.
         pub along: NoiseAlong = NoiseAlong::Channels,
@@ -94,7 +94,7 @@ usual_fields! {
         pub alpha: NoiseAlpha = NoiseAlpha::Texture,
         /// How much of what is brighter than `threshold` is spread as a glow round it; 0 none.
         pub bloom: f64 = 0.0; within 0.0..=MAX_STRENGTH,
-        /// The brightness from which on it glows.
+        /// The brightness above which the surface glows.
         pub threshold: f64 = 1.0; within 0.0..=MAX_NOISE_INTENSITY,
     }
 }

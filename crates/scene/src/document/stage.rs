@@ -81,8 +81,9 @@ pub trait Brought: Debug + Send + Sync {
     /// Whether an object shows. Objects that the shot does not bring always do.
     fn is_visible(&self, posed: &Posed, name: &str) -> bool;
 
-    /// The camera at a time in seconds, for a picture of this size in pixels; `None` if the shot has no camera. It
-    /// shows all that the camera's own picture shows. If the aspects differ, it shows more at two sides.
+    /// The camera at a time in seconds, with the lens fitted to a picture of this size in pixels; `None` if the shot
+    /// has no camera. The picture shows all that the camera shows in its own aspect, and more at two sides if the
+    /// picture's aspect differs.
     fn camera(&self, time_s: f64, size: (u32, u32)) -> Option<Seen>;
 
     /// Whether a collection holds an object; `None` where the shot knows no such collection.

@@ -42,8 +42,8 @@ pub(super) fn bends(file: &GltfFile, node: usize) -> bool {
         || node.skin.is_none() && mesh.target_count > 0
 }
 
-/// The weights of a node's targets, and for each of its joints the transform from the space in which the mesh was bound
-/// into the space of the mesh.
+/// The weights of a node's targets, and for each of its joints the transform into model space from the space in which
+/// the mesh was bound.
 pub(super) fn pose(file: &GltfFile, node: usize, posed: &Posed) -> BendPose {
     let weights = posed.weights[node].clone();
     let skin = file.gltf.nodes[node].skin.map(|skin| &file.gltf.skins[skin]);

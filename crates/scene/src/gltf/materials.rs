@@ -13,7 +13,7 @@ use crate::texture;
 /// The colour (sRGB) of whatever has no material, as in OBJ files.
 const GREY: [f32; 3] = [0.8; 3];
 
-/// Share of its colour by which fully smooth metal is darkened.
+/// Fully smooth metal is darkened by this share of its colour.
 const METAL_DARK: f32 = 0.2;
 
 /// A surface glows if its emission is brighter than its colour times this. It is then drawn by its emission alone.

@@ -141,8 +141,8 @@ impl GltfFile {
         bend::bends(self, node)
     }
 
-    /// The weights of a node's targets, and for each of its joints the transform from the space in which the mesh was
-    /// bound into the space of the mesh.
+    /// The weights of a node's targets, and for each of its joints the transform into model space from the space in
+    /// which the mesh was bound.
     pub fn bend_pose(&self, node: usize, posed: &Posed) -> BendPose {
         bend::pose(self, node, posed)
     }

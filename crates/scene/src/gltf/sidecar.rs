@@ -25,7 +25,7 @@ const MOST_LIGHT: f64 = 1e6;
 pub(crate) struct Sidecar {
     #[serde(default)]
     version: u32,
-    /// Frames per second: a time in the file, times this, is a frame.
+    /// Frames per second: a time in the file, in seconds, multiplied by this is a frame.
     #[serde(default)]
     pub fps: Option<f64>,
     /// The first and the last frame.

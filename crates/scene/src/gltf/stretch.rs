@@ -2,7 +2,7 @@
 
 use glam::DMat3;
 
-/// A stretch counts as an even scale if it differs from an even scale by at most this share.
+/// A stretch counts as an even scale if it differs from one by at most this share of that scale.
 const EVEN: f64 = 1e-5;
 
 /// The most steps of the iteration. The first ones only bring it near its end; each later one doubles the number of

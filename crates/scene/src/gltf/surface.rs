@@ -98,7 +98,7 @@ struct Vertices {
     colors: Option<Vec<[u8; 3]>>,
     /// The corners of each triangle.
     triangles: Arc<Vec<[u32; 3]>>,
-    /// The index in the primitive of each vertex; empty if all of the primitive's vertices are here.
+    /// For each vertex, its index in the primitive; empty if all of the primitive's vertices are here.
     kept: Arc<Vec<u32>>,
 }
 

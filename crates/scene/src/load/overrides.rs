@@ -118,8 +118,8 @@ fn before_item(located: &Located, spot: Spot) -> Spot {
     Spot { end: spot.start, after: format!(",{gap}"), ..spot }
 }
 
-/// What to write between two items or fields of a value. If the first one begins a line, a line end and the indent of
-/// that line; else a space. `inside` is the text behind the opening bracket.
+/// What to write between two items or fields of a value. `inside` begins with the blanks in front of an item or field.
+/// If these blanks hold a line end, returns a line end and the same indent; else a space.
 fn gap_in(inside: &str) -> String {
     let lead = inside.trim_start_matches([' ', '\t', '\r', '\n']);
     let blank = &inside[..inside.len() - lead.len()];

@@ -174,19 +174,19 @@ pub(super) fn used_points(mesh: &MeshFile) -> impl Iterator<Item = DVec3> {
     mesh.mesh.triangles.iter().flatten().map(|&vertex| mesh.mesh.positions[vertex as usize].as_dvec3())
 }
 
-/// The nearest eye that sees all points inside the margin. In camera space, from the mesh's centre, in lengths of its
-/// diagonal.
+/// The nearest eye that sees all points inside the margin. All lengths are in diagonals of the mesh.
 #[derive(Debug)]
 struct Framing {
+    /// From the mesh's centre, along the camera's axes.
     eye: DVec3,
-    /// Least and greatest depth of a point.
+    /// Least and greatest depth of a point, from the eye.
     nearest: f64,
     farthest: f64,
 }
 
 impl Framing {
-    /// A point is inside where |x − eye.x| ≤ t·(eye.z − z), with t the slope of the picture's border less the margin.
-    /// So the maxima of x + t·z and −x + t·z over all points give the nearest eye; likewise for y.
+    /// A point is inside where |x − eye.x| ≤ t·(eye.z − z), with t the slope of the ray along the margin's inner
+    /// border. So the maxima of x + t·z and −x + t·z over all points give the nearest eye; likewise for y.
     fn of(points: impl Iterator<Item = DVec3>) -> Self {
         let slope_y = (FOV_Y_DEG.to_radians() / 2.0).tan() * (1.0 - 2.0 * MARGIN);
         let slope_x = slope_y * f64::from(SIZE_PX.0) / f64::from(SIZE_PX.1);

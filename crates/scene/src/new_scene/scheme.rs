@@ -29,7 +29,7 @@ const MIDDLE: f64 = 0.25;
 const LEAST_LIGHT: f64 = 1.0;
 const MOST_LIGHT: f64 = 9.0;
 
-/// How much of the light comes from one side, from the sky, and back from the floor.
+/// Factors on `Scheme::light`: for the light from one side, from the sky, and back from the floor.
 const KEY: f64 = 0.92;
 const SKY: f64 = 0.10;
 const BOUNCE: f64 = 0.08;

@@ -48,7 +48,7 @@ impl Names {
 }
 
 /// What an OBJ text holds. Its geometry is in `cleaned`: if [`check`] found no error, every index there is in range,
-/// except for texture coordinates or normals of which the file has none at all.
+/// unless it is that of a texture coordinate or normal and the file has none of that kind at all.
 #[derive(Debug)]
 pub(super) struct Checked<'a> {
     /// Vertices and faces, for tobj.

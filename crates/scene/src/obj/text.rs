@@ -39,7 +39,7 @@ pub(super) fn finite(word: &[u8]) -> Option<f64> {
 }
 
 /// Turns a file's bytes into text, and returns whether they were UTF-16. UTF-16 becomes UTF-8, a byte order mark is
-/// left out, and every line ends in a line feed.
+/// left out, and a carriage return without a line feed behind it becomes a line feed.
 pub(super) fn to_utf8(bytes: Vec<u8>) -> (Vec<u8>, bool) {
     let wide = |to_unit: fn([u8; 2]) -> u16| {
         let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| to_unit([pair[0], pair[1]])).collect();

@@ -17,7 +17,7 @@ pub(super) fn enter(shot: Arc<Shot>, scene: &mut Scene) -> Vec<Lost> {
     for (index, object) in scene.objects.iter_mut().enumerate().filter(|(_, object)| object.mesh.is_empty()) {
         if let Some(&of) = shot.object_of_name.get(&object.name) {
             object.mesh.clone_from(&shot.objects[of].object.mesh);
-            // An object with keys of its own gets the cache too: the keys move it as a whole, the cache its points.
+            // An object with keys of its own gets the cache too: keys move the whole object, a cache moves its points.
             if object.cache.is_none() {
                 object.cache.clone_from(&shot.objects[of].object.cache);
             }

@@ -72,7 +72,7 @@ struct Ears<'a> {
     after: Vec<usize>,
     is_reflex: Vec<bool>,
     /// Corners that do not turn left: only these can rule out an ear. Those that have become convex are skipped, and
-    /// taken out where they are many.
+    /// taken out of a cell once they are more than half of it.
     reflex: Grid,
     tests_left: &'a mut u64,
 }

@@ -96,7 +96,7 @@ fn shift_takes_touches_away_and_elsewhere_strokes() {
     let amounts = &world.document.scene().regions[0].amounts;
     assert!(amounts.len() == 1 && amounts[0].of == Amount::Density);
     assert!(amounts[0].dabs.iter().all(|dab| dab.by == 0.0));
-    // The dabs reach half as far again as the ring, whose radius is half of a touch's width.
+    // The dabs reach 1.5 times as far as the ring, whose radius is half of a touch's width.
     let reach = amounts[0].dabs[0].radius;
     world.drag(Tool::Touch, &[[300.0, 110.0], [340.0, 110.0]], NONE);
     let [from, .., to] = &*touches(&world)[2].points else { panic!("a long touch") };

@@ -196,7 +196,7 @@ fn period(
 
 fn vertex_numbers() -> [Setting<VertexNoise>; 3] {
     let rate = "How fast the noise changes from place to place; near 1 the motion is busy.";
-    let scale = "How far vertices move, from the least noise to the greatest.";
+    let scale = "How far apart the least and the greatest noise put a vertex.";
     [
         Setting { number: number("Noise rate X", rate, 0.1, [0.0, 1.0]), of: |noise| &mut noise.value[0] },
         Setting { number: number("Noise rate Y", rate, 0.1, [0.0, 1.0]), of: |noise| &mut noise.value[1] },
@@ -238,7 +238,7 @@ fn surface_numbers() -> [Setting<SurfaceNoise>; 9] {
     let bright = "Multiplies the tint; more than 1 shines.";
     let clear = "How much it hides of what is behind.";
     let glow = "How much of what is bright is spread as a glow.";
-    let from = "The brightness from which on it glows.";
+    let from = "The brightness above which the surface glows.";
     let speed = "How fast the layers move against each other.";
     [
         Setting { number: number("Noise speed", speed, 1.0, [0.0, 10.0]), of: |noise| &mut noise.speed },

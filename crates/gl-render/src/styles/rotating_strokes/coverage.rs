@@ -30,8 +30,8 @@ struct Target {
 pub(super) struct Covered {
     /// Of every sample.
     fine: Rc<Texture>,
-    /// Of every pixel. The share of the pixel that the body in its middle does not cover is kept beside that body's id:
-    /// half the share, less than 0.5, is added to the id, a whole number.
+    /// Of every pixel. The whole part of the id names the body in the pixel's middle. The fraction, below 0.5, is half
+    /// the share of the pixel that this body does not cover.
     surface: Rc<Texture>,
     /// How many samples a pixel has along each axis.
     samples: u32,

@@ -125,7 +125,8 @@ fn closing_of(opening: u8) -> u8 {
     }
 }
 
-/// The index behind the block comment that opens here, with the comments inside it; `None` if it is never closed.
+/// The index behind the block comment that opens at `opened_at` and may hold other comments; `None` if it is never
+/// closed.
 fn behind_comment(bytes: &[u8], opened_at: usize) -> Option<usize> {
     let (mut open, mut at) = (0usize, opened_at);
     loop {

@@ -112,7 +112,7 @@ impl Samples {
         let on_floor = |point: &DVec3| [point.x, point.z];
         let standing = self.points.iter().zip(&self.normals).filter(|(point, _)| point.y <= foot);
         let flat = standing.clone().filter(|(_, normal)| normal.y < -0.9).count() as f64;
-        // A back that a figure could lie on is rounded; the underside of a thing that was made to stand is flat.
+        // A thing that was made to stand has a flat underside; a figure that lies on its back does not.
         let bottom = low + 0.01 * (high - low);
         let cut = self.points.iter().zip(&self.face_normals);
         let cut = cut.filter(|(point, normal)| point.y <= bottom && normal.y < -0.985).count() as f64;
