@@ -213,8 +213,8 @@ fn two_triangles_have_a_seam_where_sides_are_not_parallel_and_a_quad_has_none() 
 #[test]
 fn the_projective_map_has_no_seam_either_but_spreads_its_edges_unevenly() {
     assert!(jump_over_the_diagonal(projective, MOVED) < 1e-3);
-    // A quarter along the bottom edge. A neighbouring quad below has other far corners, so both give this place the
-    // same u only if u depends on the two corners of the edge alone.
+    // On the bottom edge, u must depend on the two ends of the edge alone. Otherwise a quad that shares only this edge
+    // would have another u at the same place.
     let quarter = MOVED[0].lerp(MOVED[1], 0.25);
     assert!((projective(quarter, MOVED).x - 0.25).abs() > 0.05, "{}", projective(quarter, MOVED));
     assert!((inverse_bilinear(quarter, MOVED).x - 0.25).abs() < 1e-12);

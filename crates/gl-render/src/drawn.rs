@@ -18,9 +18,9 @@ pub struct ResolvedStroke {
     pub color_linear: [f32; 3],
     /// How much of the stroke is there, 0..=1; less where bodies hide it.
     pub alpha: f32,
-    /// Centre in pixels, origin at the lower left, as painted. Each stroke was moved along itself onto its body. A
-    /// contour stroke was also moved to its body's outline, a highlight stroke towards the highlight's peak, and a
-    /// stroke on a thin part to the middle of that part.
+    /// Centre in pixels, origin at the lower left, as painted. Strokes were moved along themselves onto their bodies,
+    /// unless their edges are free. A contour stroke was also moved to its body's outline, a highlight stroke towards
+    /// the highlight's peak, and a stroke on a thin part to the middle of that part.
     pub center_px: [f32; 2],
     /// What was added to the stroke's angle, radians: a contour stroke is turned to run along its body's outline.
     pub turned_rad: f32,
@@ -60,7 +60,8 @@ pub struct SurfacePixels {
     pub albedo: Vec<[f16; 4]>,
     /// Unit normal in world space, towards the eye, 0 where noise colours the surface; the last number is the gloss.
     pub normal: Vec<[f16; 4]>,
-    /// Light that arrives; the last number is the share of the shadow-casting light that arrives, 0..=1.
+    /// Light that falls on the surface. The last number is the share of the shadow-casting light that is not in shadow,
+    /// 0..=1.
     pub light: Vec<[f16; 4]>,
     /// Ambient occlusion: how open the place is, 0..=1.
     pub openness: Vec<f16>,

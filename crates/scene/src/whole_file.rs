@@ -48,7 +48,7 @@ pub fn failure_in_words(error: &io::Error) -> String {
         _ => {
             let said = error.to_string();
             let said = said.split(" (os error ").next().unwrap_or_default();
-            // The name of the unfinished file means nothing to anybody.
+            // A temporary file's name would mean nothing to the user.
             return said.split(" at path ").next().unwrap_or_default().to_owned();
         }
     };
@@ -106,8 +106,8 @@ impl WholeFile {
         Ok(Self { writer: BufWriter::new(file), part: Some(part), target })
     }
 
-    /// The path of the unfinished file, or the target if that is no regular file. Another program may write the
-    /// contents there, in place of this one.
+    /// The path of the unfinished file, or the target if that is no regular file. Instead of using this writer, a caller
+    /// may let another program (such as ffmpeg) write the contents there.
     pub fn part_path(&self) -> &Path {
         self.part.as_deref().unwrap_or(&self.target)
     }

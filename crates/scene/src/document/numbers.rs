@@ -1,5 +1,5 @@
-//! Tables that declare the numbers of a scene file, each with its name, range and effect. Reading, checking, saving,
-//! the editor's inspector and `docs/scene_file.md` all follow from the tables.
+//! Tables that declare the numbers of a scene file, each with its name, range and effect. Reading, checking, saving and
+//! `docs/scene_file.md` follow from the tables, and so does most of the editor's inspector.
 
 use std::ops::RangeInclusive;
 
