@@ -106,8 +106,8 @@ impl WholeFile {
         Ok(Self { writer: BufWriter::new(file), part: Some(part), target })
     }
 
-    /// The path of the unfinished file, or the target if that is no regular file. Instead of using this writer, a caller
-    /// may let another program (such as ffmpeg) write the contents there.
+    /// The path of the unfinished file, or the target if that is no regular file. Instead of using this writer, a
+    /// caller may let another program (such as ffmpeg) write the contents there.
     pub fn part_path(&self) -> &Path {
         self.part.as_deref().unwrap_or(&self.target)
     }
