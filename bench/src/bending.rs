@@ -66,7 +66,8 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
     let input = format!("{PARTICLES} particles, {name}");
     let sorted = SortedParticles::new(&places, &baked.placed, &[], |_| 0.0);
     let view = ParticleView::new(&map);
-    // As many particles are present as in a picture that is full of strokes.
+    // Where a unit of surface covers 20,000 px², the first 10,000 particles are present: as many as in a picture that
+    // is full of strokes.
     let bounds =
         Bounds { half_px: [640.0, 360.0], near_far: [0.1, 100.0], most_per_area: 10_000.0 / 20_000.0 };
     let mut showing = 0;
@@ -102,7 +103,8 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
             let carried = carrier.carry(&mesh, &places, &baked, |_| 0.0);
             solve(&carried, &map, &mut solved);
         }),
-        // In: place (3), baked values (12), carried values (12) again. Out: carried values (12), solved values (5).
+        // In: place (3), baked values (12), and the carried values (12) once they are written. Out: carried values
+        // (12), solved values (5).
         Streams::new(places.len(), 3 + 12 + 12, 12 + 5).contender(),
     ];
     let figures = race(&bench.pace(false), contenders)?;

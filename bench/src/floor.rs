@@ -8,7 +8,8 @@ use crate::race::Contender;
 /// Floats that one thread handles at a time.
 const CHUNK: usize = 1 << 15;
 
-/// As many input and output streams as a task has. Each output is the sum of its share of the inputs.
+/// As many input and output streams as a task has. The inputs are dealt out to the outputs, and each output is the sum
+/// of those that it got: of 2 outputs, the first is the sum of inputs 0, 2, 4 …
 pub struct Streams {
     inputs: Vec<Vec<f32>>,
     outputs: Vec<Vec<f32>>,

@@ -79,8 +79,8 @@ fn edits_of(
     Ok(())
 }
 
-/// Versions of a scene in which an apple is combed: the first without a gesture, the second with two points of it, each
-/// later one with one point more.
+/// Versions of a scene in which one gesture combs an apple: the first without the gesture, the second with its first
+/// two points, each later one with one point more.
 fn combed(particles: u64) -> impl Iterator<Item = Arc<LoadedScene>> {
     let mesh = shapes::apple_skin();
     let view = gestures::camera([0.0, 0.5, 4.0], [0.0, 0.5, 0.0]);

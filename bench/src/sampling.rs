@@ -179,10 +179,11 @@ fn blue(bench: &mut Bench, mesh: &TriangleMesh, count: usize) -> anyhow::Result<
     Ok(())
 }
 
-/// How well the points keep apart: the distance of each point to its nearest neighbour, divided by the hexagonal
-/// spacing of as many points and capped at 1.5. Returns two pairs of the mean and the value that one point in a
-/// thousand is below. The first pair looks only at neighbours on the same side of the surface (n·n' > 0), since only
-/// their strokes crowd each other. The second pair looks at all neighbours.
+/// How well the points keep apart. The distance of each point to its nearest neighbour is divided by
+/// [`hexagonal_spacing`], the greatest spacing that so many points can have, and capped at 1.5. Returns the mean of
+/// these numbers, and the number that only one point in a thousand is below; then the same two again. The first two
+/// look only at neighbours on the same side of the surface (n·n' > 0), since only their strokes crowd each other. The
+/// last two look at all neighbours.
 fn spacing(sample: &Sample, area: f64) -> [f64; 4] {
     let points = &sample.points;
     let hexagonal = hexagonal_spacing(area, points.len());

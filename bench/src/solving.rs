@@ -6,7 +6,7 @@
 //! - The gathers (Rust, numpy, numba) all compute `arg Σ p̄ c`.
 //! - Ours equals this sum with each neighbour weighted by w = z_neighbour / z_stroke, and is checked against the
 //!   weighted sum. The row states how much the weights change the angle.
-//! - Umeyama's method first moves the origin to the mean of the neighbours, and is checked against the sum from there.
+//! - Umeyama's method measures p and c from their means over the neighbours, and is checked against the sum with these.
 
 mod gather;
 mod scene;

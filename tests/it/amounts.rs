@@ -120,7 +120,7 @@ fn sizes_follow_the_coverage_and_less_density_is_a_part_of_more() {
         body(&painted(scene(40_000, vec![(amount, dab(at, by))]), shapes::sheet(20)))
     };
     let plain = of(Amount::Width, 1.0);
-    // Strokes that are twice as wide are wanted half as often.
+    // Where strokes are twice as wide, half as many are wanted, so their supply is half as large.
     let wide = of(Amount::Width, 2.0);
     for (particle, stroke) in &wide {
         let was = &plain[particle];

@@ -323,7 +323,7 @@ fn mattes_cover_what_is_painted() {
             .map(|at| all.iter().map(|plane| plane[at]).sum::<f32>());
         let mean = low.clone().sum::<f32>() / low.clone().count() as f32;
         println!("{kind}: {mean:.4} of what is painted in the mean, at least {}", low.fold(1.0, f32::min));
-        // Six ranks cannot hold all strokes of a pixel.
+        // The file names at most six strokes a pixel, and some pixels show more.
         let least = if kind == "CryptoStroke" { 0.99 } else { 0.999 };
         assert!(mean > least, "{kind}: {mean}");
     }
@@ -446,7 +446,7 @@ fn what_noise_colours_takes_no_light_and_has_no_normal() {
             }
         }
     }
-    // Four values a pixel.
+    // Each pixel is counted four times, once per channel.
     assert!(coloured > 4 * 100, "the fire is not seen: {coloured}");
 }
 

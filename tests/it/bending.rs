@@ -154,7 +154,8 @@ fn strokes_turn_as_closed_forms_of_bending_say() {
     }
 }
 
-/// A sheet that stretches to 1.5 times its size: strokes that follow it grow by as much, or by the root of that.
+/// When a sheet stretches to 1.5 times its size, strokes get 1.5 times as long with a `size_follow` of 1, √1.5 times
+/// with 0.5, and keep their length with 0.
 #[test]
 fn strokes_that_follow_the_size_grow_with_a_body_that_stretches() {
     for (follow, grown) in [(1.0, 1.5), (0.5, 1.5f64.sqrt()), (0.0, 1.0)] {
@@ -426,7 +427,7 @@ fn a_primitive_without_joints_moves_with_the_first() {
     for (vertex, (at, bent)) in after.mesh.positions.iter().zip(&bent.positions).enumerate() {
         assert!(at.distance(*bent) < 1e-5, "vertex {vertex} is read at {at} and bent to {bent}");
     }
-    // At rest, the first joint carries the primitive to where its own joints had carried it: nothing is left behind.
+    // At rest the primitive is where it was when it had joints of its own: none of it is left behind.
     let far = |(a, b): (&glam::Vec3, &glam::Vec3)| a.distance(*b) > 0.3;
     assert_eq!(before.mesh.positions.len(), after.mesh.positions.len());
     assert!(!before.mesh.positions.iter().zip(&after.mesh.positions).any(far));

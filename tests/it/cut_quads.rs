@@ -39,7 +39,8 @@ fn cut_quads_look_as_whole_ones_do() {
     }
 }
 
-/// Compares the number of fragments of the cut quads, also those that lay no paint, with the area of whole quads.
+/// Counts all fragments of the cut quads, even those that lay no paint. They must be fewer than the pixels of whole
+/// quads.
 #[test]
 fn cut_quads_cover_fewer_pixels() {
     const DISCARD: &str = "if (alpha <= 0.0) discard;";

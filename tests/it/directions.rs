@@ -199,7 +199,7 @@ fn guides_rule_the_whole_of_an_automatic_region_and_only_their_reach_elsewhere()
     };
     let automatic = far(Direction::Auto);
     assert!(automatic.len() >= 500);
-    // A plane has no curvature, so transport does not change the direction seen straight on.
+    // A plane has no curvature, so everywhere on it the guide's direction is the same, as seen straight on.
     let worst = automatic.iter().map(|&angle| lines_apart(angle, drawn_rad)).fold(0.0, f64::max);
     assert!(worst < 0.5, "{worst}");
     let stated = far(Direction::Angle(20.0));

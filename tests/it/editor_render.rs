@@ -189,7 +189,7 @@ fn frames_that_are_there_stay_by_the_command_as_well() {
     };
     let plan = settings.plan(&document, 0.0).unwrap().keeping();
     std::fs::create_dir_all(plan.folder()).unwrap();
-    // It ends as PNG files do, so it counts as whole.
+    // These bytes end as a PNG file does, so the file counts as whole.
     let mine = b"mine\0\0\0\0IEND\xae\x42\x60\x82";
     std::fs::write(plan.path(0), mine).unwrap();
     let files = commanded(&plan, &document);

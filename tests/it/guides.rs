@@ -88,7 +88,8 @@ fn a_smooth_guide_relaxes_the_seam_of_two_combs_and_nothing_beyond_its_radius() 
             let smoothed = combed.iter().cloned().chain([smooth(1.0, radius)]).collect();
             let [before, after] =
                 [combed, smoothed].map(|guides| seen(&painted(direction.clone(), sense, guides)));
-            // Smoothing spreads a turn but keeps its sum: only the step at the old seam gets smaller.
+            // From one comb to the other, strokes turn by as much as before, but over a wider band. So steps get
+            // smaller only at the old seam.
             let at_seam = |seen: &Seen| {
                 seen.at_px.x.abs() < 0.25 * radius * PX_PER_UNIT && seen.at_px.y.abs() < 0.7 * PX_PER_UNIT
             };

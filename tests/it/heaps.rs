@@ -42,8 +42,8 @@ fn inside_a_heap_there_are_few_strokes_and_on_it_no_fewer() {
         lens: scene.camera.lens.clone(),
     };
     let (shot, behind) = (pose([0.0, 1.2, 6.0]), pose([0.0, 1.2, -6.0]));
-    // The number of particles, and the area of strokes in the middle 120 × 120 pixels as a multiple of that square: of
-    // strokes on the front of the heap (more than 0.75 units before its middle), and of those behind its middle.
+    // Returns the number of particles, and how many times over strokes cover the middle 120 × 120 pixels: first those
+    // on the front of the heap (more than 0.75 units before its middle), then those behind its middle.
     let of = |seen_from: SeenFrom<'_>, camera: &CameraPose| {
         let loaded = shapes::loaded(scene.clone(), [heap(9000)]);
         let options = PrepareOptions { seen_from, ..PrepareOptions::default() };

@@ -10,13 +10,13 @@ use impasto_tests::shapes;
 
 const SIZE_PX: [u32; 2] = [640, 360];
 
-/// A grey ball as it is seen in the light of one sun behind the eye. Green is linear.
+/// A grey ball as it is seen in the light of one sun behind the eye. All values of green are linear.
 struct Seen {
     /// The green of the brightest pixel of the plain render.
     plain: f32,
     /// The green of the brightest stroke of the layers of body, form and accents.
     below: f32,
-    /// The green of the brightest stroke of highlights, and the greatest alpha of one.
+    /// Of all strokes of highlights, the brightest green and the greatest alpha.
     highlight: [f32; 2],
 }
 
@@ -63,7 +63,8 @@ fn strokes_below_a_highlight_have_a_part_of_it_and_its_own_strokes_all() {
     assert!(own > 0.9, "its own strokes have {own} of it");
 }
 
-/// A highlight that grows over a bump must not flare up, so its strokes are about as strong where it is small.
+/// A highlight that grows as it passes over a bump must not flare up. So strokes of a small highlight are about as
+/// strong as those of a large one.
 #[test]
 fn strokes_of_a_small_highlight_are_about_as_strong_as_those_of_a_large_one() {
     let mut renderer = renderer(Driver::Egl);

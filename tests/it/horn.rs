@@ -214,14 +214,15 @@ fn at_the_reference_strokes_lie_as_their_region_states() {
         let strokes = body.first as usize..(body.first + body.count) as usize;
         let off: Vec<(f64, f32)> = strokes
             .filter(|&index| frame.sources[index].region as usize == still)
-            // Twice the angle, since a line has no beginning.
+            // Angles are doubled before they are compared, so that half a turn, which leaves a line as it is, counts
+            // as 0.
             .map(|index| {
                 let angle_rad = f64::from(frame.strokes[index].angle_rad);
                 let off_deg = 0.5 * degrees_apart(2.0 * angle_rad, 2.0 * 50f64.to_radians());
                 (off_deg, frame.sources[index].facing)
             })
             .collect();
-        // On faces that it sees at a slant, the reference decides angles only in part.
+        // Where the reference sees a face at a slant, its view decides the angles of strokes only in part.
         let seen_well = || off.iter().filter(|(_, facing)| *facing >= 0.5).map(|(off_deg, _)| *off_deg);
         let is_as_stated = seen_well().all(|off_deg| off_deg < 0.2);
         assert!(seen_well().count() > 200 && is_as_stated, "{solver}: {off:?}");

@@ -285,7 +285,8 @@ fn every_case_opens_in_the_editor_as_far_as_it_can_be_read_and_its_file_stays() 
                     let after = fs::read(&path).unwrap();
                     assert!(after == text.as_bytes(), "{}: the file was touched", case.name);
                 } else {
-                    // A mesh that cannot be used costs no text, so the scene can be saved. The loss stays listed.
+                    // If only a mesh cannot be used, all of the text was read, so the scene can be saved. The mesh
+                    // stays listed as a loss.
                     let again = Document::open_with_problems(&path, &LoadOptions::default()).unwrap();
                     assert!(*again.scene() == scene, "{}: the saved scene is another one", case.name);
                     assert_eq!(document.loss_count() > 0, has_losses, "{}", case.name);
@@ -408,8 +409,8 @@ fn the_small_corpus_opens_in_the_editor_or_is_refused_and_stays_what_it_is() {
     assert!(refused > 5 && losses > 3, "{refused} refused, {losses} opened with losses");
 }
 
-/// Runs with the large corpus (`IMPASTO_CORPUS`): every hostile RON file of it is refused with a line and column, and
-/// every scene that it lists is in `CASES` or `CASES_ELSEWHERE`.
+/// Runs with the large corpus (`IMPASTO_CORPUS`): every RON file in its `hostile/ron` is refused with a line and
+/// column, and every case in its `hostile/scene` is in `CASES` or `CASES_ELSEWHERE`.
 #[test]
 fn the_corpus_of_hostile_scenes_is_covered() {
     let Some(corpus) = corpus::shared("the_corpus_of_hostile_scenes_is_covered") else { return };

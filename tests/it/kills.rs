@@ -1,5 +1,5 @@
-//! Tests that a kill at any moment leaves a file as it was or wholly new, never half written. `IMPASTO_KILLS` sets the
-//! number of kills of each kind.
+//! Tests that a kill at any moment leaves a file as it was or wholly new, never half written. `IMPASTO_KILLS` says how
+//! often each command is killed.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -70,7 +70,7 @@ fn run(folder: &Path, arguments: &[&str]) -> Duration {
     start.elapsed()
 }
 
-/// How many kills of each kind.
+/// How often each command is killed.
 fn kills() -> u32 {
     std::env::var("IMPASTO_KILLS").ok().and_then(|text| text.parse().ok()).unwrap_or(8)
 }

@@ -73,7 +73,8 @@ fn a_floor_is_painted_alike_however_far_it_runs() {
     }
 }
 
-/// Strokes grow with the floor that they lie on, or are lifted off it, while the camera comes nearer and looks aside.
+/// While the camera comes nearer and looks aside, strokes grow as the floor does in the picture (`size_follow`), or
+/// they are lifted off the floor (`offset`).
 #[test]
 fn strokes_that_follow_the_size_or_are_lifted_have_particles_where_they_are_seen() {
     // The last number is the frame of the reference. In frames with the camera farther away than in the reference,
@@ -93,7 +94,7 @@ fn strokes_that_follow_the_size_or_are_lifted_have_particles_where_they_are_seen
         };
         let (small, ..) = of(40.0);
         let (large, particles, is_partial) = of(1000.0);
-        // A little more than half of the particles that a floor of this size has if they lie everywhere.
+        // The limit is a little more than half of what a floor of this size has if its particles lie everywhere.
         assert!(is_partial && particles < 250_000, "{follow}, {offset}: {particles} particles");
         for (small, large) in small.iter().flatten().zip(large.iter().flatten()) {
             assert!(*small > 2.4, "{small}");
@@ -230,8 +231,8 @@ fn a_floor_that_bends_has_the_same_strokes_with_fewer_particles() {
         let [along, across] = [0.7 * at.x, 0.9 * at.z + 0.4].map(f64::sin);
         DVec3::new(at.x + 0.4 * across, at.y + 1.1 * along * across, at.z + 0.3 * along)
     };
-    // Strokes that are offset to below the floor face the eye for longer when the floor turns away. Large faces reach
-    // past the camera.
+    // In the second case strokes lie below the floor, so they face the eye for longer when the floor turns away. In the
+    // last, faces are so large that some reach past the camera.
     for (lens, offset, faces) in [
         (scene.camera.lens.clone(), None, 54),
         (scene.camera.lens.clone(), Some(-0.3), 54),
@@ -261,7 +262,7 @@ fn a_floor_that_bends_has_the_same_strokes_with_fewer_particles() {
                 frame.strokes.iter().map(|stroke| stroke.center_px.map(f32::to_bits)).collect()
             };
             let [few, all] = [&shot, &anywhere].map(strokes);
-            // Where particles are left out, those beside them have more room, so a few others are chosen.
+            // Beside places that get no particles there is more room, so a few particles are placed differently there.
             let missing = all.difference(&few).count();
             println!(
                 "{lens:?}, {faces}, frame {frame}: {missing} of {} strokes, {totals:?} particles",
@@ -272,7 +273,8 @@ fn a_floor_that_bends_has_the_same_strokes_with_fewer_particles() {
     }
 }
 
-/// An editor's view shows what lies round the picture, so paint goes on past each border for a quarter of the picture.
+/// An editor's view shows what lies round the picture, so paint goes on past each border, by a quarter of the picture's
+/// width or height.
 #[test]
 fn round_the_picture_the_floor_is_painted_too() {
     let scene = floor_scene(500.0);

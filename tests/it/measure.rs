@@ -353,8 +353,8 @@ fn m9_sees_a_bare_region_and_foreign_colours() {
 fn m14_sees_too_many_strokes_and_a_random_order() {
     let side = 1024;
     let mut version = sheet::sheet(&ball(), Some(0), side).unwrap();
-    // Each side of the sheet gets more than twice the particles that are wanted, so that the order decides which of
-    // them show.
+    // Each side of the sheet gets more than twice as many particles as strokes should show on it, so that the order
+    // decides which of them show.
     version.scene.objects[0].particles = Some(120_000);
     let strokes = prepare(Arc::new(version)).unwrap().seen_by(
         &sheet::camera(0.0),

@@ -1,4 +1,5 @@
-//! Tests of movies as a user makes them: of a scene, and of frames on the disk by `impasto movie`.
+//! Tests of movies as a user makes them: from a scene by `impasto render`, and from frames on the disk by
+//! `impasto movie`.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

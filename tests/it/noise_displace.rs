@@ -133,7 +133,7 @@ fn subtracting_a_half_leaves_no_drift() {
 
 #[test]
 fn a_greater_value_is_a_busier_motion() {
-    // The mean difference of neighbours, divided by the mean displacement.
+    // How much the displacements of successive vertices differ on average, divided by the mean displacement.
     let busy = |value: f64| {
         let moves = moves(ball(moved_by(VertexNoise { value: [value; 2], ..Default::default() })), 0.0);
         let steps: f64 = moves.windows(2).map(|pair| pair[0].distance(pair[1])).sum();

@@ -14,8 +14,8 @@ const SIDE_PX: u32 = 360;
 const HEIGHT: f64 = 2.0;
 const RADIUS: f64 = 0.055 * HEIGHT;
 
-/// The light, 0..255, along the middle of a canyon's floor, lit from all around. Its walls are `half_width` radii away
-/// on either side and 0.45 radii high.
+/// The light, 0..255, on the middle line of a canyon's floor when light comes from all around. The canyon's walls are
+/// `half_width` radii away from that line and 0.45 radii high.
 fn light_in_a_canyon(renderer: &mut Renderer, half_width: f64) -> f64 {
     let names = ["floor", "left", "right"];
     let mut scene = shapes::scene(names.map(|name| shapes::object(name, 100)).into());

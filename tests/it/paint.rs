@@ -42,7 +42,7 @@ fn each_layer_can_be_turned_down_to_nothing() {
     }
 }
 
-/// Mean difference of two RGBA pictures of one size in red, green and blue, 0..255; alpha is the same in both.
+/// The mean difference, 0..255, between the red, green and blue of two RGBA pictures that have the same size and alpha.
 fn mean_difference(a: &[u8], b: &[u8]) -> f64 {
     assert_eq!(a.len(), b.len());
     let sum: u64 = a.iter().zip(b).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
@@ -295,8 +295,8 @@ fn paint_ends_at_a_crease() {
     let painting = prepare(shapes::loaded(scene, [shapes::cube()])).unwrap();
     renderer.render(&painting.at(0.0, &options(size_px))).unwrap();
     let paint = renderer.read_paint();
-    // Green by row, from the top: light on the top of the cube, dark on its front. The strokes are so few that they
-    // leave gaps, which are not counted.
+    // The mean green of a row of the picture; rows go down. It is high on the top of the cube and low on its front. The
+    // strokes are so few that they leave gaps, which are not counted.
     let row = |y: usize| {
         let painted = paint[y * 640 + 280..y * 640 + 360].iter().filter(|pixel| pixel[3] > 0.9);
         let greens: Vec<f64> = painted.map(|pixel| f64::from(pixel[1])).collect();
@@ -339,7 +339,8 @@ fn the_normal_of_the_paint_is_that_of_its_height() {
             size_px: size_px.map(|side| side as usize),
             values: surface.normal_and_height.iter().map(|pixel| f64::from(pixel[3].to_f32())).collect(),
         };
-        // Compares the slopes that the normals have with those between the corners of a square of 1.2 px. Rows go down.
+        // Compares the slopes of the normals with those of the paint's height, which are found from the heights at the
+        // corners of a square of 1.2 px. Rows go down.
         let (mut both, mut alone, mut off) = (0.0, 0.0, 0.0);
         for (x, y) in
             (2..size_px[1] as usize - 2).flat_map(|y| (2..size_px[0] as usize - 2).map(move |x| (x, y)))

@@ -1,5 +1,5 @@
-//! Tests of point caches: vertices stand where the file says, however the object is placed, held or shared. A cache
-//! that does not fit is refused, and one that is lost later is reported.
+//! Tests of point caches: vertices stand where the file says, also if the object is placed elsewhere, held for several
+//! frames, or shares its mesh. A cache that does not fit is refused, and one that is lost later is reported.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -108,7 +108,7 @@ fn gradient(painting: &Painting, point: u32, frame: f64) -> DMat3 {
     painting.carried(0, &place, frame).expect("it is bent").gradient
 }
 
-/// Where two sheets lie on each other at rest, each is carried by its own edges.
+/// Where two sheets lie on each other at rest, the gradient of each depends on its own edges alone.
 #[test]
 fn points_that_part_have_their_own_gradient() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -6,9 +6,9 @@ use impasto_core::TriangleMesh;
 use impasto_core::sampling::{Particle, Surface, hexagonal_spacing, progressive};
 use impasto_tests::shapes::{cube, sheet, sphere};
 
-/// Mean and 1st percentile of a particle's distance to its nearest neighbour on the same side, as shares of the spacing
-/// of a hexagonal lattice. Neighbours are found by brute force, without the sampler's code. To save time, only some
-/// hundreds of the particles are measured.
+/// Mean and 1st percentile of a particle's distance to its nearest neighbour on the same side of the surface, divided
+/// by the spacing that equally many points would have in a hexagonal lattice. Neighbours are found by brute force,
+/// without the sampler's code. To save time, only some hundreds of the particles are measured.
 fn spacing(particles: &[Particle], area: f64) -> (f64, f64) {
     let stride = (particles.len() / 700).max(1);
     let mut nearest: Vec<f64> = (0..particles.len())

@@ -45,7 +45,7 @@ fn present_strokes_are_drawn_at_once_and_the_others_within_32_pictures() {
         for (index, source) in all.sources.iter().enumerate().filter(|(index, _)| there(*index)) {
             assert!(now.contains(&source.place), "{turn}: stroke {index} was there");
         }
-        // What is drawn equals the strokes of a frame without a recall, in the same order.
+        // The strokes that are drawn are as in a frame without a recall, and in the same order.
         let same = all.sources.iter().zip(&all.strokes).filter(|(source, _)| now.contains(&source.place));
         assert!(same.map(|(_, stroke)| stroke).eq(&frame.strokes), "{turn}");
         assert_eq!(frame.layers.iter().map(|run| run.count as usize).sum::<usize>(), frame.strokes.len());

@@ -105,9 +105,9 @@ fn lateral_scene(lens: Lens, shift: [f64; 3]) -> (Scene, DAffine3) {
     (scene, pose)
 }
 
-/// The turn, in radians, of a stroke at the point `at` of a plane when the camera moves by `shift` in the picture
-/// plane. The plane is n·X = d in camera space before the move. Its picture changes by a homography, and the turn is
-/// the rotation in the homography's derivative at the point.
+/// The turn, in radians, of a stroke at the point `at` of a flat surface when the camera moves by `shift` (right, up).
+/// In camera space before the move, the surface is the plane n·X = d, where n is `normal` and d is `distance`. Its
+/// picture changes by a homography, and the turn is the rotation in the homography's derivative at the point.
 fn homography_angle(normal: DVec3, distance: f64, shift: DVec2, at: DVec3) -> f64 {
     // x' = (X − s)/Z' with Z' = Z: the homography I − s nᵀ/d acting on (x, y, 1), x = X/Z.
     let s = shift.extend(0.0);

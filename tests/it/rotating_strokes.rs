@@ -420,7 +420,7 @@ fn an_odd_turn_of_the_camera_turns_the_streaks() {
             }
             // Both are blurred a little, so that the pixel grid does not matter.
             let (turned, after) = (turned.blurred(1.5), after.blurred(1.5));
-            // Well inside the mask, so that the outline does not matter either.
+            // Only pixels well inside the ball count, so that its outline does not matter either.
             let inside = |x: usize, y: usize| {
                 let at = |dx: i32, dy: i32| known[(y as i32 + dy) as usize * SIDE + (x as i32 + dx) as usize];
                 (-4..=4).all(|dy| (-4..=4).all(|dx| at(dx, dy)))

@@ -13,8 +13,9 @@ use impasto_scene::mesh_file::{Material, MeshFile};
 use impasto_tests::pictures::renderer;
 use impasto_tests::shapes;
 
-/// A white sheet and, 0.09 to 0.15 units behind it (13 to 21 pixels at its scale), a black strip of the same body at 45
-/// degrees to the gaze. No pixel shows the strip. The left border of the picture cuts both.
+/// A white sheet and, behind it, a black strip of the same body at 45 degrees to the gaze. The strip is 0.09 to 0.15
+/// units farther away than the sheet, which would be 13 to 21 pixels along the sheet. No pixel shows the strip. The
+/// left border of the picture cuts both.
 fn strip_behind_a_sheet() -> LoadedScene {
     let mut mesh = shapes::sheet(8);
     let to_strip = |at: DVec3| DVec3::new(0.8 * at.x, 0.3 + 0.03 * at.y, -0.12 + 0.03 * at.y);
@@ -59,13 +60,15 @@ fn a_covered_stroke_has_the_colour_that_is_seen_also_where_its_middle_is_beyond_
         }
         let green = resolved.color_linear[1];
         assert!(green > 0.8, "{green} at {:?}", stroke.center_px);
-        // Left of -4 px, even a ring of half the stroke's width round its middle lies beyond the picture.
+        // If a stroke's middle is left of -4 px, the circle round it whose radius is half the stroke's width also lies
+        // wholly beyond the picture.
         *if stroke.center_px[0] < -4.0 { &mut beyond } else { &mut inside } += 1;
     }
     assert!(inside > 20 && beyond > 5, "{inside} strokes inside, {beyond} beyond");
 }
 
-/// The largest change of green from frame to frame among the strokes of the first object whose centre is `near`.
+/// The largest change of a stroke's green from one frame to the next, among the strokes on the first object for whose
+/// centre `near` holds.
 fn largest_step(painting: &Painting, near: impl Fn([f32; 2]) -> bool) -> f32 {
     let mut renderer = renderer(Driver::Egl);
     let mut before: HashMap<_, f32> = HashMap::new();
@@ -164,8 +167,8 @@ fn largest_step_along_a_strip_of_light(samples: u32) -> f32 {
     largest_step(&prepare(shapes::loaded(scene, meshes)).unwrap(), |[_, y]| (y - 120.0).abs() < 12.0)
 }
 
-/// A strip of light is thinner than a pixel. With 4 × 4 samples it makes each pixel lighter by its share of the pixel.
-/// With one sample it lights some pixels wholly, and others not at all.
+/// A strip of light is thinner than a pixel. With 4 × 4 samples, the more of a pixel it covers, the lighter it makes
+/// the pixel. With one sample it lights some pixels wholly, and others not at all.
 #[test]
 fn a_thin_strip_of_light_stays_even() {
     let [coarse, fine] = [1, 4].map(largest_step_along_a_strip_of_light);

@@ -140,7 +140,8 @@ impl Twin {
     }
 }
 
-/// A texel of the ramp from light to tone: four plateaus, with smooth steps between them at the quarters.
+/// A texel of the ramp that gives the tone for each amount of light, 0..1: four plateaus, with smooth steps between
+/// them where the light is 0.25, 0.5 and 0.75.
 fn shade(diffuse: f64, ink: &SumiE) -> u8 {
     let mut tone = ink.tones[0];
     for step in 1..4 {

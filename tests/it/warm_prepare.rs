@@ -23,7 +23,7 @@ fn start() -> Arc<LoadedScene> {
     scene.style = Style::default();
     scene.strokes = Default::default();
     (scene.strokes.length_px, scene.strokes.width_px) = (Some(36.0), Some(12.0));
-    // All particle counts follow from the view, that of the body layer too.
+    // No object states how many particles its body layer has, so the counts of all layers follow from the view.
     scene.objects.iter_mut().for_each(|object| object.particles = None);
     scene.size = (480, 320);
     scene.timeline.last = 10;

@@ -1,6 +1,7 @@
 //! Tests of steadiness from frame to frame: the measures of chatter, steps and flicker notice flashing and blinking;
 //! strokes that turn are steadier than those at fixed angles; boil lets no stroke come or go, and keys let none pop;
-//! light, background and palette follow their keys; and paint covers a pixel as far as its body does.
+//! light, background and palette follow their keys; and at an outline, paint covers as much of a pixel as the body that
+//! it is on.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -174,7 +175,7 @@ fn boil_lays_strokes_anew_on_twos_and_lets_none_come_or_go() {
         drifts[0] += now.drift[0] * stroke.drift[0];
         drifts[1] += stroke.drift[0] * stroke.drift[0];
     }
-    // Boil adds to the drift that a stroke has anyway.
+    // Boil adds to the drift that a stroke has without boil.
     assert!(recoloured > 400 && (drifts[0] / drifts[1] - 1.0).abs() < 0.3, "{recoloured}, {drifts:?}");
     assert!(moved > 400 && first.len().abs_diff(unmoved.len()) < unmoved.len() / 20, "{moved}");
     assert!(most_px > 0.02 && most_px < 0.5, "{most_px}");

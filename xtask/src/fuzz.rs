@@ -22,11 +22,11 @@ const MOST_MIB: u64 = 2048;
 const NUMBERS: &str =
     "0 aA1!bB2\"cC3#dD4$eE5%fF6&gG7'hH8(iI9)jJ:*kK;+lL<,mM=-nN>.oO?/pP@qQ[rR]sS^tT_uU`vV{wW|xX}yY~zZ";
 
-/// A target of `fuzz/targets/`, and the endings of files that it begins with.
+/// A target of `fuzz/targets/`, and the endings of the files that are its first inputs.
 struct Target {
     name: &'static str,
     endings: &'static [&'static str],
-    /// Texts that it begins with as well.
+    /// Texts that are first inputs as well.
     texts: &'static [&'static str],
 }
 

@@ -2,8 +2,8 @@
 //! crate use each other in a circle.
 //!
 //! It reads two tables of that file. The table between `<!-- layers:begin -->` and `<!-- layers:end -->` says which of
-//! our crates may use which. The table between `<!-- outside:begin -->` and `<!-- outside:end -->` says which of our
-//! crates alone may use an outside crate.
+//! our crates may use which. The table between `<!-- outside:begin -->` and `<!-- outside:end -->` names outside
+//! crates, each with the only crates of ours that may use it.
 
 mod circles;
 mod graph;

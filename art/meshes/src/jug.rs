@@ -66,7 +66,8 @@ fn body(mesh: &mut PolyMesh) {
     let (border, lowest) = (below(GLAZE), ROWS - 4);
     let outline_at = |row: usize, segment: usize| {
         let angle = TAU * segment as f64 / SEGMENTS as f64;
-        // The height at which the glaze ends at this angle. Rows near its end move with it.
+        // The height at which the glaze ends at this angle. The rows near it are moved along the outline, so that one
+        // lies there.
         let wanted = GLAZE + glaze_run(angle);
         let found = (rim * FINE..=ROWS * FINE).find(|&fine| outline[fine].y < wanted).unwrap_or(ROWS * FINE);
         let shift = found as f64 - (border * FINE) as f64;

@@ -111,7 +111,7 @@ fn sheet(mesh: &mut PolyMesh) {
 fn cloud(mesh: &mut PolyMesh, cloud: &Cloud) {
     let ([foot_x, foot_y], [half, height]) = (cloud.foot, cloud.size);
     let columns = 24 + (12.0 * half) as usize;
-    // The billows of a second row, in front of those of the outline.
+    // A second line of billows, in front of those of the outline.
     let front = Cloud { seed: cloud.seed + 1, billows: cloud.billows + 2, ..*cloud };
     mesh.sheet(
         [columns, TONES],
@@ -121,7 +121,7 @@ fn cloud(mesh: &mut PolyMesh, cloud: &Cloud) {
             let rim = (1.0 - across * across).max(0.0).sqrt();
             let under =
                 0.05 * height * noise(0.5 * across + 0.5, 0.0, 7, cloud.seed + 1) - 0.10 * height * rim;
-            // Borders between tones billow too: farther down they follow the row in front.
+            // Borders between tones billow too: farther down they follow the billows in front.
             let crest = billow(across, cloud);
             let inner = 0.25 * crest + 0.75 * crest.min(billow(across - 0.05, &front));
             let top = (height * (inner + (crest - inner) * up * up)).max(under + 0.012);

@@ -79,7 +79,7 @@ impl Plan {
         [middle - half, middle + half]
     }
 
-    /// X of the path's left and right edge at a z. The path tapers to almost nothing behind the door.
+    /// X of the path's left and right edge at a z. At the door the path tapers to almost nothing.
     fn path_edges(&self, z: f64) -> [f64; 2] {
         let half =
             0.02 + (0.15 + 0.010 * (z + 2.0).max(0.0)) * smoothstep(PATH_END + 0.1, PATH_END - 0.3, -z);
@@ -137,7 +137,8 @@ pub fn valley() -> PolyMesh {
     mesh
 }
 
-/// Z of a row at a share of the width. Rows sway, so that the borders of colours, which follow rows, are not straight.
+/// Z of a row where it is at `across`, 0..1, of the ground's width. Rows sway, so that the borders of colours, which
+/// follow rows, are not straight.
 fn row_z(row: usize, rows: usize, across: f64) -> f64 {
     let far = row as f64 / rows as f64;
     let sway = (0.55 * (9.0 * across + 5.0 * far).sin() + 0.3 * (23.0 * across + 2.0).sin())
@@ -145,7 +146,7 @@ fn row_z(row: usize, rows: usize, across: f64) -> f64 {
     NEAR + (FAR - NEAR) * far.powf(0.85) + sway
 }
 
-/// The span that a column is in, and how far across it.
+/// The span that a column is in, and how far across that span the column is, 0..1.
 fn span_at(column: usize) -> (usize, f64) {
     let mut left = column;
     for (span, &count) in SPANS.iter().enumerate() {

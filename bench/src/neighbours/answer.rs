@@ -22,9 +22,9 @@ const SAMPLES: u32 = 60;
 pub struct Answer {
     counts: Vec<u32>,
     sums: Vec<u32>,
-    /// Lists of the particles that are checked by brute force.
+    /// The particles that are checked by brute force, each with its list of neighbours.
     lists: Vec<(usize, Vec<u32>)>,
-    /// Sum of the distances of all pairs; `None` for a peer that does not give it.
+    /// Sum of the distances from each particle to each of its neighbours; `None` for a peer that does not give it.
     distance_sum: Option<f64>,
 }
 

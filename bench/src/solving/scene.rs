@@ -55,7 +55,8 @@ pub fn views(inputs: &mut Inputs) -> anyhow::Result<(ScreenMap, ScreenMap)> {
     view(scene.timeline.first).zip(view(scene.timeline.last)).context("the scene has a perspective lens")
 }
 
-/// Particles, each with the lift of a camera that looks straight at it. That lift needs no neighbours.
+/// Particles, each with the lift that a reference gives whose camera looks straight at the particle. That lift needs no
+/// neighbours.
 pub fn facing(cloud: &Cloud, reference: &ScreenMap) -> BakedParticles {
     let mut baked = BakedParticles::default();
     for (position, normal) in cloud.positions.iter().zip(&cloud.normals) {

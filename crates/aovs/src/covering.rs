@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use crate::cryptomatte::{Matte, id_bits};
 use crate::drawn::{Drawn, Found};
 
-/// Shares of a pixel below this are dropped.
+/// A stroke that covers a smaller share of a pixel is dropped there, before shares are averaged at borders.
 const LEAST_SHARE: f32 = 1.0 / 1024.0;
 
 /// A stroke is listed by name only if it covers more than this of some pixel.

@@ -17,8 +17,8 @@ use crate::planes::planes;
 /// The largest factor on a layer.
 const MOST_GAIN: f32 = 4.0;
 
-/// `finish` makes up for a difference only if it exceeds `LEAST_LIGHT`, and also `HALF_ULP` times the wanted light,
-/// which is about the last bit of a 16-bit float.
+/// `finish` makes up for a difference only if the difference exceeds both `LEAST_LIGHT` and `HALF_ULP` times the wanted
+/// light. `HALF_ULP` is about the last bit of a 16-bit float, relative to the float.
 const LEAST_LIGHT: f32 = 4e-4;
 const HALF_ULP: f32 = 1.0 / 1024.0;
 
@@ -66,7 +66,8 @@ pub(crate) fn add(
 /// Changes the layers of a pixel (from the ground up, premultiplied) and adds `finish` on top, so that laid over each
 /// other they give `wanted` (premultiplied).
 fn finished(mut layers: Vec<[f32; 4]>, wanted: [f32; 4]) -> Vec<[f32; 4]> {
-    // A softened outline of a transparent picture may have less alpha: then all layers get thinner.
+    // In a softened outline, the finished picture may have less alpha than the layers together: then all layers get
+    // thinner.
     let clear = |alpha: f32| 1.0 - alpha.min(1.0 - 1e-6);
     let through: f32 = layers.iter().map(|layer| clear(layer[3])).product();
     let wanted_through = 1.0 - wanted[3];
@@ -89,7 +90,7 @@ fn finished(mut layers: Vec<[f32; 4]>, wanted: [f32; 4]) -> Vec<[f32; 4]> {
     for layer in &mut layers {
         layer[3] = f16::from_f32(layer[3]).to_f32();
     }
-    // A softened outline may also have more alpha: then `finish` covers a little.
+    // In a softened outline, the picture may also have more alpha than the layers: then `finish` covers a little.
     let through: f32 = layers.iter().map(|layer| 1.0 - layer[3]).product();
     let mut top = [0.0; 4];
     if wanted_through < through - LEAST_ALPHA {

@@ -126,7 +126,8 @@ impl Server<'_> {
         Ok(())
     }
 
-    /// Wide pictures need particles where others do not. Prepares the scene again when it lacks them, or has too many.
+    /// Pictures that are wider than the scene states show more at their sides, and need particles there. Prepares the
+    /// scene again when it lacks these particles, or has too many.
     fn ready_for(&mut self, size_px: Option<[u32; 2]>) -> Result<(), Failure> {
         let Some(ready) = &mut self.ready else { return Ok(()) };
         let painting = &ready.prepared.painting;

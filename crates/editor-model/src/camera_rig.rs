@@ -18,7 +18,7 @@ pub const ZOOM_PER_STEP: f64 = 0.85;
 const POLE_GAP_RAD: f64 = 0.0087;
 /// Views from above and below are tilted off the axis by this angle, radians, so that the camera has an up direction.
 const AXIS_GAP_RAD: f64 = 1e-3;
-/// Framing leaves this share of the picture free.
+/// Framing leaves this share of the picture's width or height free, of whichever the box fills more.
 const FRAME_MARGIN: f64 = 0.1;
 /// Zooming and framing keep the distance to the target, or the height of an orthographic picture, within these limits,
 /// world units.

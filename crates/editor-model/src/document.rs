@@ -33,7 +33,8 @@ pub use mending::{ProblemRow, Repair};
 pub struct Document {
     loaded: Arc<LoadedScene>,
     preview: Option<Arc<LoadedScene>>,
-    /// The file that `save` writes; none for a new scene that was never saved.
+    /// The file that `save` writes. None if the scene was never saved, or if it was recovered from a copy and it is not
+    /// known which parts of the scene's text that copy lost.
     file: Option<PathBuf>,
     history: History,
     selection: Selection,

@@ -32,7 +32,8 @@ impl FinishedFrames {
     }
 
     /// Takes over the list of the frames that are finished by now. The frame that is asked for stays the same, and
-    /// playback goes on. Returns whether any frames are new.
+    /// playback goes on. A list without that frame, or with no more frames than before, is not taken over. Returns
+    /// whether it was.
     pub fn extend(&mut self, frames: Vec<(i64, PathBuf)>) -> bool {
         let stays = self.frames.get(self.at).map(|(number, _)| *number);
         let at = stays.and_then(|number| frames.iter().position(|(other, _)| *other == number));
@@ -116,8 +117,8 @@ impl FinishedFrames {
         self.playback.wait_secs(now_secs)
     }
 
-    /// The indices of the frames to read, the most urgent first: the frame that is asked for, the frame before it (only
-    /// while playback is stopped; before the first frame comes the last), and the frames after it.
+    /// The indices of the frames to read, the most urgent first: the frame that is asked for, then the frame before it
+    /// (only while playback is stopped; the last frame counts as the one before the first), then the frames after it.
     pub fn wanted(&self) -> Vec<usize> {
         let count = self.frames.len();
         let mut wanted: Vec<usize> = (0..=AHEAD)

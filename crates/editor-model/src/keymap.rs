@@ -1,6 +1,6 @@
 //! The keymap: what each key does, in two presets (Blender's keys and Maya's). `Editor::key` decides which scope is
-//! active. A modal tool takes every key. In the other scopes, a key that is not bound there does what it does
-//! everywhere. Text fields keep the keys that they use themselves.
+//! active. A modal tool takes every key. In the other scopes, a key that the scope does not bind falls back to the
+//! bindings that hold everywhere. Text fields keep the keys that they use themselves.
 
 mod hints;
 mod own;
@@ -336,8 +336,8 @@ impl Keymap {
         chords.first().map(Chord::text)
     }
 
-    /// The first of the action's keys that does the action in `scope`. If none does, the first that does nothing there;
-    /// `None` if there is no such key either.
+    /// The key of an action, for a menu of `scope`: the first key that triggers the action there, else the first that
+    /// triggers nothing there. `None` if all keys of the action trigger something else there, or if it has no key.
     pub fn shortcut_text_in(&self, action: Action, scope: Scope) -> Option<String> {
         let chords = self.bindings().filter(|(binding, _)| binding.action == action);
         let chords: Vec<Chord> = chords.flat_map(|(_, chords)| chords.to_vec()).collect();

@@ -42,7 +42,7 @@ pub struct Hit {
     pub normal_in_model: DVec3,
     /// Normal of the flat triangle on the same side, unit.
     pub face_normal_in_model: DVec3,
-    /// The same point as it is now, in world space.
+    /// The point that was hit, on the surface as it is now, in world space.
     pub position_in_world: DVec3,
     /// Distance from the ray's origin, world units.
     pub distance: f64,

@@ -103,7 +103,7 @@ impl Recovery {
     }
 
     /// The copies that ended sessions left behind, the newest first. Keeps only the newest [`MAX_COPIES`] of them. Also
-    /// deletes the lock files and half-written copies of ended sessions that have no copy.
+    /// deletes the lock files and half-written copies of those ended sessions that left no finished copy.
     pub fn offers(folder: &Path) -> Vec<Offer> {
         let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
         let files: Vec<PathBuf> =

@@ -258,8 +258,8 @@ impl RenderPlan {
         self.frames.iter().filter(is_there).count()
     }
 
-    /// The frames whose PNG files belong to this rendering, each with its file, once `done` frames are finished; empty
-    /// if the kind has no PNG. With [`Existing::Replace`] these are among the first `done` frames of the list: files of
+    /// The frames that have a PNG file of this rendering when `done` frames are finished, each with that file; empty if
+    /// the kind has no PNG. With [`Existing::Replace`] only the first `done` frames of the list count, because files of
     /// later frames are left from an earlier rendering. With [`Existing::Keep`] every file that is there counts.
     pub fn finished(&self, done: u64) -> Vec<(i64, PathBuf)> {
         if !self.kind.has_png() {

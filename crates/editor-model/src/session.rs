@@ -242,16 +242,16 @@ pub struct Session {
     pub frame_before_paint: Option<f64>,
     /// Whether playing begins again at the end of the range.
     pub looped: bool,
-    /// Whether the frames of the range are painted exactly, not as drafts, while the window is idle. This begins once
-    /// the shot was played.
+    /// Whether the frames of the range are painted exactly, not as drafts, while the window is idle. This begins after
+    /// the shot was played for the first time.
     pub finishes: bool,
     /// Whether playing follows the clock or shows every frame.
     pub pacing: Pacing,
     /// Whether a pose made in Animate is keyed at once.
     pub auto_key: bool,
-    /// Whether, in Animate, moving the view through the shot camera moves the camera.
+    /// Whether, in Animate, the shot camera moves with the view while the viewport looks through that camera.
     pub lock_to_view: bool,
-    /// Whether the lanes of keys are open: in Animate, and in the other modes.
+    /// Whether the lanes of keys are open: the first value is for Animate, the second for the other modes.
     pub lanes: [bool; 2],
     /// Whether the curves of one lane take the place of the keys of all lanes.
     pub curves: bool,

@@ -68,8 +68,8 @@ impl Source {
         })
     }
 
-    /// A hash of which parts could not be read, to tell whether they are the same again. The file's path does not
-    /// matter.
+    /// A hash of which parts could not be read. A later reading of the text gives the same hash if the same parts are
+    /// lost again. The file's path does not matter.
     pub(crate) fn losses_hash(&self) -> u64 {
         let parts = self.losses.iter().map(|Loss { problem, mesh, .. }| {
             let place = problem.place.map(|place| (place.line, place.column));

@@ -129,9 +129,9 @@ pub struct Transforming {
     gone_round_rad: f64,
 }
 
-/// A pointer nearer to the pivot than this does not turn, and scales as if it were at this distance.
+/// A pointer nearer to the pivot than this does not turn the object, and scales it as if it were at this distance.
 const LEAST_ARM_PX: f64 = 4.0;
-/// Steps of snapping: world units and factors, and degrees.
+/// Steps of snapping: `STEP` for moves (world units) and for scale factors, `STEP_DEG` for turns (degrees).
 const STEP: f64 = 0.1;
 const STEP_DEG: f64 = 5.0;
 /// Factors that scaling stays within.

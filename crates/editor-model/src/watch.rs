@@ -19,7 +19,7 @@ pub struct Watch {
 struct Watched {
     /// Size and time when the file was first polled, or when its last change was found complete.
     known: SizeAndTime,
-    /// Size and time at the last poll, if different: the file may still be being written.
+    /// Size and time at the last poll, if they differ from `known`: the file may still be being written.
     seen: Option<SizeAndTime>,
 }
 

@@ -36,7 +36,8 @@ struct Board {
     paths: Vec<PathBuf>,
     /// Indices, the most urgent first.
     wanted: Vec<usize>,
-    /// The size of the area that pictures are shown in. Larger pictures are reduced, but not below the size shown.
+    /// The size of the area that pictures are shown in. Larger pictures are reduced, but stay at least as large as they
+    /// are shown.
     size_px: [usize; 2],
     read: BTreeMap<usize, Result<Arc<ColorImage>, String>>,
     /// Frames whose pictures were dropped to make room for others. They are not read again until other frames or

@@ -28,7 +28,8 @@ const MOST_PX: [u32; 2] = [288, 162];
 /// apart in a small picture.
 const LARGER: f32 = 3.0;
 
-/// Preparing a picture may use the available memory divided by this. The scene itself is in memory once already.
+/// Beside the window's own painting of the scene, which is in memory already, preparing a picture may use the available
+/// memory divided by this.
 const SHARE: u64 = 4;
 
 /// How long dropping waits for the thread.
@@ -166,8 +167,8 @@ impl Shared {
         }
     }
 
-    /// Paints a list. The driver is opened for the list and closed after it, so that no second scene stays in memory
-    /// without need. None if there is no driver, or a shader is broken.
+    /// Paints a list. The driver is opened for the list and closed after it, so that the scene is not in memory twice
+    /// (here and for the window) without need. None if there is no driver, or a shader is broken.
     fn paint_list(&self, list: u64, driver: Driver, wake: &dyn Fn()) -> Option<()> {
         let shaders = self.board().shaders.clone();
         let mut renderer = open_renderer(driver, &shaders).ok()?;

@@ -2,7 +2,7 @@
 //! and polls for results.
 //!
 //! ```text
-//! Worker::show(Job) ─▶ mailbox (the latest job) ─▶ prepare ─▶ draft ─▶ rest ─▶ exact ─▶ film ─▶ tray ─▶ Worker::poll
+//! Worker::show(Job) ─▶ mailbox (the latest job) ─▶ prepare ─▶ draft ─▶ wait ─▶ exact ─▶ film ─▶ tray ─▶ Worker::poll
 //! ```
 
 use std::sync::Arc;
@@ -53,8 +53,8 @@ pub struct Job {
 pub struct Later {
     /// During playback, the same views at the next frame: computed while those of the job are drawn.
     pub ahead: Vec<ViewJob>,
-    /// At rest, the views of all frames of the film, in the order in which they would be played from now on. They are
-    /// drawn exactly and kept, once the views of the job are exact.
+    /// At rest, the views of the film's frames, in the order in which they would be played from now on. They are drawn
+    /// exactly and kept, once the views of the job are exact.
     pub film: Vec<ViewJob>,
 }
 
@@ -71,7 +71,7 @@ pub struct ViewJob {
     pub shot_height_px: f32,
     /// How the scene is shown: painted, shaded, or coloured by trust.
     pub shading: Shading,
-    /// Icons of lights over the picture; sizes in pixels are those of the exact picture.
+    /// Icons of lights over the picture. A size of [`BillboardSize::Pixels`] counts pixels of the exact picture.
     pub lights: Vec<LightBillboard>,
     /// Whether the next view will follow at once (a drag or playback is under way): then a draft is enough.
     pub moving: bool,
@@ -140,7 +140,8 @@ pub struct Picture {
     pub serial: u64,
     /// The pixels. A draft may have fewer than the view asked for.
     pub image: Arc<ColorImage>,
-    /// Whether it is drawn as for a file, not as a draft.
+    /// Whether it is drawn as for a file. False for a draft, and for a picture of the film that is shown until the
+    /// icons of lights are drawn.
     pub exact: bool,
     /// How many strokes it has.
     pub strokes: usize,

@@ -146,7 +146,7 @@ pub(crate) struct Accessor {
     /// Why it cannot be read, if the bytes of one of its views are compressed or not in the file.
     pub is_absent: Option<&'static str>,
     pub sparse: Option<Sparse>,
-    /// Least and greatest value of each number of an element, as the file states them.
+    /// The least and the greatest x, y, z … of all elements, as the file states them.
     pub min: Option<Vec<f64>>,
     pub max: Option<Vec<f64>>,
 }

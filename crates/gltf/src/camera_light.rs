@@ -71,7 +71,7 @@ pub struct LightValues {
     pub color: [f32; 3],
     /// Lux or candela, not negative.
     pub intensity: f64,
-    /// Where a point or spot light ends, in metres; `None`: nowhere.
+    /// Distance at which a point or spot light ends, metres; `None`: it has no end.
     pub range_m: Option<f64>,
     /// Angle from the axis of a spot light to where it begins to fade, radians; less than `outer_cone_rad` unless one
     /// of the two is animated.

@@ -1,5 +1,5 @@
-//! Decodes the numbers of accessors, as `f32` or `u32`. An accessor is decoded as `f32` once for each kind of use, and
-//! the result is shared. It is decoded as `u32` at each call.
+//! Decodes the numbers of accessors, as `f32` or `u32`. An accessor is decoded as `f32` once for each meaning that its
+//! integers are given ([`Integers`]), and the result is shared. It is decoded as `u32` at each call.
 
 use std::any::Any;
 use std::array;

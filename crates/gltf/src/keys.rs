@@ -4,8 +4,8 @@ use std::array;
 
 use crate::animation::{Interpolation, Track};
 
-/// A key counts as reached a little early, by at most this share of its time. The reason is that files round the times
-/// of frames to 32 bits, half of them upwards. Only stepped values depend on this.
+/// A key counts as reached a little early, by at most this share of its time: a key at 100 s, 24 µs early. The reason
+/// is that files round the times of frames to 32 bits, half of them upwards. Only stepped values depend on this.
 const ROUNDED: f64 = 2.0 * f32::EPSILON as f64;
 
 /// Where a time lies in a list of key times.
@@ -13,8 +13,8 @@ const ROUNDED: f64 = 2.0 * f32::EPSILON as f64;
 pub(crate) struct Place {
     /// The key at or before the time; the first, if the time is before all.
     pub before: usize,
-    /// The key whose value a stepped track has: `before`, or the next key if only rounding puts the time before that
-    /// one.
+    /// The key whose value a stepped track has: `before`, or the next key if the time is less than that key's time only
+    /// by rounding (see `ROUNDED`).
     pub reached: usize,
     /// From the key before to the one after, seconds; 0 at or beyond the ends.
     span_s: f64,

@@ -205,7 +205,8 @@ impl<'a> MeasureContext<'a> {
         self.draw(painting.seen_by(camera, self.reference_frame(), &options))
     }
 
-    /// The faults of all versions in words, each fault once.
+    /// What [`Painting::fault_words`] tells of each version that was prepared (point caches that could not be read);
+    /// each text once.
     pub fn faults(&self) -> BTreeSet<String> {
         self.paintings.values().filter_map(|painting| painting.fault_words()).collect()
     }

@@ -3,7 +3,8 @@
 use crate::plane::Plane;
 use crate::turning::place_before;
 
-/// Second moments of the gradient as complex numbers at twice its angle (Y up): `(Jxx − Jyy) + 2i Jxy`.
+/// Second moments of the gradient as complex numbers `(Jxx − Jyy) + 2i Jxy`, whose argument is twice the gradient's
+/// angle (Y up).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tensors {
     /// Real parts.

@@ -87,7 +87,7 @@ fn displacement(then: &MeasuredStroke, now: &MeasuredStroke) -> f64 {
 }
 
 /// The same strokes with their presence as alpha. They then count as if nothing hid them, and as if each layer were
-/// wanted everywhere. (In the picture, small strokes, for example, are wanted only near detail.)
+/// painted everywhere. (In the picture, small strokes, for example, are painted only near detail.)
 pub fn by_presence(strokes: &StrokesByKey) -> StrokesByKey {
     strokes.iter().map(|(key, stroke)| (*key, MeasuredStroke { alpha: stroke.presence, ..*stroke })).collect()
 }

@@ -22,7 +22,7 @@ const DRAWN: f64 = 0.1;
 /// crease, round a limb or on the other side of a sheet do not count as neighbours.
 const SAME_SIDE: f64 = 0.8;
 
-/// How many neighbours a stroke is compared with.
+/// How many neighbours a stroke is compared with, at most.
 pub const NEIGHBOURS: usize = 10;
 
 /// Neighbours lie within this many stroke lengths on the picture: strokes farther apart do not touch.
@@ -43,8 +43,8 @@ pub struct Difference {
     pub near_pole: bool,
 }
 
-/// For each visible stroke whose surface the reference view saw from behind: its differences to its nearest visible
-/// neighbours of the same region that face the same way.
+/// For each visible stroke of the body layer whose surface the reference view saw from behind: its differences to its
+/// nearest visible neighbours of the same region that face the same way.
 pub fn revealed(painting: &Painting, strokes: &StrokesByKey, size_px: [u32; 2]) -> Vec<Difference> {
     let (camera, frame) = motion::referred_to(painting.scene(), &painting.scene().reference);
     let reference = TrueView::new(&camera, size_px);

@@ -10,8 +10,8 @@ use crate::chatter::{Place, Share};
 use crate::popping::{displacement_px, touches_border};
 use crate::strokes::{MeasuredStroke, StrokeKey, StrokesByKey};
 
-/// A change of alpha from frame to frame is a step if it exceeds this after multiplying by the visible share of the
-/// stroke.
+/// A stroke steps if its change of alpha from one frame to the next, times the share of the stroke that is visible,
+/// exceeds this.
 const STEP: f64 = 0.35;
 
 /// A surface hides a stroke if it is nearer to the eye than the stroke's nearest end, by more than this share of the

@@ -37,7 +37,8 @@ pub struct MeasuredStroke {
     pub luma: f64,
     /// Distance from the eye along the gaze.
     pub depth: f64,
-    /// Its presence: the alpha if nothing hid it and its layer were wanted in full.
+    /// Its presence: the alpha that it would have if nothing hid it and its layer were painted everywhere (small
+    /// strokes, for example, are painted only near detail).
     pub presence: f64,
     /// Cosine between its surface's normal and the direction to the eye.
     pub facing: f64,

@@ -165,8 +165,9 @@ pub struct ScreenTurn {
 }
 
 impl ScreenTurn {
-    /// From the reference view to the current one: `A = (J_now F B)(J_ref B)⁻¹`. `None` where the reference view sees
-    /// the surface edge-on.
+    /// From the reference view to the current one: `A = (J_now F B)(J_ref B)⁻¹`. The columns of B are two tangents of
+    /// the surface, and J is a view's Jacobian, which takes steps in space to steps in pixels. `None` where the
+    /// reference view sees the surface edge-on.
     pub fn between(point_motion: &PointMotion, reference: BodyView<'_>, now: BodyView<'_>) -> Option<Self> {
         let point = point_motion.before;
         let first = point.normal.any_orthonormal_vector();

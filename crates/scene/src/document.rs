@@ -62,7 +62,7 @@ pub struct Scene {
     /// gets a plain sky as bright as the shot.
     #[serde(default, skip_serializing_if = "is_default")]
     pub background: Color,
-    /// The background over time, frames strictly increasing; then `background` itself is not used.
+    /// The background over time, frames strictly increasing. If there are keys, `background` itself is not used.
     #[serde(default, skip_serializing_if = "is_default")]
     pub background_keys: Vec<BackgroundKey>,
     /// A glTF file beside the scene. Its objects, camera, lights and motion become the scene's, and so do its frames if
@@ -125,7 +125,7 @@ usual_fields! {
     /// Frame range and rate.
     pub struct Timeline {
         /// Frames per second, more than 0 and at most 1000000. If the scene has a shot and `timeline` states no frames,
-        /// a rate of 24 counts as left out: the shot's keys then give the rate.
+        /// a rate of 24 counts as left out: the rate is then the shot's.
         pub fps: f64 = 24.0; saved always,
         /// First frame of the shot.
         pub first: i64 = 0; saved always,
@@ -148,10 +148,10 @@ pub enum Reference {
         eye: [f64; 3],
         /// What it looks at, world space.
         target: [f64; 3],
-        /// Turns the camera about its gaze.
+        /// Turns the camera about its gaze, degrees counter-clockwise as the camera sees it.
         #[serde(default, skip_serializing_if = "is_default")]
         roll_deg: f64,
-        /// Vertical field of view, degrees, from 1 to 170; left out, the lens's own.
+        /// Vertical field of view, degrees, from 1 to 170; left out, that of the camera at `frame`.
         #[serde(default, skip_serializing_if = "is_default")]
         fov_y_deg: Option<f64>,
         /// The frame that poses the objects.
@@ -227,7 +227,8 @@ pub struct CameraKey {
     pub eye: [f64; 3],
     /// The point that the camera looks at, world space; not `eye` itself, and not straight above or below `eye`.
     pub target: [f64; 3],
-    /// Turns the camera about its gaze, degrees; the picture turns the other way.
+    /// Turns the camera about its gaze, degrees counter-clockwise as the camera sees it. The picture turns the other
+    /// way.
     #[serde(default, skip_serializing_if = "is_default")]
     pub roll_deg: f64,
     /// The lens's field of view from this key on, degrees, from 1 to 170; interpolated between keys. Not for parallel
@@ -277,8 +278,8 @@ pub struct Object {
     /// The object that this one moves with.
     #[serde(default, skip_serializing_if = "is_default")]
     pub parent: Option<String>,
-    /// How many particles it has, at most 16000000; fewer where its faces lie on each other. Left out, the number
-    /// follows from the coverage.
+    /// How many particles its body layer has, at most 16000000; where faces lie on each other, it gets fewer. Left out,
+    /// the number follows from the coverage, as it does for the other layers.
     #[serde(default, skip_serializing_if = "is_default")]
     pub particles: Option<u64>,
     /// For how many frames each pose is held, from 1 to 1000, counted from the first frame. With 1 the object moves in

@@ -355,9 +355,9 @@ impl FieldLocator<'_> {
     }
 }
 
-/// Puts the scene file's problems first, by position, then those of the files that it names: fatal ones before
-/// warnings, each in the order of use. Of the problems of these files, keeps at most [`limits::MAX_PROBLEMS`]; a last
-/// problem says how many were left out.
+/// Puts the scene file's problems first, by position, then those of the files that it names: all fatal ones, then all
+/// warnings, both in the order in which the scene uses the files. Of the problems of these files, keeps at most
+/// [`limits::MAX_PROBLEMS`]; a last problem says how many were left out.
 fn sort_and_cap(path: &Path, problems: &mut Vec<Problem>, mut of_files: Vec<Problem>) {
     let is_of_scene = |problem: &Problem| problem.path == path;
     problems.extend(of_files.extract_if(.., |problem| is_of_scene(problem)));

@@ -150,7 +150,7 @@ impl PointCache {
     /// the length of the file.
     ///
     /// # Errors
-    /// Those of the system, and a position that is not finite or too far away.
+    /// Those of the system, and a position that is not finite, or is too far away.
     pub fn at(&self, frame: f64) -> io::Result<Vec<Vec3>> {
         let last = (self.samples - 1) as f64;
         let place = ((frame - self.first_frame) / self.frames_per_sample).max(0.0).min(last);
@@ -182,7 +182,7 @@ impl PointCache {
     }
 }
 
-/// The positions in the bytes of a sample; an error for each that is not finite or too far away.
+/// The positions in the bytes of a sample; an error for each that is not finite, or is too far away.
 fn places_in(bytes: &[u8], sample: u64) -> impl Iterator<Item = io::Result<Vec3>> {
     let place = move |(number, point): (usize, &[u8; POINT as usize])| {
         let coordinate =

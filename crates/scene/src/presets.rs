@@ -7,15 +7,15 @@ pub use crate::document::{ResolvedLayer, ResolvedStrokes};
 
 use table::{PRESETS, Preset};
 
-/// The preset of a scene that names none.
+/// The preset of a scene that names none, unless its style has a usual preset of its own.
 pub const DEFAULT_PRESET: &str = "oil study";
 
 /// The preset of a scene in ink that names none.
 pub const INK_PRESET: &str = "ink";
 
-/// The source paper's own rule, complete. Every polygon has the same number of particles, at random places, and shows
-/// as many strokes on them as its projected area asks for. There is one brush, the full neighbour sum in every frame,
-/// no jitter, and no layer but the body. The rule holds for a whole scene, not for a region.
+/// The source paper's own rule, complete. Every polygon has the same number of particles, at random places. In a frame,
+/// as many of them show a stroke as the polygon's projected area asks for. There is one brush, the full neighbour sum
+/// in every frame, no jitter, and no layer but the body. The rule holds for a whole scene, not for a region.
 pub const PAPER_PRESET: &str = "paper";
 
 /// The name that a scene's list of layers uses for the tone under all of them.

@@ -47,7 +47,7 @@ impl Severity {
     }
 }
 
-/// At least one fatal problem, and whatever else was found on the way, in the order of the file.
+/// At least one fatal problem, and whatever else was found on the way.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub struct Report(pub Vec<Problem>);
 

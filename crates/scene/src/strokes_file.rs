@@ -130,7 +130,8 @@ fn with_what_it_takes(scene: &Scene, own: &StrokeSettings) -> StrokeSettings {
         let stated = (row.number.get)(own).or((row.number.get)(&all));
         *(row.number.of)(&mut all) = stated;
     }
-    // Scene and region may each state length, width and scale, which act on each other: the resulting sizes are stated.
+    // Scene and region may each state length, width and scale, which act on each other. The sizes that result are
+    // written in their place.
     let states_sizes = all.length_px.or(all.width_px).or(all.scale).is_some();
     if states_sizes {
         all.length_px = Some(size_px(f64::from(resolved.body().length_px)));
@@ -145,7 +146,7 @@ fn with_what_it_takes(scene: &Scene, own: &StrokeSettings) -> StrokeSettings {
         layer.name == LayerKind::Body.name() && layer.length_px.or(layer.width_px).is_some()
     };
     // The sizes of the other layers usually follow from the body's. If the list of layers states a size for `body`,
-    // they do not, so the size of each layer is stated.
+    // they do not, so the sizes of all layers are written into the list.
     let states_each = states_sizes && all.layers.iter().chain(&own.layers).any(is_sized_body);
     let of_region: Vec<String> = own.layers.iter().map(|layer| layer.name.clone()).collect();
     let each = LayerKind::ALL.map(LayerKind::name).into_iter().filter(|_| states_each);

@@ -20,7 +20,8 @@ pub(crate) const CREASE_ANGLE_DEG: f64 = 44.0;
 /// A triangle counts as having no area if twice its area is at most this share of its longest edge squared.
 const DEGENERATE: f64 = 1e-12;
 
-/// Round a corner with more triangles than this, the crease is judged against the mean normal, not pair by pair.
+/// If more triangles than this meet at a place, each one's normal is compared with the mean of all, not with every
+/// other one, to find creases.
 const MANY_TRIANGLES: usize = 256;
 
 /// Stands for no vertex.
@@ -291,7 +292,7 @@ impl<'a> Builder<'a> {
         let mut used = self.triangles.iter().flat_map(|triangle| triangle.vertices);
         let has_uvs = used.any(|vertex| uvs[vertex as usize].is_some());
         let mut vertices = Distinct::with_capacity_and_hasher(positions.len(), RandomState::default());
-        // The latest number of each vertex of the file. A vertex gets several where made normals differ.
+        // For each vertex of the file, the number that it was given last. It gets several where made normals differ.
         let mut last: Vec<u32> = vec![NONE; positions.len()];
         let mut number = |vertex: u32, made: Option<Vec3>| {
             let vertex = vertex as usize;
@@ -392,7 +393,7 @@ impl<'a> Builder<'a> {
             } else {
                 around.mean(place, |other| is_near(other, own))
             };
-            // Each of the summed normals is near this one, so the mean vanishes only where all the angles are zero.
+            // Each normal in the mean is near `own`, so the mean is zero only if all the angles are zero.
             let mean = if mean == DVec3::ZERO { own } else { mean };
             mean.as_vec3().normalize()
         };

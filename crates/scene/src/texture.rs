@@ -18,8 +18,8 @@ pub const MAX_FILE_BYTES: u64 = 256 << 20;
 /// What a decoder may allocate, in bytes.
 const MAX_DECODER_BYTES: u64 = 384 << 20;
 
-/// No PNG, BMP, TGA or JPEG has more pixels per byte than this. PNG packs most: deflate at most 1032 : 1, with at least
-/// one bit for each pixel.
+/// No PNG, BMP, TGA or JPEG has more pixels per byte than this. PNG packs most: at most 8 pixels a byte, which deflate
+/// shrinks at most 1032 : 1.
 const MAX_PIXELS_PER_BYTE: u64 = 8 * 1032;
 
 /// A picture and the warnings about it.

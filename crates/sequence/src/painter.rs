@@ -120,8 +120,8 @@ impl<'a> Painter<'a> {
         }))
     }
 
-    /// The PNG file of 16 bits and the EXR file of the frame that was drawn last, where they are wanted. They hold more
-    /// than its picture, so they need the renderer.
+    /// The PNG file of 16 bits and the EXR file of the frame that was drawn last, where they are wanted. These files
+    /// hold more than the picture of 8 bits, so they need the renderer.
     fn read_files(
         &mut self,
         job: Job,

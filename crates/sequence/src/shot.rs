@@ -30,7 +30,7 @@ impl Wanted {
     /// The pixels alone.
     pub const PICTURE: Self = Self { picture: true, png: None, exr: None, packing: Packing::Small };
 
-    /// The files, by the ending of their names.
+    /// The ending of each file's name.
     pub(crate) fn endings(self) -> impl Iterator<Item = &'static str> {
         [self.png.map(|_| "png"), self.exr.map(|_| "exr")].into_iter().flatten()
     }

@@ -140,8 +140,8 @@ fn two_triangles_would_be_seen() {
         let at = DVec2::new(chance(index, 0), chance(index, 1));
         (on_two_triangles(place(&tapered, at), corners) - at).abs().max_element()
     });
-    // `worst` is in shares of the mark. The test above would notice about 0.06: its limit is 1.5 grey
-    // levels, on a ramp of 27.
+    // Points of the mark would be off by up to `worst`, in shares of its length or width. The test above notices about
+    // 0.06 of the width: it allows 1.5 grey levels, and the ramp rises by 27 across the mark.
     assert!(worst.fold(0.0, f64::max) > 0.3);
 }
 

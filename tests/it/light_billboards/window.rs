@@ -8,7 +8,8 @@ use impasto_tests::screen::{ControlRect, EditorWindow, Screen};
 
 use crate::editor_window::{folder, read};
 
-/// Where a point of the world shows in the window. The shot is as wide as the viewport and lies in its middle.
+/// Where a point of the world shows in the window. The scene's picture is as wide as the viewport and lies in the
+/// viewport's middle.
 fn shown_at(scene: &Scene, viewport: &ControlRect, position: DVec3) -> DVec2 {
     let size = DVec2::new(f64::from(scene.size.0), f64::from(scene.size.1));
     let view = View {

@@ -254,7 +254,7 @@ fn more_layers_are_darker_unless_the_mean_is_kept() {
         assert!((root - g.powf(2.0 * (k - 1.0) / k)).abs() < 0.01, "k {layer_count}: {root}");
         assert!((mean - g).abs() < 0.2 * g, "k {layer_count}: {mean}");
     }
-    // With the most layers that are allowed, their product alone would underflow 32 bits.
+    // With as many layers as are allowed, their product would underflow 32 bits before its root is taken.
     let most = moments(&grey(SurfaceNoise { layer_count: 64, ..Default::default() }, 60, &mut renderer))[0];
     assert!((most - (60.0 / 255.0_f64).powf(126.0 / 64.0)).abs() < 0.01, "{most}");
     // The same on noise, whose mean is a half.

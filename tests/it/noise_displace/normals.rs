@@ -20,9 +20,9 @@ use super::{material, moved_by};
 
 const SIDE: u32 = 200;
 const TEXELS: u32 = 64;
-/// Textures per unit along X and Y.
+/// How often the texture repeats per unit, along X and along Y.
 const VALUE: [f64; 2] = [0.20, 0.22];
-/// The displacement from the least noise to the greatest, units.
+/// How far apart, in units and along each axis, the least noise and the greatest put a vertex.
 const SCALE: f64 = 4.0;
 /// How many levels of 255 each channel of the noise rises from one texel to the next, along U and along V.
 const RISE: [[f64; 3]; 2] = [[2.0, 0.0, 2.0], [0.0, 1.0, -2.0]];
@@ -85,9 +85,9 @@ fn displaced(normals: NoiseNormals) -> Arc<LoadedScene> {
     Arc::new(loaded)
 }
 
-/// How the ramp moves the sheet, in the space of the model. `along` is the displacement that one whole texture adds,
-/// along U and along V. The dot products of `textures` with a step on the sheet tell how many textures the step crosses
-/// along U and along V.
+/// How the ramp moves the sheet, in the space of the model. `along` is by how much the displacement changes over the
+/// length of one texture: along U, and along V. The dot products of `textures` with a step on the sheet tell how many
+/// textures the step crosses along U and along V.
 #[derive(Clone, Copy)]
 struct Ramp {
     along: [DVec3; 2],
@@ -168,8 +168,8 @@ fn light_falls_on_a_displaced_sheet_as_on_one_that_was_modelled_so() {
     }
 }
 
-/// The planted faults are slopes along U or V that are a third too small, in all directions of the model or along one
-/// of its axes alone.
+/// In the planted faults, the ramp's slope along U or along V is a third too small: for steps in all directions of the
+/// model, or only for steps along one of its axes.
 #[test]
 fn a_fault_of_displaced_normals_is_seen_in_the_light() {
     let mut renderer = renderer(Driver::Egl);

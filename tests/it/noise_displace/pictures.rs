@@ -83,8 +83,8 @@ fn extreme_but_allowed_values_give_a_picture() {
     }
 }
 
-/// The plain render leaves such a body out, so paint must ignore it too. The edges of bodies behind it stay as sharp as
-/// they were.
+/// The plain render leaves such a body out, so paint must ignore it too. Then the edges of bodies behind it are as
+/// sharp as if it were hidden.
 #[test]
 fn a_wholly_transparent_body_is_as_if_hidden() {
     let painted = |field: &str, value: &str| {

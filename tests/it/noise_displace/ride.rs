@@ -1,4 +1,5 @@
-//! Tests of strokes that ride a displaced surface: their places, turns, loops and edits.
+//! Tests of strokes that ride a displaced surface: where they lie, how they turn, noise that repeats in a loop, and
+//! edits of the noise.
 
 use std::collections::BTreeMap;
 

@@ -65,16 +65,17 @@ fn drawn_strokes(renderer: &mut Renderer, strokes: Vec<Stroke>) -> (Picture, Vec
     (picture, dark.collect())
 }
 
-/// The ink that a stroke of this darkness lays this many pixels past its middle. It falls linearly from 1.06 of the
-/// darkness at the start to 0.78 at the end.
+/// The ink that a stroke of this darkness lays this many pixels past its middle. It falls linearly from 1.06 times the
+/// darkness at the start to 0.78 times at the end.
 fn carried(dark: f64, after_middle_px: f64) -> f64 {
     let share = 0.5 + after_middle_px * f64::from(FILL / LENGTH_PX);
     // The mark's tint of 128 is 0.5 above the neutral 127.5, which adds a little ink.
     dark * (1.06 + (0.78 - 1.06) * share) * (1.0 + 0.2 / 255.0)
 }
 
-/// How dark ink is where strokes with these inks cross. Each covers 0.55 times its ink, and `covers` is what all cover
-/// together. The darkest ink is multiplied by 1 plus 0.45 times the excess of `covers` over half of that ink.
+/// How dark the picture is where strokes with these inks, 0..1, cross. A stroke with ink 0.6 covers 0.55 · 0.6 = 0.33
+/// of a pixel, and `covers` is the share of the pixel that all strokes cover together. The picture is as dark as the
+/// darkest ink, times 1 + 0.45 · (`covers` − half of that ink).
 fn crossed(inks: &[f64]) -> f64 {
     let most = inks.iter().copied().fold(0.0, f64::max);
     let covers = 1.0 - inks.iter().map(|ink| 1.0 - 0.55 * ink).product::<f64>();
@@ -130,7 +131,7 @@ fn ink_is_darker_where_strokes_cross() {
 }
 
 /// The sheet's normals turn so slowly towards the light that its picture shows less than 3 of the 256 texels of the
-/// ramp of tones. The steps are as hard as they can be: from one texel to the next.
+/// ramp of tones. The steps between tones are as hard as they can be: from one texel to the next.
 #[test]
 fn between_two_texels_of_the_ramp_tones_go_over_evenly() {
     let size_px = [640, 360];

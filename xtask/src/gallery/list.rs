@@ -305,7 +305,7 @@ pub(super) const PICTURES: &[Picture] = &[
         ],
     ),
     // The contour is set in the apple's region, because that region states a contour of its own. The direction is an
-    // angle here, because strokes that run up would lie along most of the outline anyway.
+    // angle here, because strokes that run up would lie along most of the outline even with a contour of 0.
     sweep(
         "paint_contour",
         FRUIT,

@@ -192,8 +192,8 @@ fn ball(chance: &mut Chance) -> Body {
     Body { points, faces: quads(rings, rings, rings) }
 }
 
-/// Quads between `rows + 1` rows of `across` points, `joined` quads a row. If `joined` equals `across`, the last quad
-/// closes the row.
+/// Quads between `rows + 1` rows of `across` points: `joined` quads between each row and the next. If `joined` equals
+/// `across`, the last of them joins the ends of the rows to their beginnings, so that the rows are rings.
 fn quads(rows: usize, across: usize, joined: usize) -> Vec<Vec<usize>> {
     (0..rows)
         .flat_map(|row| (0..joined).map(move |column| (row * across, column, (column + 1) % across)))

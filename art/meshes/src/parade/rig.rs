@@ -74,8 +74,8 @@ pub fn offset(joint: usize) -> DVec3 {
 /// How much one point follows each joint.
 type Shares = [f64; COUNT];
 
-/// The joints that each point of the skin follows. First a point follows the joint of the part that it lies on. Then
-/// the shares are smoothed along the skin, so that it bends in curves.
+/// The joints that each point of the skin follows. First a point follows the joints that `own` gives for the part that
+/// it lies on. Then the shares are smoothed along the skin, so that the skin bends in curves.
 pub fn influences(mesh: &PolyMesh, part: impl Fn(DVec3) -> Part) -> Vec<Influence> {
     const ROUNDS: usize = 12;
     let mut neighbours = vec![Vec::new(); mesh.positions.len()];

@@ -20,7 +20,7 @@ pub const STRIDE: f64 = 1.06;
 const STANCE: f64 = 0.62;
 /// How far in front of the hips the ankle would be when the heel meets the ground, if the foot were flat.
 const REACH: f64 = 0.285;
-/// When the whole sole is on the ground, and when the heel leaves it, as shares of the stride.
+/// From when to when the whole sole is on the ground, as shares of the stride. After that the heel rises.
 const SOLE: [f64; 2] = [0.11, 0.36];
 /// How far the toes point up (negative: down) when the heel meets the ground, and when they leave it, degrees.
 const PITCH: [f64; 2] = [20.0, -44.0];
@@ -174,7 +174,7 @@ fn swing(phase: f64, level: DQuat) -> (DVec3, f64) {
     let share = (phase - STANCE) / (1.0 - STANCE);
     let (from, _) = stance(STANCE, level);
     let (to, _) = stance(0.0, level);
-    // It leaves and lands as fast as it moves on the ground.
+    // The ankle leaves the ground and lands with the velocity that it has on the ground.
     let rate = (1.0 - STANCE) / STEP;
     let leaving = (from - stance(STANCE - STEP, level).0) * rate;
     let landing = (stance(STEP, level).0 - to) * rate;

@@ -74,7 +74,7 @@ impl Document {
         Ok(file)
     }
 
-    /// As [`Document::save`], but overwrites what another program has written since.
+    /// As [`Document::save`], but also if another program has changed the file: that change is then overwritten.
     ///
     /// # Errors
     /// As [`Document::save_as`], and if there is no file yet.
@@ -212,7 +212,7 @@ impl Document {
     }
 
     /// Reads again the files that the scene names: shot, meshes, point caches and pictures. If the shot changes the
-    /// scene, this makes an entry of the history, with a note of the objects that came and went.
+    /// scene, this makes an entry of the history, and the step's note says what came and went.
     ///
     /// # Errors
     /// What is wrong with the files, in the words to show. The scene then keeps the files as it read them before.

@@ -43,8 +43,8 @@ impl Document {
         let read_from = copy.source.as_ref().and_then(|text| {
             Some(Source::with_any_losses(&salvage::salvage_text(&copy.path, text, options).ok()?))
         });
-        // If files came or went since the copy was made, other parts may be unreadable now than then. It is then not
-        // known what was lost, and what the copy lacks would look as if the user had deleted it.
+        // If files came or went since the copy was made, other parts of the text may be unreadable now than then. It is
+        // then not known which parts the copy lost, and a merge would take a lost part for one that the user deleted.
         let is_known = read_from.as_ref().is_some_and(|source| {
             let has_box = |mesh: &String| source.has_stand_in(mesh);
             copy.losses == Some(source.losses_hash())

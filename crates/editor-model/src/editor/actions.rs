@@ -276,8 +276,8 @@ impl Editor {
         }
     }
 
-    /// Hides or shows (or locks or unlocks) the selected things that can be: the last of them changes its state, and
-    /// the others get the same state.
+    /// Hides the selected things or shows them again; or locks or unlocks them. The last one changes its state, and the
+    /// others get the same state. Things that cannot be hidden (or locked) do not count.
     fn hide_or_lock(&mut self, action: Action) {
         let hides = action == Action::Hide;
         let can = |item: &&Item| match item {
@@ -367,7 +367,8 @@ impl Editor {
         self.run(&Command::Directions(Directions::Recapture(frame)));
     }
 
-    /// How far an object has turned about the gaze since the reference, in degrees, for the note that Compare shows.
+    /// The angle, in degrees, by which an object has turned between the reference and the frame that is shown, as the
+    /// reference's camera sees it. For the note that Compare shows.
     pub fn turned_deg(&self, object: usize) -> Option<f64> {
         let scene = &self.document.shown().scene;
         let (camera, at) = motion::referred_to(scene, &scene.reference);

@@ -23,8 +23,8 @@ const REACH_PX: f64 = 14.0;
 pub struct LightPlace {
     /// The light, as it is at the frame that is shown.
     pub light: Light,
-    /// Position of the icon in world space. A lamp or a spot has it where it stands, a sun in the direction that it
-    /// shines from, and a sky above the scene.
+    /// Position of the icon in world space. The icon of a lamp or a spot is where the light stands, that of a sun is in
+    /// the direction that the sun shines from, and that of a sky is above the scene.
     pub position: DVec3,
 }
 

@@ -44,10 +44,10 @@ pub enum Request {
     ExportMovie,
     /// Reads the scene from the text that is edited in the panel of problems.
     ReadSource,
-    /// Asks before this frame becomes the reference.
+    /// Asks whether this frame is to become the reference.
     Recapture(i64),
-    /// Asks before this command, which takes triangles from other regions. The text lists them: *340 triangles of
-    /// skin*.
+    /// Asks whether to carry out this command, although it takes triangles from other regions. The text says how many:
+    /// *340 triangles of skin*.
     TakeFaces(Box<Command>, String),
 }
 

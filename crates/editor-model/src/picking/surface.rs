@@ -173,7 +173,8 @@ impl SurfaceTree {
         if !origin.is_finite() || !(length.is_normal()) {
             return None;
         }
-        // Single precision suffices near the surface: the ray starts just before it.
+        // The tree is searched in single precision. That suffices, because a ray from afar is made to begin just before
+        // the sphere round the surface's box.
         let (centre, reach) = ((low + high) * 0.5, (high - low).length() * 0.5);
         let unit = direction / length;
         let skipped = ((centre - origin).dot(unit) - reach * 1.01).max(0.0);
@@ -209,7 +210,8 @@ impl SurfaceTree {
         Some(point(triangle, weights).0)
     }
 
-    /// The triangle at rest that is nearest to `to` among those that count, and the weights of its nearest point.
+    /// Of the triangles at rest that count and are at most `farthest` away, the one that is nearest to `to`, with the
+    /// weights of its nearest point. `counts` judges a triangle by the weights of that point.
     fn nearest(
         &self,
         to: DVec3,
@@ -277,8 +279,9 @@ impl SurfaceTree {
         (self.on_side(triangle, barycentric, sign), looked_at(winding * sign))
     }
 
-    /// 1 if the front of a triangle is painted, −1 if its back is. A front that is looked at counts as painted. That is
-    /// wrong only inside a closed shell that winds inwards, where the eye hardly ever is.
+    /// The painted side of a triangle: 1 for its front, −1 for its back. For a sheet, which is painted on both sides,
+    /// it is the side that is looked at. On a closed shell, too, a front that is looked at counts as painted. That is
+    /// wrong only inside a shell that winds inwards, where the eye hardly ever is.
     fn painted_side(&self, triangle: u32, front_is_looked_at: bool) -> f64 {
         let is_front = front_is_looked_at || self.surface.sides[triangle as usize] == Side::Front;
         if is_front { 1.0 } else { -1.0 }

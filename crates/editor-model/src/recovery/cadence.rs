@@ -10,8 +10,9 @@ pub struct Cadence {
 }
 
 impl Cadence {
-    /// Whether a copy is due now; if so, it counts as made. `edited` is a number that changes with each edit, or `None`
-    /// if there are no unsaved edits. The time is that of the caller's clock.
+    /// Whether a copy is due now: `after_secs` after the first edit since the last copy. If so, it counts as made.
+    /// `edited` is a number that changes with each edit, or `None` if there are no unsaved edits. `now_secs` is on the
+    /// caller's clock.
     pub fn is_due(&mut self, edited: Option<u64>, now_secs: f64, after_secs: f64) -> bool {
         let Some(version) = edited else {
             *self = Self::default();

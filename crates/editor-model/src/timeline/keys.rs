@@ -187,8 +187,8 @@ impl KeysHand {
         None
     }
 
-    /// Shifts the frames of the selection to where a command is about to move or copy the selected keys. Returns the
-    /// old selection.
+    /// Shifts the frames in the selection by `by`. To be called before a command moves or copies the selected keys by
+    /// as much, so that the moved keys, or the copies, are selected afterwards. Returns the old selection.
     pub(crate) fn go(&mut self, by: f64) -> Vec<KeyAt> {
         let before = self.selected.clone();
         self.selected.iter_mut().for_each(|(_, frame)| *frame += by);

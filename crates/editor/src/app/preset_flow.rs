@@ -93,7 +93,8 @@ impl EditorApp {
         self.presets.own = presets_folder().map_or_else(Vec::new, |folder| presets_in(&folder));
     }
 
-    /// Has pictures of all presets painted for these strokes, unless they are already done or being painted.
+    /// Has pictures of the scene painted, one for each preset applied to `of`, up to [`MOST_PICTURES`], unless they are
+    /// already done or being painted.
     pub(super) fn picture_presets(&mut self, of: StrokesOf) {
         self.presets.is_listed = true;
         let (version, now) = (self.editor.shown().1, self.editor.session.frame.round());

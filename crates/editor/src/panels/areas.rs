@@ -117,7 +117,7 @@ mod tests {
 
     use super::*;
 
-    /// A window with a bar, a column and the rest, each with a button.
+    /// Shows a window for one pass. It has three areas, each with a button: a bar, a column and the rest.
     fn pass(ctx: &Context, events: Vec<Event>) {
         let screen_rect = Some(Rect::from_min_size(pos2(0.0, 0.0), vec2(400.0, 300.0)));
         let output = ctx.run_ui(RawInput { events, screen_rect, ..RawInput::default() }, |ui| {

@@ -43,9 +43,9 @@ pub enum Question {
     },
     /// The editor closed unexpectedly last time, and left a copy of unsaved work.
     Recovered {
-        /// The document that it is a copy of.
+        /// The name of the document that was copied.
         name: String,
-        /// How old it is: *5 minutes ago*.
+        /// How old the copy is: *5 minutes ago*.
         age: String,
         /// How many entries of the copy's history the file lacks.
         changes: usize,

@@ -24,7 +24,7 @@ type Known = BTreeMap<String, (Option<Arc<Texture>>, TextureHandle)>;
 pub fn thumbnail(ctx: &Context, name: &str, loaded: &LoadedScene) -> Option<TextureHandle> {
     let known: Arc<Known> = ctx.data_mut(|data| data.get_temp(key())).unwrap_or_default();
     let picture = loaded.brushes.get(name);
-    // A file that is read again gives another picture.
+    // A file that is read again gives a new `Texture`, at another address.
     let is_same = |of: &Option<Arc<Texture>>| of.as_ref().map(Arc::as_ptr) == picture.map(Arc::as_ptr);
     if let Some((_, handle)) = known.get(name).filter(|(of, _)| is_same(of)) {
         return Some(handle.clone());

@@ -14,7 +14,7 @@ pub(super) struct ColumnState {
     /// Whether all sections are open, whatever `sections` says. It is true only for the column that is laid out unseen
     /// to find its controls.
     pub(super) all_open: bool,
-    /// Objects whose rows were opened or folded, by name.
+    /// Whether the rows under an object are shown, by the object's name, for each object that was opened or folded.
     pub(super) rows: BTreeMap<String, bool>,
     /// The text that is searched for in the tree; none while the search is closed.
     pub(super) search: Option<String>,

@@ -183,7 +183,8 @@ fn words(ui: &mut Ui, room: Rect, shown: &ViewerShown<'_>) -> Rect {
     };
     let count = format!("frame {number}, {} of {}", index + 1, frames.count());
     let rate = format!("{} fps{dropped}", frames.fps());
-    // The numbers change while frames play, but the line must keep its length. So room is kept for the widest numbers.
+    // The numbers change while frames play, but the scrubbing line must keep its length. So room is kept for the widest
+    // numbers.
     let most =
         format!("frame {}, {} of {}", frames.frame(frames.count() - 1).0, frames.count(), frames.count());
     let most_rate = format!("{} fps, 0000 dropped", frames.fps());

@@ -32,7 +32,7 @@ enum Doing {
     Nothing,
     /// The next keys that are pressed become those of this command.
     Listening(CommandId),
-    /// As `Listening`, after keys that the command cannot have; the text says why.
+    /// As `Listening`, after the user pressed keys that the command cannot have; the text says why.
     ListeningStill(CommandId, String),
     /// The command is to get these keys, but the listed commands have them. The sheet asks whether to take them.
     Asking(CommandId, Vec<Chord>, Vec<CommandId>),

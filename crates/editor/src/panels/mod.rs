@@ -66,7 +66,7 @@ pub struct PanelInput<'a> {
     pub has_column: bool,
     /// Playback and selected keys.
     pub time: &'a TimeHand,
-    /// The painting as it was last prepared, perhaps from an earlier version of the document; `None` before the first.
+    /// The painting that was prepared last, perhaps from an earlier version of the document; `None` if there is none.
     pub painting: Option<&'a Painting>,
     /// The key bindings in use; menus and tooltips take the texts of shortcuts from them.
     pub keymap: &'a Keymap,
@@ -78,7 +78,7 @@ pub struct PanelInput<'a> {
     pub recent: &'a [PathBuf],
     /// What failed in the window and is not settled yet.
     pub troubles: &'a [Trouble],
-    /// Missing meshes, each with the file in the scene's folder that is probably the right one.
+    /// Missing meshes for which the scene's folder has a file that is probably the right one, each with this file.
     pub likely_meshes: &'a [(String, String)],
     /// Presets of the user's own.
     pub presets: &'a [OwnPreset],
@@ -107,8 +107,8 @@ impl<'a> PanelInput<'a> {
         }
     }
 
-    /// The first shortcut of an action, as text; empty if there is none. Shortcuts that do another action in this
-    /// mode are left out.
+    /// The shortcut of an action, as text: the first that does the action in the current mode, else the first that does
+    /// nothing in this mode. Empty if there is none.
     pub fn keys_of(&self, action: Action) -> String {
         let scope = match self.session.mode {
             Mode::Arrange => Scope::Arrange,
@@ -229,9 +229,10 @@ pub enum Ask {
     Recapture(i64),
     /// Stop this work in the background.
     StopWork(work::WorkKind),
-    /// List the user's own presets.
+    /// Read which presets of the user's own there are, for the list of presets.
     ListPresets,
-    /// The list of presets is open, for the strokes of the scene or of a region. Sent in each pass while it is open.
+    /// Paint the pictures for the list of presets, which is open for these strokes. Sent in each pass while the list is
+    /// open.
     PicturePresets(StrokesOf),
     /// Let the user choose a file, and save these settings as a preset there.
     SavePreset(StrokesOf),

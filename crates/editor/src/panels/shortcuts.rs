@@ -161,7 +161,7 @@ fn mouse(keymap: &Keymap) -> Vec<(&'static str, String)> {
         for (name, button) in buttons {
             let bare = keymap.navigation(button, none) == Some(does);
             for (prefix, modifiers) in held {
-                // Where a button alone does this, its combinations with modifiers are not listed too.
+                // If the button does this without a modifier, it is not listed again with one.
                 let said = bare && modifiers != none;
                 if keymap.navigation(button, modifiers) == Some(does) && !said {
                     ways.push(format!("{prefix}{name}"));

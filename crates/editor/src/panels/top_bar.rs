@@ -11,8 +11,9 @@ use crate::widgets::{self, Button, Tip};
 
 /// In a window at least this wide, in points, the bars show controls that are behind a button in narrower ones.
 pub(super) const WIDE: f32 = 1600.0;
-/// The mode switch begins at least this far from the left, in points, so that the document's name does not move it. In
-/// a narrow window it begins further left, down to [`LEFT`], if that leaves room for the controls at its right.
+/// The mode switch begins at least this far from the left, in points, which leaves room for the document's name. In a
+/// narrow window it begins further left, if need be at [`LEFT`], so that the controls at its right fit. If they do not
+/// fit even so, it stays at this distance.
 const SWITCH_LEFT: f32 = 525.0;
 /// Room for the menus and for undo at the left end, points.
 const LEFT: f32 = 346.0;

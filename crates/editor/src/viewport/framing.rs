@@ -8,8 +8,9 @@ use impasto_scene::motion::CameraPose;
 
 /// A viewport and the shot in its middle, as large as fits, with the scene's aspect.
 ///
-/// The picture fills the viewport. Its lens is widened so that the shot's part shows exactly the shot. The free camera
-/// is widened in the same way, so that nothing moves when the user leaves the shot camera.
+/// The picture fills the viewport. The camera's lens is widened so that the picture shows, within the rectangle `shot`,
+/// exactly what a picture of the shot shows. The free camera is widened in the same way, so that nothing moves when the
+/// user leaves the shot camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Framing {
     viewport: Rect,
@@ -41,7 +42,7 @@ impl Framing {
         self.shot
     }
 
-    /// A camera's lens, widened to the viewport.
+    /// The camera, with its lens widened to the viewport.
     pub fn widened(&self, camera: &CameraPose) -> CameraPose {
         let more = f64::from(self.viewport.height()) / f64::from(self.shot.height());
         let lens = match camera.lens {
@@ -74,8 +75,9 @@ impl Framing {
         self.size_px()[1] as f32 * self.shot.height() / self.viewport.height()
     }
 
-    /// Where to draw a picture of this size whose shot is this high, so that its shot covers the shot of this framing.
-    /// That is the whole viewport, unless the picture was drawn before the viewport got its size.
+    /// Where in the window to draw a picture of `size_px` pixels in which the shot is `shot_height_px` pixels high, so
+    /// that this shot lies exactly over the shot of the framing. A picture that was drawn for the present size of the
+    /// viewport fills it.
     pub fn place_of(&self, size_px: [u32; 2], shot_height_px: f32) -> Rect {
         if size_px == self.size_px() {
             return self.viewport;

@@ -87,7 +87,7 @@ impl PartialEq for StandingBody {
 /// A corner of a triangle before the perspective division: `place` and `depth` are linear in its position.
 #[derive(Clone, Copy)]
 struct Corner {
-    /// x, y and w of the place: x / w and y / w are points from the picture's centre, Y up.
+    /// x, y and w of the place: it lies x / w to the right of the picture's centre and y / w above it, in points.
     place: [f64; 3],
     depth: f64,
     /// Where it lies in the triangle before clipping: barycentric weights of that triangle's second and third corner.
@@ -141,8 +141,8 @@ impl SurfaceMap {
         Some((self.face(column, row)?, self.places[column + row * self.size[0]]))
     }
 
-    /// Whether a point of an object is visible. It is if it lies no farther than the farthest visible face of the same
-    /// object in the point's cell and the cells around it.
+    /// Whether a point of an object is visible: whether a visible face of the same object, in the point's cell or the
+    /// cells around it, lies as far from the eye as the point or farther. `LEEWAY` is allowed for.
     pub fn shows(&self, at_px: DVec2, depth: f64, object: usize) -> bool {
         let at = (at_px * self.cells_per_point).floor();
         if !(at.x >= 0.0 && at.y >= 0.0 && at.x < self.size[0] as f64 && at.y < self.size[1] as f64) {
@@ -224,8 +224,8 @@ impl SurfaceMap {
 }
 
 /// The first and the last column, within `range`, that a triangle may cover in the row whose middle is at `y`. One more
-/// column is added at either end, so that rounding loses none. `area` is twice the triangle's area. Each side is a
-/// corner and the vector to the next corner.
+/// column is added at either end, so that rounding loses none. `area` is twice the triangle's signed area. Each side is
+/// a corner and the vector to the next corner.
 fn columns_inside(sides: &[(DVec2, DVec2); 3], area: f64, y: f64, range: [f64; 2]) -> [f64; 2] {
     let [mut from, mut to] = range;
     for &(start, side) in sides {

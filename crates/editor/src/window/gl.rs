@@ -41,7 +41,7 @@ pub(super) struct WindowGl {
 }
 
 impl WindowGl {
-    /// Opens a window and an OpenGL context for it, and makes it current.
+    /// Opens a window and an OpenGL context for it, and makes the context current.
     pub(super) fn open(
         event_loop: &ActiveEventLoop,
         window: WindowAttributes,

@@ -42,8 +42,8 @@ impl Ahead {
     }
 
     /// Takes the frame computed ahead, with its view; `None` if the frame cannot be shown for `view`. Scene, sizes,
-    /// quality and shading must be the same. The view that was computed must look the same, or be one frame earlier
-    /// while playback goes on to `next`.
+    /// quality and shading must be those asked for here. The view of the frame must look like `view`, or be one frame
+    /// before it while playback goes on to `next`.
     pub(super) fn take(
         &mut self,
         serial: u64,

@@ -53,8 +53,8 @@ impl DraftSize {
 mod tests {
     use super::*;
 
-    /// The share after each of 40 drafts, where a draft takes `fixed_s`, plus a time in proportion to its pixels:
-    /// `whole_s` at full size.
+    /// The share of the picture's width that drafts get after each of 40 drafts. A draft takes `fixed_s` seconds, plus
+    /// a time in proportion to its pixels: `whole_s` seconds at full size.
     fn settled(whole_s: f64, fixed_s: f64) -> Vec<f64> {
         let mut size = DraftSize::default();
         (0..40)

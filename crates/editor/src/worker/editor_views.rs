@@ -12,7 +12,7 @@ use super::mailbox::Order;
 pub(super) struct EditorViews {
     /// Cameras besides the shot's, each with a frame.
     free: Vec<(CameraPose, f64)>,
-    /// How far the views reach, in half sizes of the shot from its middle.
+    /// How far the views reach from the middle of the shot: 1 is the border of the shot, 2 is twice as far.
     margin: f64,
 }
 

@@ -9,8 +9,8 @@ use super::ViewJob;
 use super::film_file::FilmFile;
 use crate::files::preferences::film_folder;
 
-/// While the disk has room for the other pictures, those in memory take at most this many bytes: 32 frames of a window
-/// of 1280x800. Reading such a frame back takes about two milliseconds.
+/// Pictures in memory take at most this many bytes while the disk has room for the others: 32 frames of a window of
+/// 1280x800. Reading such a frame back from the disk takes about two milliseconds.
 const EASY_BYTES: usize = 128 << 20;
 
 /// If the disk has no room, pictures in memory take at most this many bytes: 260 such frames.
@@ -119,9 +119,8 @@ impl Film {
         frames
     }
 
-    /// Keeps a picture. It goes into memory up to `Room::easy_bytes`, where pictures that are not `wanted` make way. If
-    /// there is no room, it goes into the file, else into memory up to `Room::most_bytes`. Returns false if there is no
-    /// room at all.
+    /// Keeps a picture in the first of these places that has room: in memory up to `Room::easy_bytes`, where pictures
+    /// that are not `wanted` make way; in the file; in memory up to `Room::most_bytes`. Returns false if none has room.
     pub(super) fn keep(&mut self, finished: Finished, wanted: &[ViewJob]) -> bool {
         self.keep_within(finished, wanted, Room::now(), film_folder().as_deref())
     }

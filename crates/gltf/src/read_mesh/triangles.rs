@@ -21,7 +21,7 @@ pub(crate) enum Mode {
     Fan,
 }
 
-/// The triangles of a primitive with `count` vertices. Primitives of the same indices share one list.
+/// The triangles of a primitive with `count` vertices. Primitives with the same indices, mode and count share one list.
 ///
 /// # Errors
 /// An index that is not less than `count`; triangles that need more memory than is left.

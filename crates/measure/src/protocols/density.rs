@@ -1,5 +1,5 @@
 //! Measures M14, the density of strokes: on the largest object while the camera zooms in, and on a tilted flat sheet
-//! whose strokes have that object's size and coverage.
+//! whose strokes have the size and coverage of those on that object.
 
 use std::sync::Arc;
 
@@ -25,19 +25,20 @@ const TILTS_DEG: [f64; 6] = [0.0, 20.0, 40.0, 60.0, 70.0, 80.0];
 /// Side of the sheet's picture, large enough for thousands of strokes.
 const SHEET_PX: u32 = 2048;
 
-/// Strokes are counted only within this share of the sheet's sides: nearer to the border, neighbours on its far side
-/// are missing.
+/// Strokes are counted only within this share of the sheet's sides: those nearer to the border lack neighbours beyond
+/// it.
 const WINDOW: f64 = 0.85;
 
-/// Above this many wanted strokes per particle, particles run out. Strokes fade out over a range of ranks, and the
-/// ranks of particles end at 1. The part of the range above 1 has no particles, so fewer strokes show than are wanted.
+/// Above this many wanted strokes per particle, particles run out: too few strokes show. For w wanted strokes per
+/// particle, strokes fade out from the rank 0.52 w to 1.6 w. But no particle has a rank above 1, so the strokes of this
+/// range that lie above 1 are missing.
 const RUN_OUT: f64 = 0.82;
 
 /// The strokes of an object in one view.
 struct ObjectDensity {
     /// Strokes shown over strokes wanted.
     density: f64,
-    /// Strokes wanted per particle: the 90th percentile over the strokes.
+    /// Strokes wanted per particle, as found at each stroke: the 90th percentile.
     demand: f64,
     strokes: usize,
     pixels: usize,

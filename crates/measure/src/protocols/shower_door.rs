@@ -18,7 +18,7 @@ use crate::turns::Reference;
 use crate::versions::{SceneVersion, TurnSolver};
 use crate::warp::correspondences;
 
-/// Means over several pairs of frames, weighted by pixels.
+/// Sums over several pairs of frames, weighted by pixels; `values` gives the means.
 #[derive(Default)]
 struct Mean {
     same_pixels: f64,

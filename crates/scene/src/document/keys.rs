@@ -38,8 +38,8 @@ macro_rules! keys {
 
 keys!(BackgroundKey, CameraKey, LightKey, ObjectKey, StrokesKey);
 
-/// The values of a light at a frame. A value that is left out stays as it was at the key before. Until some key states
-/// the value, the light's own holds; if the light states none, the one that the first such key states.
+/// The values of a light at a frame. A value that is left out stays as it was at the key before. Before the first key
+/// that states a value, the light's own value holds; if the light states none, that key's value holds from the start.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct LightKey {

@@ -26,7 +26,7 @@ usual_fields! {
         pub texture: Option<String> = None,
         /// Where vertices look their noise up.
         pub space: NoiseSpace = NoiseSpace::World,
-        /// How fast the noise changes from place to place along X and Y, textures per unit, from -1000 to 1000.
+        /// How many times the texture repeats in one unit along X and along Y, from -1000 to 1000.
         pub value: [f64; 2] = [0.1; 2],
         /// How far apart the least and the greatest noise put a vertex, units of the object's own space.
         pub scale: f64 = 0.1; within NOISE_RATE,

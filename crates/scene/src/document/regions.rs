@@ -23,7 +23,7 @@ pub struct Region {
     /// whole region. A later one overrules an earlier one.
     #[serde(default, skip_serializing_if = "is_default")]
     pub guides: Vec<Guide>,
-    /// Where a brush has made the region's strokes wider, longer, denser or flatter than in the rest of the region.
+    /// Where a brush has changed the width, length, density or flatness of the region's strokes.
     #[serde(default, skip_serializing_if = "is_default")]
     pub amounts: Vec<PaintedAmount>,
     /// How its directions meet those of the regions that it lies on.
@@ -94,14 +94,14 @@ pub enum Patch {
     Flood(Seed, f64),
 }
 
-/// Where a flood begins: at the face nearest to `at`. Of faces about equally near, one that faces the way `normal`
-/// points. In the object's own space.
+/// Where a flood begins: at the face nearest to `at`. If several faces are about equally near, it begins at one that
+/// faces the way `normal` points.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Seed {
     /// The place, in the object's own space.
     pub at: [f64; 3],
-    /// Normal of the surface there.
+    /// Normal of the surface there, in the object's own space.
     pub normal: [f64; 3],
 }
 

@@ -46,7 +46,7 @@ impl<'a> Scanner<'a> {
         &self.bytes[self.at..]
     }
 
-    /// Scans one value. The scanner must be at its first character, and is left behind its last one.
+    /// Scans one value. The scanner must be at the value's first character, and then stands behind its last one.
     fn value(&mut self, depth: usize) -> Result<Node, Refused> {
         self.values += 1;
         if self.values > limits::MAX_VALUES {
@@ -81,7 +81,7 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// Scans what brackets hold. The scanner must be at the opening bracket, and is left behind the closing one.
+    /// Scans what brackets hold. The scanner must be at the opening bracket, and then stands behind the closing one.
     fn bracketed(&mut self, depth: usize) -> Result<Inside, Refused> {
         let opened_at = self.at;
         if depth >= limits::MAX_NESTING {

@@ -33,8 +33,8 @@ impl OwnKeysText {
         Some(format!("Some of your own keys cannot be read, and are left out: {first}{more}"))
     }
 
-    /// Puts `own` in place of all keys that can be read. Other entries stay, unless `own` replaces them or they would
-    /// take effect now.
+    /// Puts `own` in place of all keys that can be read. Other entries stay, except those for commands of `own`, and
+    /// those that could be used now because the keys that they name have become free.
     pub fn set(&mut self, own: &OwnKeys) {
         let read = self.keys();
         let mut map = match std::mem::replace(&mut self.0, Value::Unit) {

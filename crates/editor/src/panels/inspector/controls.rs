@@ -22,9 +22,9 @@ pub struct Control {
     pub section: String,
 }
 
-/// All controls of the inspector for what is selected, from top to bottom, those of folded sections too. Finds them by
-/// laying out the inspector, with all sections open, in a second context that is never drawn. `ctx` keeps that context
-/// for the next call.
+/// All enabled controls of the inspector for what is selected, from top to bottom, also in folded sections. Finds them
+/// by laying out the inspector, with all sections open, in a second context that is never drawn. `ctx` keeps that
+/// context for the next call.
 pub fn controls(ctx: &Context, shown: &PanelInput<'_>) -> Vec<Control> {
     let key = Id::unique("where the inspector is laid out unseen");
     let unseen = ctx.data_mut(|data| {

@@ -153,7 +153,7 @@ fn drag(ui: &Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, rows: &[(
 /// The brushes and numbers of a layer.
 fn selected(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, kind: LayerKind) {
     let layer = EditedLayer::Paint(kind);
-    // Settings that the body layer shares with the strokes are shown in the section of the strokes.
+    // The body layer takes these from the stroke settings, so another section shows them.
     let is_twin = |field: &str| {
         kind == LayerKind::Body && matches!(field, "brush" | "length_px" | "width_px" | "coverage")
     };

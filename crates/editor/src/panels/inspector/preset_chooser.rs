@@ -13,7 +13,7 @@ use crate::widgets::{self, MenuRow, Tip};
 /// What the control shows for a region without a preset of its own.
 const AS_SCENE: &str = "As the scene";
 
-/// Cards in a row.
+/// How many cards stand in each row.
 const CARDS: usize = 3;
 /// The gap between cards, points.
 const GAP: f32 = 4.0;

@@ -104,8 +104,8 @@ fn sessions() -> Vec<Session> {
 
 #[test]
 fn long_words_are_never_cut_and_never_overlap() {
-    // Pairs of widths, of the bar and of the window. In the design's two window sizes, the bar is beside the right
-    // column. In the small window it is alone.
+    // Pairs of widths, of the bar and of the window. In the first two pairs, with the window sizes of the design, the
+    // right column takes the rest of the window. In the third there is no column.
     for (wide, window) in [(1000.0, 1280.0), (1584.0, 1920.0), (960.0, 960.0)] {
         for session in sessions() {
             for say in [german as Translate, |words| words] {

@@ -22,7 +22,7 @@ use crate::widgets::Button;
 const ROW: f32 = 44.0;
 /// Where the words of a row begin, points from its left end.
 const WORDS: f32 = 94.0;
-/// Buttons that take more than this share of a row stand under its words.
+/// Buttons that take more than this share of a row's width stand under its words.
 const MOST_BUTTONS: f32 = 0.45;
 
 /// A button of a row: `words` are on it, `name` is its name for screen readers.

@@ -19,7 +19,7 @@ pub struct Trouble {
     pub settles: &'static [Settle],
 }
 
-/// What a [`Trouble`] is about. A new one replaces an older one of the same thing.
+/// What a [`Trouble`] is about. A new trouble replaces an older one about the same thing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum TroubleOf {
     /// The document was not saved to this file; `None` stands for the document's own file.

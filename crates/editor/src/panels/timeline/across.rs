@@ -48,8 +48,9 @@ impl FrameScale {
         steps.into_iter().find(|step| *step >= least).unwrap_or(steps[3])
     }
 
-    /// The whole frames at multiples of half a step. The flag of each tells whether the frame is a multiple of the
-    /// whole step.
+    /// The frames that get a tick: whole frames at multiples of half of `step`. The flag of each tells whether the
+    /// frame is a multiple of `step` itself and so gets a label. A `step` of 10 gives ticks at 0, 5, 10 and labels at 0
+    /// and 10.
     pub(in crate::panels) fn ticks(self, step: f64) -> impl Iterator<Item = (f64, bool)> {
         let half = step / 2.0;
         let begin = (self.first / half).ceil();

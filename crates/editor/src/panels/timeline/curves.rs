@@ -21,7 +21,8 @@ use crate::widgets::{Tip, ease_line, keep_focus, leave_space};
 /// Room above and below the curves, points.
 const MARGIN: f32 = 14.0;
 
-/// The arrows move a handle by this share of time and value; with `Shift` ten times as far.
+/// The arrow keys move a handle by this share of the way from one key to the next, in time or in value; with `Shift`
+/// ten times as far.
 const STEP: f64 = 0.01;
 
 const HANDLES: [&str; 2] = ["First handle", "Second handle"];
@@ -48,7 +49,8 @@ impl Plot {
         least + (most - least) * f64::from(part)
     }
 
-    /// Where a handle between two keys is.
+    /// The place in the window of a point between the keys in frames `from` and `to`: `time` and `share` are 0 at the
+    /// first key and 1 at the second.
     fn at(self, [from, to]: [f64; 2], [time, share]: [f64; 2]) -> Pos2 {
         pos2(self.across.x(from + (to - from) * time), self.y(share))
     }

@@ -12,8 +12,8 @@ use crate::widgets::{MenuRow, ease_before_row};
 /// What the menu is about.
 #[derive(Clone, Debug)]
 pub(super) struct KeyMenu {
-    /// The keys that it changes: all selected ones if one of them was hit, else the key that was hit, else the left one
-    /// of the two keys that the place lies between. Empty if it lies before or after all keys.
+    /// The keys that the menu changes: all selected ones if one of them was clicked, else the key that was clicked. If
+    /// the click was between two keys of a lane, the left one of these. Empty if it was before or after all keys.
     pub(super) keys: Vec<KeyAt>,
     /// The ease of the first of them.
     pub(super) ease: Option<Ease>,

@@ -9,7 +9,7 @@ use crate::viewport::surface_map::{Face, FacePlace, SurfaceMap};
 /// Steps of colour for factors above 1, and as many for factors below 1.
 const LEVELS: f32 = 12.0;
 
-/// The colour is fullest from the factor 2^`FULL_LOG2` up, and from the reciprocal of that down.
+/// The colour is fullest for factors of 2^`FULL_LOG2` and more, and for factors of 2^−`FULL_LOG2` and less.
 const FULL_LOG2: f32 = 2.0;
 
 /// Opacity of the fullest colour.

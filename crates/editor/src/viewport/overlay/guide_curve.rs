@@ -16,9 +16,10 @@ pub struct GuideCurve {
     pub runs_px: Vec<Vec<DVec2>>,
     /// The visible points that the user set, each with its index.
     pub handles_px: Vec<(usize, DVec2)>,
-    /// Whether the end of the guide is visible: only then is the arrow drawn.
+    /// Whether the end of the guide is visible. If it is not, no arrow is drawn.
     pub end_shows: bool,
-    /// Whether it is selected: only then are handles drawn. The arrow is drawn if it is selected or lit.
+    /// Whether the guide is selected. Handles are drawn only on a selected guide; the arrow, only on a guide that is
+    /// selected or has a lit part.
     pub selected: bool,
     /// The part that the pointer is on, or holds.
     pub lit: Option<CurvePart>,

@@ -99,7 +99,7 @@ pub(super) fn before(text: &str, fault: usize) -> Option<Cut> {
     }
     let read_to = if text.is_char_boundary(read_to) { read_to } else { at };
     let inner = open.last()?;
-    // The last item is dropped, unless only its closing bracket is missing.
+    // The last item in the innermost open bracket is dropped, unless it is whole and only the bracket is not closed.
     let is_whole = match inner.byte {
         b'(' => inner.has_colon && !text[..end].trim_end().ends_with(':'),
         _ => true,
