@@ -9,10 +9,10 @@
 //! ```
 //!
 //! s is the sign of the quad's area; on a convex quad b₁∧b₂ has the same sign. This form of the root also holds where
-//! A is 0 (rectangles, parallelograms, trapezoids), and for either winding. Where the two terms of its denominator
-//! have opposite signs, and so might cancel, the same root is computed as (−B − s √(B² − 4AC)) / 2A. u follows from X
-//! or from Y, whichever has the larger denominator. `crates/gl-render/shaders/shared/inverse_bilinear.glsl` computes
-//! the same in 32 bits.
+//! A is 0 (the sides p₀p₂ and p₁p₃ are parallel), and for either winding. Where the two terms of its denominator have
+//! opposite signs, and so might cancel, the same root is computed as (−B − s √(B² − 4AC)) / 2A. u follows from X or
+//! from Y, whichever has the larger denominator. `crates/gl-render/shaders/shared/inverse_bilinear.glsl` computes the
+//! same in 32 bits.
 
 use glam::DVec2;
 
@@ -28,8 +28,9 @@ pub fn bilinear(at: DVec2, [p0, p1, p2, p3]: [DVec2; 4]) -> DVec2 {
 /// Inside the quad both are within 0..=1.
 ///
 /// The bilinear map of a concave quad folds over itself, so two (u, v) may lead to one point. A point inside gets the
-/// (u, v) at which the map winds as the quad does. Points that no (u, v) reaches, points far outside, and quads without
-/// area give numbers without meaning: at most [`FARTHEST`] from 0 and never NaN, for coordinates up to 1e30.
+/// one in the part of the map that is not turned over: the map's Jacobian there has the sign of the quad's area. Points
+/// that no (u, v) reaches, points far outside, and quads without area give numbers without meaning: at most
+/// [`FARTHEST`] from 0 and never NaN, for coordinates up to 1e30.
 pub fn inverse_bilinear(point: DVec2, [p0, p1, p2, p3]: [DVec2; 4]) -> DVec2 {
     let (q, b1, b2, b3) = (point - p0, p1 - p0, p2 - p0, p0 - p1 - p2 + p3);
     let a = b2.perp_dot(b3);
@@ -66,7 +67,7 @@ mod tests {
             [[-1.0, 0.0], [1.0, 0.0], [-2.0, 4.0], [2.0, 4.0]],
         ];
         for quad in quads.map(|corners| corners.map(DVec2::from_array)) {
-            // Wound the other way, u and v change places.
+            // The quad, and the same quad wound the other way: its second and third corner are exchanged.
             let [p0, p1, p2, p3] = quad;
             for quad in [quad, [p0, p2, p1, p3]] {
                 for at in [[0.0, 0.0], [0.25, 0.5], [0.7, 0.1], [1.0, 0.4], [0.3, 1.0]].map(DVec2::from_array)

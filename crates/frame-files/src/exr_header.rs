@@ -1,4 +1,4 @@
-//! The head of an EXR file as bytes: sorts its attributes, and tells whether the file ends where its head says.
+//! The head of an EXR file as bytes: sorts its attributes, and tells whether the file ends where its last block ends.
 //!
 //! A file begins with a magic number and a version. Then come attributes, and a zero after the last. An attribute is a
 //! name and a type, which end in a zero each, a size in 4 bytes, and a value. Then a table says at which byte of the

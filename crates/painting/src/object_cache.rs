@@ -40,10 +40,11 @@ pub(crate) struct ObjectCache {
     bounds: Cached<Shaped, Option<(Vec3, Vec3)>>,
     stands: Cached<Shaped, Vec<Standing>>,
     counts: Cached<Arc<CountInputs>, Counted>,
-    /// Empty where no coat's particles may depend on the views, and where coats were taken as they were kept.
+    /// For each coat, how many particles it needs and where. Nothing is cached if the views never leave particles out,
+    /// or if the coats come from a kept painting (see [`Self::take_kept`]).
     needed: Cached<NeededInputs, [CoatCount; LAYERS]>,
     samples: Cached<FieldSampleInputs, Arc<FieldSamples>>,
-    /// `None` where every direction is stated outright.
+    /// `None` if the body needs no field (see [`BodyField::solve`]).
     field: Cached<Arc<FieldInputs>, Option<Arc<BodyField>>>,
     coats: [CoatCache; LAYERS],
 }
@@ -306,8 +307,8 @@ impl ObjectCache {
             .collect()
     }
 
-    /// Makes the coats from what was kept. Counts, particles and lists of neighbours are cached, since later edits can
-    /// use them.
+    /// Makes the coats from what was kept. Later edits can use the counts, so they are cached, and so are lists of
+    /// neighbours that were kept, and particles if there are some everywhere on the surface.
     pub(crate) fn take_kept(
         &mut self,
         context: &Context<'_>,
@@ -329,7 +330,7 @@ impl ObjectCache {
     }
 }
 
-/// Whether the body of an object may need a direction field; with the paper's rule, none does.
+/// Whether the body of an object may need a direction field. None does where the source paper's own rule is used.
 fn needs_field(context: &Context<'_>, object: ObjectInputs<'_>) -> bool {
     FieldInputs::may_be_needed(object.used, context.rules, object.guides) && !context.paper
 }

@@ -99,7 +99,7 @@ impl EditedLayer {
         is_own
     }
 
-    /// The command that states one of its numbers, or with `None` leaves it to the scene and its preset.
+    /// The command that states one of its numbers, or with `None` leaves it to the scene and the presets.
     pub(super) fn with(self, place: &EditedStrokes<'_>, of: &LayerNumber, to: Option<f64>) -> Command {
         let mut stated = self.stated(place.own[1]);
         *(of.number.of)(&mut stated) = to;
