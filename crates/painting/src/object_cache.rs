@@ -307,8 +307,8 @@ impl ObjectCache {
             .collect()
     }
 
-    /// Makes the coats from what was kept. Later edits can use the counts, so they are cached, and so are lists of
-    /// neighbours that were kept, and particles if there are some everywhere on the surface.
+    /// Makes the coats from what was kept. It caches three things for later edits: the counts, the lists of neighbours
+    /// that were kept, and the particles of coats that have them everywhere on the surface.
     pub(crate) fn take_kept(
         &mut self,
         context: &Context<'_>,
