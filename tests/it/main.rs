@@ -1,4 +1,4 @@
-//! The integration tests of Impasto.
+//! The integration tests of Impasto that no crate has for itself.
 
 #![expect(clippy::unwrap_used, reason = "a failed step is a failed test")]
 

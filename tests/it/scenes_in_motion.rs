@@ -160,8 +160,8 @@ fn every_scene_gives_finite_strokes_at_every_time() {
             continue;
         }
         let name = path.file_stem().and_then(|name: &std::ffi::OsStr| name.to_str()).unwrap().to_owned();
-        // Strokes three times as large: a ninth of the particles.
-        let painting = scenes::painting_with(&name, &[("strokes.scale", "3")]);
+        // Strokes five times as large, so that there are fewer.
+        let painting = scenes::painting_with(&name, &[("strokes.scale", "5")]);
         let timeline = &painting.scene().timeline;
         for step in 0..=6 {
             let frame =

@@ -10,9 +10,10 @@ use impasto_gl_render::context::Driver;
 use impasto_gl_render::{Picture, Renderer};
 use impasto_painting::{FrameOptions, Painting, prepare};
 use impasto_scene::document::{
-    CanvasFollows, Color, InkDrawing, InkLight, InkRule, Lens, Scene, Style, SumiE,
+    CanvasFollows, Color, InkDrawing, InkLight, InkRule, Lens, Scene, StrokeSettings, Style, SumiE,
 };
 use impasto_scene::load::{LoadOptions, load};
+use impasto_scene::presets::LayerKind;
 use impasto_tests::command::root;
 use impasto_tests::pictures::renderer;
 use impasto_tests::scenes;
@@ -476,6 +477,24 @@ fn what_is_red_stays_red_and_all_else_is_ink() {
     assert!(reddest([0.7, 0.15, 0.12], 1.0) > 3000);
     assert_eq!(reddest([0.7, 0.15, 0.12], 0.0), 0);
     assert_eq!(reddest([0.2, 0.5, 0.2], 1.0), 0);
+}
+
+#[test]
+fn layers_that_ink_does_not_draw_have_no_strokes() {
+    let layers = |style: Style| {
+        let mut scene = scene_in(SumiE::default());
+        scene.style = style;
+        scene.objects[0].particles = None;
+        // A preset in which every layer has strokes.
+        scene.strokes = StrokeSettings { preset: Some("oil".to_owned()), ..Default::default() };
+        let frame = painting(scene, [shapes::sphere(96, 48)]).at(0.0, &FrameOptions::new(SIZE_PX));
+        frame.layers.iter().filter(|layer| layer.count > 0).map(|layer| layer.kind).collect::<Vec<_>>()
+    };
+    let of_paint = [LayerKind::Underpainting, LayerKind::Contour, LayerKind::Lights];
+    let in_paint = layers(Style::default());
+    assert!(of_paint.iter().all(|kind| in_paint.contains(kind)), "{in_paint:?}");
+    let in_ink = layers(Style::SumiE(SumiE::default()));
+    assert_eq!(in_ink, [LayerKind::Body, LayerKind::Form, LayerKind::Scumble, LayerKind::Accents]);
 }
 
 #[test]

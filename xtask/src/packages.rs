@@ -28,6 +28,8 @@ enum Place {
     Programs,
     /// Anywhere: `files` are whole paths.
     Paths,
+    /// Where Python finds modules: `files` are names of modules.
+    PythonModules,
 }
 
 /// A library or a program that has to be there, and the Debian package that brings it.
@@ -36,8 +38,8 @@ pub struct Need {
     what: &'static str,
     package: &'static str,
     place: Place,
-    /// One of these must be there. They are beginnings of file names for a library, names for a program, and whole
-    /// paths for [`Place::Paths`].
+    /// One of these must be there. They are beginnings of file names for a library, names for a program or a module,
+    /// and whole paths for [`Place::Paths`].
     files: &'static [&'static str],
     /// Whether newer systems no longer have the package at all.
     retired: bool,
@@ -89,7 +91,14 @@ pub const PACKAGING: &[Need] = &[
     program_of("zstd", &["zstd"]),
     program_of("dpkg-dev", &["dpkg-shlibdeps"]),
     program_of("binutils", &["strip"]),
-    program_of("python3-venv", &["python3"]),
+    // Debian's python3 alone has the module `venv`, but not `ensurepip`, without which no environment is made.
+    Need {
+        what: "Python's environments",
+        package: "python3-venv",
+        place: Place::PythonModules,
+        files: &["ensurepip"],
+        retired: false,
+    },
 ];
 
 const MOVIE_TESTS: &[Need] = &[program_of("ffmpeg", &["ffmpeg"])];
@@ -209,6 +218,7 @@ fn is_there(need: &Need, folders: &[PathBuf]) -> bool {
     match need.place {
         Place::Programs => return need.files.iter().any(|name| program(name).is_some()),
         Place::Paths => return need.files.iter().any(|path| Path::new(path).exists()),
+        Place::PythonModules => return need.files.iter().any(|name| has_python_module(name)),
         Place::Libraries => {}
     }
     folders.iter().flat_map(|folder| [folder.clone(), folder.join("dri")]).any(|folder| {
@@ -218,6 +228,12 @@ fn is_there(need: &Need, folders: &[PathBuf]) -> bool {
             need.files.iter().any(|start| name.to_string_lossy().starts_with(start))
         })
     })
+}
+
+/// Whether Python is there and finds this module.
+fn has_python_module(name: &str) -> bool {
+    let output = Command::new("python3").args(["-c", &format!("import {name}")]).output();
+    output.is_ok_and(|output| output.status.success())
 }
 
 /// The folders that the dynamic loader looks in: those of its cache, those of `LD_LIBRARY_PATH`, and the usual ones.

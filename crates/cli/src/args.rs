@@ -11,6 +11,7 @@ use crate::farm_args::{FarmCommand, PackArguments};
 use crate::picture_args::PictureArguments;
 use crate::progress::Progress;
 use crate::scene_args::{PlacingArguments, SceneArguments};
+use crate::talk::Talk;
 
 /// Paints 3D scenes with brush strokes that turn with what they lie on.
 #[derive(Debug, Parser)]
@@ -65,18 +66,6 @@ pub(crate) enum Command {
         /// The folder, which is made if it does not exist.
         folder: PathBuf,
     },
-}
-
-/// How much to say.
-#[derive(Args, Clone, Copy, Debug)]
-pub(crate) struct Talk {
-    /// Say more: which driver and why, the steps of preparing, and for each frame its strokes, overdraw, memory and
-    /// passes. Rendering is slower then.
-    #[arg(short, long, action = clap::ArgAction::Count)]
-    pub(crate) verbose: u8,
-    /// Say nothing but errors.
-    #[arg(short, long, conflicts_with = "verbose")]
-    pub(crate) quiet: bool,
 }
 
 /// Which library to take OpenGL from.

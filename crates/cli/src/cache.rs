@@ -11,6 +11,7 @@ use impasto_painting::{Kept, KeptBytes, KeptKey, Painting};
 use impasto_scene::kept_folder::{KeptFile, KeptFolder, ToWrite};
 
 use crate::memory_size::size_bytes;
+use crate::talk::Loudness;
 
 /// The environment variable that names the folder if `--cache` is left out.
 const VARIABLE: &str = "IMPASTO_CACHE";
@@ -34,18 +35,22 @@ pub(crate) struct Cache {
     /// The memory that may be allocated, as `--memory` or the system limits it, in bytes: a larger file of the folder
     /// is not read. `None` where no limit is known.
     memory_bytes: Option<u64>,
-    verbose: bool,
+    loudness: Loudness,
     /// Whether a warning was printed: only the first one is.
     was_told: Arc<AtomicBool>,
 }
 
 impl Cache {
     /// The folder that the command line or the environment names; `None` if neither does.
-    pub(crate) fn of(arguments: &CacheArguments, memory_bytes: Option<u64>, verbose: bool) -> Option<Self> {
+    pub(crate) fn of(
+        arguments: &CacheArguments,
+        memory_bytes: Option<u64>,
+        loudness: Loudness,
+    ) -> Option<Self> {
         let of_environment = || std::env::var_os(VARIABLE).filter(|folder| !folder.is_empty());
         let path = arguments.cache.clone().or_else(|| of_environment().map(PathBuf::from))?;
         let folder = KeptFolder { path, most_bytes: arguments.cache_size };
-        Some(Self { folder, memory_bytes, verbose, was_told: Arc::default() })
+        Some(Self { folder, memory_bytes, loudness, was_told: Arc::default() })
     }
 
     /// The file that is kept under a key; `None` if there is none, or it cannot be read.
@@ -65,7 +70,7 @@ impl Cache {
             Kept::NotAsked => return Storing::default(),
             Kept::NotThere(key) => (*key, true, false),
             Kept::Taken(key, bytes) => {
-                if self.verbose {
+                if self.loudness == Loudness::Steps {
                     let path = self.folder.file(&key.to_string());
                     eprintln!("  taken from the cache: {:.1} MB, {}", *bytes as f64 / 1e6, path.display());
                 }
@@ -95,7 +100,7 @@ impl Cache {
             replace,
         };
         match self.folder.keep(&wanted) {
-            Ok(()) if self.verbose => {
+            Ok(()) if self.loudness == Loudness::Steps => {
                 let path = self.folder.file(&wanted.key);
                 eprintln!("kept in the cache: {:.1} MB, {}", wanted.bytes as f64 / 1e6, path.display());
             }
@@ -112,7 +117,7 @@ impl Cache {
     }
 
     fn tell(&self, words: &str) {
-        if !self.was_told.swap(true, Ordering::Relaxed) {
+        if self.loudness != Loudness::Errors && !self.was_told.swap(true, Ordering::Relaxed) {
             eprintln!("warning: {words}");
         }
     }

@@ -11,11 +11,12 @@ use impasto_scene::mesh_file::MeshFile;
 use crate::args::InfoArguments;
 use crate::failure::Failure;
 use crate::session::{self, Prepared};
+use crate::talk::Loudness;
 
 pub(crate) fn run(arguments: &InfoArguments) -> Result<(), Failure> {
     let loaded = session::read_scene(&arguments.scene, false)?;
     let Prepared { painting, storing: _storing } =
-        session::prepare_scene(loaded, &arguments.scene, PrepareOptions::default(), false)?;
+        session::prepare_scene(loaded, &arguments.scene, PrepareOptions::default(), Loudness::Warnings)?;
     let facts = facts(&painting);
     let mut out = std::io::stdout();
     if arguments.json {

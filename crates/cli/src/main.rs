@@ -27,6 +27,7 @@ mod session;
 mod set;
 mod sheet;
 mod strokes;
+mod talk;
 #[cfg(feature = "editor")]
 mod window_libraries;
 

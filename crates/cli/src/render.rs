@@ -140,8 +140,12 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
         frames.iter().try_for_each(|frame| of_this_scene(&pattern.path(frame), &scene_name, &state))?;
     }
     let seen_from = SeenFrom::for_options(&loaded.scene, &options);
-    let Prepared { painting, storing } =
-        session::prepare_scene(loaded, &arguments.scene, session::for_pictures(seen_from), verbose)?;
+    let Prepared { painting, storing } = session::prepare_scene(
+        loaded,
+        &arguments.scene,
+        session::for_pictures(seen_from),
+        arguments.talk.loudness(),
+    )?;
     let sequence = Sequence {
         painting,
         options,
@@ -292,7 +296,9 @@ impl Plan {
                                 Some(Ok(picture)) => sheet.add(&picture),
                                 Some(Err(error)) => {
                                     sheet.leave_out();
-                                    bar.suspend(|| eprintln!("warning: the sheet has a gap: {error}"));
+                                    if !arguments.talk.quiet {
+                                        bar.suspend(|| eprintln!("warning: the sheet has a gap: {error}"));
+                                    }
                                 }
                                 None => sheet.leave_out(),
                             }
@@ -334,7 +340,9 @@ impl Plan {
             })?;
         let Ending::Done(fault) = ending else { return Err(Failure::Interrupted { done }) };
         bar.finish_and_clear();
-        if let [first, more @ ..] = &foreign[..] {
+        if let [first, more @ ..] = &foreign[..]
+            && !arguments.talk.quiet
+        {
             let more = if more.is_empty() { String::new() } else { format!(" and {} more", more.len()) };
             eprintln!(
                 "warning: {}{more} was there and does not say from what it was painted: remove what is not yours, and render again",

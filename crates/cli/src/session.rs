@@ -14,6 +14,7 @@ use crate::args::DriverChoice;
 use crate::cache::{Cache, Storing};
 use crate::failure::Failure;
 use crate::scene_args::SceneArguments;
+use crate::talk::Loudness;
 
 /// Reads a scene. Each warning goes to stderr once, unless `quiet`.
 pub(crate) fn read_scene(arguments: &SceneArguments, quiet: bool) -> Result<LoadedScene, Failure> {
@@ -60,15 +61,17 @@ pub(crate) fn for_pictures(seen_from: SeenFrom<'_>) -> PrepareOptions<'_> {
     PrepareOptions { seen_from, only_shown: true, ..PrepareOptions::default() }
 }
 
-/// Prepares a scene within its memory limit. If `verbose`, the time and peak memory of each step go to stderr.
+/// Prepares a scene within its memory limit. With [`Loudness::Steps`] the time and peak memory of each step go to
+/// stderr.
 pub(crate) fn prepare_scene(
     loaded: LoadedScene,
     arguments: &SceneArguments,
     wanted: PrepareOptions<'_>,
-    verbose: bool,
+    loudness: Loudness,
 ) -> Result<Prepared, Failure> {
     let memory_bytes = memory::granted_bytes(arguments.memory);
-    let cache = Cache::of(&arguments.cache, memory_bytes, verbose);
+    let cache = Cache::of(&arguments.cache, memory_bytes, loudness);
+    let verbose = loudness == Loudness::Steps;
     let options = PrepareOptions {
         memory_bytes,
         peak_bytes: if verbose { &memory::peak_since_last_bytes } else { &|| None },
@@ -99,7 +102,7 @@ pub(crate) fn prepare_by(
 ) -> Result<Prepared, Failure> {
     let memory_bytes = memory::granted_bytes(arguments.memory);
     // Later states of the scene are not kept in the cache: the preparer remembers what it needs.
-    let cache = Cache::of(&arguments.cache, memory_bytes, false).filter(|_| preparer.is_new());
+    let cache = Cache::of(&arguments.cache, memory_bytes, Loudness::Warnings).filter(|_| preparer.is_new());
     let options = PrepareOptions { memory_bytes, ..wanted };
     let painting = prepare_with(preparer, loaded, options, cache.as_ref())?;
     let storing = cache.map_or_else(Storing::default, |cache| cache.store(&painting));

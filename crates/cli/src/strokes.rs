@@ -19,6 +19,7 @@ use crate::args::{StrokeFormat, StrokesArguments};
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::session::{self, Prepared};
+use crate::talk::Loudness;
 
 /// One line of the table. Pixels from the lower left, Y up; angles counter-clockwise from +X.
 #[derive(Debug, Serialize)]
@@ -66,8 +67,12 @@ pub(crate) fn run(arguments: &StrokesArguments) -> Result<(), Failure> {
     fits_in_memory(&loaded.scene, Wanted::default(), size_px, &renderer)
         .map_err(|why| Failure::Refused(format!("{why}: make it smaller with --size")))?;
     let seen_from = SeenFrom::for_options(&loaded.scene, &FrameOptions::new(size_px));
-    let Prepared { painting, storing } =
-        session::prepare_scene(loaded, &arguments.scene, session::for_pictures(seen_from), false)?;
+    let Prepared { painting, storing } = session::prepare_scene(
+        loaded,
+        &arguments.scene,
+        session::for_pictures(seen_from),
+        Loudness::Warnings,
+    )?;
     let frame_number = arguments.frame.unwrap_or(painting.scene().timeline.first as f64);
     if !frame_number.is_finite() {
         return Err(Failure::Usage("--frame wants a number".to_owned()));

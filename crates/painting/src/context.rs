@@ -31,7 +31,6 @@ pub(crate) struct Context<'a> {
     pub(crate) solver: Solver,
     /// Whether strokes are painted by the source paper's own rule.
     pub(crate) paper: bool,
-    pub(crate) underpainting: bool,
     pub(crate) orthographic: bool,
 }
 

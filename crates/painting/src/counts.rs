@@ -7,7 +7,7 @@ use glam::{DAffine3, DVec3};
 use impasto_core::TriangleMesh;
 use impasto_core::sampling::{Needed, Surface};
 use impasto_scene::document::Solver;
-use impasto_scene::presets::LayerKind;
+use impasto_scene::presets::{self, LayerKind};
 
 use crate::body::BodySurface;
 use crate::body_shape::BodyShape;
@@ -80,11 +80,8 @@ impl CountInputs {
             let mut moments = object.used.iter().flat_map(|&rule| &layers[usize::from(rule)]);
             moments.all(|layers| layers[kind as usize][2] <= 0.0)
         };
-        let left_out = LayerKind::ALL.map(|kind| {
-            kind == LayerKind::Underpainting && !context.underpainting
-                || context.paper && kind != LayerKind::Body
-                || has_no_paint(kind)
-        });
+        let left_out =
+            LayerKind::ALL.map(|kind| !presets::paints_layer(context.scene, kind) || has_no_paint(kind));
         Self {
             regions: Arc::clone(object.regions),
             caps: object.caps.to_vec(),

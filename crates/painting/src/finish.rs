@@ -2,7 +2,8 @@
 
 use glam::{Affine2, DAffine3, DMat2, DVec2, DVec3};
 use impasto_scene::document::{CanvasFollows, Preparation, Scene};
-use impasto_scene::{motion, presets};
+use impasto_scene::motion;
+use impasto_scene::presets::{self, LayerKind};
 
 use crate::frame::{Finish, Ground};
 use crate::lights;
@@ -28,7 +29,7 @@ impl FinishRule {
     pub(crate) fn new(scene: &Scene, style: &Preparation, reference: &PictureView) -> Self {
         let paper = presets::is_paper(scene);
         let ground = presets::ground(scene);
-        let toned = style.underpainting && !paper;
+        let toned = presets::paints_layer(scene, LayerKind::Underpainting);
         let strength = |value: f64| if paper { 0.0 } else { value as f32 };
         let finish = Finish {
             ground: toned.then(|| Ground { color: lights::linear(ground.color), hides: ground.opacity }),

@@ -40,8 +40,8 @@ pub(crate) struct ObjectCache {
     bounds: Cached<Shaped, Option<(Vec3, Vec3)>>,
     stands: Cached<Shaped, Vec<Standing>>,
     counts: Cached<Arc<CountInputs>, Counted>,
-    /// For each coat, how many particles it needs and where. Nothing is cached if the views never leave particles out,
-    /// or if the coats come from a kept painting (see [`Self::take_kept`]).
+    /// For each coat, how many particles it needs and where. Nothing is cached if no coat's particles may depend on the
+    /// views, or if the coats come from a kept painting (see [`Self::take_kept`]).
     needed: Cached<NeededInputs, [CoatCount; LAYERS]>,
     samples: Cached<FieldSampleInputs, Arc<FieldSamples>>,
     /// `None` if the body needs no field (see [`BodyField::solve`]).

@@ -115,7 +115,6 @@ impl Preparer {
             shapes: &shapes,
             solver: *solver,
             paper,
-            underpainting: style.underpainting && !paper,
             orthographic: matches!(scene.camera.lens, Lens::Orthographic { .. }),
         };
         let mut bodies = plain.bodies.clone();

@@ -100,6 +100,17 @@ pub fn is_paper(scene: &Scene) -> bool {
     scene.strokes.preset.as_deref() == Some(PAPER_PRESET)
 }
 
+/// Whether the style and the preset of the scene paint a layer where its coverage is not 0.
+pub fn paints_layer(scene: &Scene, kind: LayerKind) -> bool {
+    let style = scene.style.settings().preparation();
+    let of_style = match kind {
+        LayerKind::Underpainting => style.underpainting,
+        LayerKind::Contour | LayerKind::Lights => style.contour_and_lights,
+        _ => true,
+    };
+    of_style && (kind == LayerKind::Body || !is_paper(scene))
+}
+
 /// The settings of region `region` of the scene; `None` means everything that no region covers.
 ///
 /// A value comes from the first that states it: the region, the region's preset, the scene, the scene's preset, the

@@ -67,7 +67,10 @@ impl FileKind {
         let stem = ending.and_then(|_| output.rfind('.')).map_or(output, |at| &output[..at]);
         // The name of a movie has no frame number. If frames replace a movie, their names get a number again.
         let stem = match self {
-            Self::Movie => stem.trim_end_matches('#').trim_end_matches(['_', '-', '.']).to_owned(),
+            Self::Movie => match stem.trim_end_matches('#').trim_end_matches(['_', '-', '.']) {
+                folder if folder != stem && name_in(folder).is_empty() => format!("{folder}movie"),
+                name => name.to_owned(),
+            },
             _ if stem.is_empty() || stem.ends_with(['/', '\\']) => stem.to_owned(),
             _ if ending == Some(FileEnding::Movie) && !name_in(stem).contains('#') => format!("{stem}_####"),
             _ => stem.to_owned(),

@@ -295,6 +295,12 @@ fn a_movie_is_one_file_of_all_frames() {
     assert!(RenderSettings { transparent: true, ..settings.clone() }.plan(&document, 0.0).is_ok());
     settings.choose_kind(FileKind::Png8);
     assert_eq!(settings.output, "films/my film_####.png", "frames have numbers again");
+    // A name of nothing but a number.
+    for (frames, movie) in [("out/####.png", "out/movie.mp4"), ("####.exr", "movie.mp4"), ("out/", "out/")] {
+        settings.choose_output(frames.to_owned());
+        settings.choose_kind(FileKind::Movie);
+        assert_eq!(settings.output, movie);
+    }
 }
 
 #[test]

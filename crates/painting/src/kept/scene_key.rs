@@ -43,8 +43,7 @@ impl SceneKey<'_> {
     /// The key.
     pub(crate) fn find(&self) -> KeptKey {
         let Self { loaded, context, objects, surfaces } = self;
-        let Context { scene, rules, views, seen, shapes, solver, paper, underpainting, orthographic } =
-            context;
+        let Context { scene, rules, views, seen, shapes, solver, paper, orthographic } = context;
         let mut key = KeyHasher::default();
         key.words(concat!(env!("CARGO_PKG_VERSION"), " ", env!("IMPASTO_SOURCES")));
         key.numbers(&[FORMAT]);
@@ -54,7 +53,7 @@ impl SceneKey<'_> {
         key.value(&Scene { stage: Stage::default(), touches: Vec::new(), ..Scene::clone(scene) });
         scene.touches.iter().for_each(|touch| key.value(&touch.brush));
         rules.iter().for_each(|rule| key.value(rule));
-        key.value(&(solver, paper, underpainting, orthographic));
+        key.value(&(solver, paper, orthographic));
         let mut feed = |(view, poses): &(PictureView, Vec<DAffine3>)| {
             key.value(view);
             poses.iter().for_each(|pose| key.numbers(&pose.to_cols_array()));

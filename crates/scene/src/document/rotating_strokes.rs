@@ -62,6 +62,7 @@ impl StyleSettings for RotatingStrokes {
             solver: self.solver,
             lays_touches: true,
             underpainting: self.underpainting,
+            contour_and_lights: true,
             weave: if self.canvas == Canvas::Linen { self.weave } else { 0.0 },
             canvas_follows: self.canvas_follows,
             samples: self.samples,

@@ -56,6 +56,8 @@ pub struct Preparation {
     pub lays_touches: bool,
     /// Whether there are large thin strokes and a tone under the body layer.
     pub underpainting: bool,
+    /// Whether contours and highlights are drawn by layers of their own.
+    pub contour_and_lights: bool,
     /// How much of the canvas is felt where paint is thin; 0 for a smooth board.
     pub weave: f64,
     /// What the canvas, or the paper, moves with.
@@ -135,6 +137,7 @@ impl Default for Preparation {
             solver: Solver::default(),
             lays_touches: false,
             underpainting: true,
+            contour_and_lights: true,
             weave: 0.0,
             canvas_follows: CanvasFollows::default(),
             samples: 1,

@@ -109,6 +109,7 @@ impl StyleSettings for SumiE {
         Preparation {
             has_strokes: self.rule == InkRule::Painter && self.drawing != InkDrawing::Wash,
             underpainting: false,
+            contour_and_lights: false,
             canvas_follows: self.paper_follows,
             ..Preparation::default()
         }

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::*;
-use crate::document::{Camera, Direction, Edges, Region, STROKE_NUMBERS, Selector};
+use crate::document::{Camera, Direction, Edges, Region, RotatingStrokes, STROKE_NUMBERS, Selector, Style};
 
 fn scene(strokes: StrokeSettings, of_region: StrokeSettings) -> Scene {
     Scene {
@@ -116,6 +116,20 @@ fn the_papers_rule_has_no_jitter_and_belongs_to_the_scene() {
     assert!(others.into_iter().all(|kind| strokes.layer_of(kind).coverage == 0.0));
     assert!(is_paper(&by_scene));
     assert!(!is_paper(&scene(StrokeSettings::default(), paper)));
+}
+
+#[test]
+fn a_style_paints_the_layers_that_it_draws() {
+    let mut scene = scene(StrokeSettings::default(), StrokeSettings::default());
+    let painted =
+        |scene: &Scene| LayerKind::ALL.into_iter().filter(|kind| paints_layer(scene, *kind)).count();
+    assert_eq!(painted(&scene), 7);
+    scene.style = Style::RotatingStrokes(RotatingStrokes { underpainting: false, ..Default::default() });
+    assert!(painted(&scene) == 6 && !paints_layer(&scene, LayerKind::Underpainting));
+    scene.style = Style::SumiE(Default::default());
+    assert!(painted(&scene) == 4 && !paints_layer(&scene, LayerKind::Lights));
+    scene.strokes.preset = Some(PAPER_PRESET.to_owned());
+    assert!(painted(&scene) == 1 && paints_layer(&scene, LayerKind::Body));
 }
 
 #[test]

@@ -44,7 +44,8 @@ fn is_painted(asker: &Asker<'_, '_>) -> bool {
     matches!(asker.scene().style, Style::RotatingStrokes(_))
 }
 
-/// Whether the ground is one of the rows: a region has none of its own, and ink lies on paper.
+/// Whether the ground is one of the rows. It is not for a region, which has no ground of its own, nor in ink, which
+/// lies on paper.
 fn has_ground(asker: &Asker<'_, '_>, place: &EditedStrokes<'_>) -> bool {
     place.index.is_none() && is_painted(asker)
 }
@@ -80,7 +81,7 @@ fn layer(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, laye
     if let EditedLayer::Paint(kind) = layer {
         let resolved = place.resolved[0].layer_of(kind);
         mix = &resolved.brushes;
-        idle = resolved.coverage == 0.0 || is_left_out(asker, kind);
+        idle = resolved.coverage == 0.0 || !presets::paints_layer(asker.scene(), kind);
     }
     let mut used = brushes::by_count(mix);
     // Pictures are shown of the two brushes that the layer uses most.
@@ -120,14 +121,6 @@ fn layer(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, laye
         ColumnState::with(ui.ctx(), |state| state.paint_layer = Some(name));
     }
     response
-}
-
-/// Whether the style or the preset leaves a layer out, whatever is stated for it.
-fn is_left_out(asker: &Asker<'_, '_>, kind: LayerKind) -> bool {
-    let scene = asker.scene();
-    let lacks_underpainting = !scene.style.settings().preparation().underpainting;
-    kind == LayerKind::Underpainting && lacks_underpainting
-        || kind != LayerKind::Body && presets::is_paper(scene)
 }
 
 /// Moves a layer that is dragged to another place of the list.
