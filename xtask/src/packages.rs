@@ -93,7 +93,7 @@ pub const PACKAGING: &[Need] = &[
     program_of("binutils", &["strip"]),
     // Debian's python3 alone has the module `venv`, but not `ensurepip`, without which no environment is made.
     Need {
-        what: "Python's environments",
+        what: "Python's venv with ensurepip",
         package: "python3-venv",
         place: Place::PythonModules,
         files: &["ensurepip"],

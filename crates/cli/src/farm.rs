@@ -47,7 +47,7 @@ pub(crate) fn farm(command: &FarmCommand) -> Result<(), Failure> {
         }
         FarmCommand::Slurm(SlurmArguments { farm, chunk }) => {
             let frames_a_task = chunk.map(|frames| frames as usize);
-            (farm, slurm::script(&job(farm, &["--quiet"])?, frames_a_task).map_err(Failure::Usage)?)
+            (farm, slurm::script(&job(farm, &[])?, frames_a_task).map_err(Failure::Usage)?)
         }
     };
     let Some(path) = &arguments.job else {

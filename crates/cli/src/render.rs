@@ -340,8 +340,9 @@ impl Plan {
             })?;
         let Ending::Done(fault) = ending else { return Err(Failure::Interrupted { done }) };
         bar.finish_and_clear();
-        // Told even with `--quiet`: such a frame may be a wrong one in the film, and on a farm nobody sees it otherwise.
-        if let [first, more @ ..] = &foreign[..] {
+        if let [first, more @ ..] = &foreign[..]
+            && !arguments.talk.quiet
+        {
             let more = if more.is_empty() { String::new() } else { format!(" and {} more", more.len()) };
             eprintln!(
                 "warning: {}{more} was there and does not say from what it was painted: remove what is not yours, and render again",

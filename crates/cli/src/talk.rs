@@ -9,7 +9,7 @@ pub(crate) struct Talk {
     /// passes. Rendering is slower then.
     #[arg(short, long, action = clap::ArgAction::Count)]
     pub(crate) verbose: u8,
-    /// Say nothing but errors, and which frames of unknown origin were kept.
+    /// Say nothing but errors.
     #[arg(short, long, conflicts_with = "verbose")]
     pub(crate) quiet: bool,
 }

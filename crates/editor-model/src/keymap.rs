@@ -336,8 +336,9 @@ impl Keymap {
         chords.first().map(Chord::text)
     }
 
-    /// The key of an action, for a menu of `scope`: the first key that triggers the action there, else the first that
-    /// triggers nothing there. `None` if all keys of the action trigger something else there, or if it has no key.
+    /// The key of an action, as words that are shown in `scope` name it: the first key that triggers the action there,
+    /// else the first that triggers nothing there. `None` if all keys of the action trigger something else there, or if
+    /// it has no key.
     pub fn shortcut_text_in(&self, action: Action, scope: Scope) -> Option<String> {
         let chords = self.bindings().filter(|(binding, _)| binding.action == action);
         let chords: Vec<Chord> = chords.flat_map(|(_, chords)| chords.to_vec()).collect();

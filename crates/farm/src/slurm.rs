@@ -63,7 +63,7 @@ pub fn script(job: &Job, frames_a_task: Option<usize>) -> Result<String, String>
          {submit}\
          frames=$(sed -n \"$((SLURM_ARRAY_TASK_ID + 1))p\" <<'FRAMES'\n{}\nFRAMES\n)\n\
          if [ -z \"$frames\" ]; then echo \"{log}: tasks are 0 to {last}, and this is $SLURM_ARRAY_TASK_ID\" >&2; exit 2; fi\n\
-         exec impasto render {scene} -f \"$frames\" -o {output}{more} --skip-existing --quiet\n",
+         exec impasto render {scene} -f \"$frames\" -o {output}{more} --skip-existing\n",
         in_words(count, chunks.len()),
         chunks.join("\n"),
     ))

@@ -58,8 +58,8 @@ pub struct ReferencePixels {
 pub struct SurfacePixels {
     /// Colour without light, linear Rec. 709; the last number is 1 where the surface is lit, 0 where it is unlit.
     pub albedo: Vec<[f16; 4]>,
-    /// Unit normal in world space, towards the eye; 0 on bodies with a noise-displaced material. The last number is the
-    /// gloss.
+    /// Unit normal in world space, towards the eye; 0 on bodies whose colour a noise-displaced material makes. The last
+    /// number is the gloss.
     pub normal: Vec<[f16; 4]>,
     /// Light that falls on the surface. The last number is the share of the shadow-casting light that is not in shadow,
     /// 0..=1.

@@ -60,7 +60,7 @@ impl Flicker {
         }
     }
 
-    /// The second difference that this `share` (0..=1) of the pixels do not exceed, divided by 255.
+    /// The second difference that this `share` (0..=1) of the pixels does not exceed, divided by 255.
     pub fn percentile(&self, share: f64) -> f64 {
         let wanted = (share * self.pixels as f64).ceil() as usize;
         let mut sum = 0;

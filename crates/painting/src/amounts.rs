@@ -196,7 +196,7 @@ pub(crate) struct Painted {
 impl Painted {
     pub(crate) const NOTHING: Self = Self { length: 1.0, width: 1.0, density: 1.0 };
 
-    /// The factor on how many strokes are wanted: the painted density over the factor on a stroke's area. With a
+    /// The factor on how many strokes are wanted: the painted density divided by the factor on a stroke's area. With a
     /// density of 1, strokes of the new size cover as much as before.
     pub(crate) fn wanted(self) -> f32 {
         self.density / (self.length * self.width)

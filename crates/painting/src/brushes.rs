@@ -36,7 +36,7 @@ pub(crate) fn of_names(loaded: &LoadedScene, names: Vec<String>) -> Brushes {
     Brushes { names, marks }
 }
 
-/// Takes over the marks of those built-in brushes whose marks have not been made in this process yet.
+/// Adds the marks of built-in brushes to those that all paintings of this process share, unless they are there already.
 pub(crate) fn know(brushes: &Brushes) {
     for (name, marks) in brushes.names.iter().zip(&brushes.marks) {
         if let Some(index) = brush::NAMES.iter().position(|known| known == name) {

@@ -163,7 +163,8 @@ impl BodyField {
         if is_opposite { -tangent } else { tangent }
     }
 
-    /// The field's direction at a particle and the anchor there, both carried from the samples round it.
+    /// The field's direction at a particle, and how firmly the stated direction holds there (its *anchor*). Both are
+    /// carried from the samples round it.
     fn carried(
         &self,
         solved: &[DVec2],

@@ -1,7 +1,7 @@
 //! Where an object needs its particles: each spot of a floor that runs to the horizon gets only as many as the shot
 //! needs there.
 //!
-//! An *order* is here a coat's progressive order on the whole surface, [`CoatCount::count_on_whole`] particles long.
+//! Here an *order* is a coat's progressive order on the whole surface, [`CoatCount::count_on_whole`] particles long.
 //! Only those of its particles that are needed are made.
 
 use std::sync::Arc;
@@ -58,8 +58,8 @@ const HEAP_OF_GROUP: f64 = 6.0;
 const MOST_MADE_OF_HEAP: f64 = 20_000.0;
 const MOST_OF_HEAP: f64 = 400_000.0;
 
-/// If more than this share of a heap's surface is seen by no view, its order is strict ([`Needed::is_strict`]). It is
-/// more than a half, since one view misses about half of the surface of any sheets with two visible sides.
+/// If more than this share of a heap's surface is seen by no view, its order is strict ([`Needed::is_strict`]). The
+/// share is more than a half, since one view already misses about half of the surface of sheets with two visible sides.
 const MUCH_UNSEEN: f64 = 0.6;
 
 /// Where the smooth normals at the corners of a triangle differ so much that their mean may be shorter than this, the

@@ -40,10 +40,9 @@ const MARGIN: f64 = 1.1;
 const DEEPEST: f64 = 16.0;
 const LEAST_DEEP: f64 = 4.0;
 
-/// The deeper a heap, the more of its strokes hide each other. Therefore a heap beyond the limit above counts as
-/// covering the picture fewer times, the fewer the deeper it is: with a limit of 16, faces that cover it 20 times count
-/// as 16² / 20 = 12.8 times, 32 times as 8. They count at least this many times or, if that is less, as often as the
-/// limit.
+/// The deeper a heap, the more of its strokes hide each other. Therefore a heap beyond the limit above counts for less
+/// the deeper it is: with a limit of 16, faces that cover the picture 20 times count as 16² / 20 = 12.8 times, and those
+/// that cover it 32 times as 8. They count at least this many times or, if that is less, as often as the limit.
 const DEEP_HEAP: f64 = 6.0;
 
 /// The share of the count found for an object that it gets if its faces cover the picture `cover` times: all of it up

@@ -1,6 +1,6 @@
 //! Limits of a scene. What exceeds a limit is refused, with a message that names the limit. A file is read only up to
-//! its limit of bytes. Values, nesting and digits are counted before the text is parsed. The other limits are checked
-//! before anything is made from the scene.
+//! its limit of bytes. Values, nesting and the characters of a number are counted before the text is parsed. The other
+//! limits are checked before the scene is prepared.
 
 /// Bytes of a scene file.
 pub const MAX_SCENE_BYTES: u64 = 16 << 20;

@@ -64,7 +64,7 @@ pub fn parse(path: &Path, text: &str) -> Result<Scene, Report> {
 /// # Errors
 ///
 /// All problems that were found, warnings included, those of the scene file first; at least one is fatal. If the text
-/// cannot be parsed or the shot cannot be read, nothing else is checked.
+/// cannot be parsed or the shot cannot be read, nothing else is reported.
 pub fn load(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
     let files = FoundFiles::default();
     let options = &LoadOptions { folders: options.folders.noting(&files), ..options.clone() };

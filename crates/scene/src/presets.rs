@@ -100,7 +100,8 @@ pub fn is_paper(scene: &Scene) -> bool {
     scene.strokes.preset.as_deref() == Some(PAPER_PRESET)
 }
 
-/// Whether the style and the preset of the scene paint a layer where its coverage is not 0.
+/// Whether the style and the preset of the scene paint a layer where its coverage is not 0. A style that has no strokes
+/// at the moment (`Preparation::has_strokes`) is taken as if it had.
 pub fn paints_layer(scene: &Scene, kind: LayerKind) -> bool {
     let style = scene.style.settings().preparation();
     let of_style = match kind {

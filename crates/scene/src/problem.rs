@@ -82,7 +82,7 @@ impl fmt::Display for Problem {
 /// The most characters of a word that are shown: few names of files are longer, and a hostile word may have millions.
 const MOST_OF_A_WORD: usize = 200;
 
-/// The most characters of the path of a file: no system opens a longer one.
+/// The most characters that are shown of a word in the path of a file. Linux opens no longer path.
 const MOST_OF_A_PATH: usize = 4096;
 
 /// A text that is safe to show in a terminal: control characters except line feeds and tabs are escaped, and very long

@@ -41,7 +41,7 @@ pub(super) const LEAST_CHUNK: usize = 1024;
 /// strict one ([`super::Needed::is_strict`]). As soon as an order is known to be crowded, its counted levels end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProgressiveState {
-    /// How many candidates of the sequence were used so far. Levels that are thrown cell by cell make candidates of
+    /// How many candidates of the sequence have been used. Levels that are thrown cell by cell make candidates of
     /// their own, and use the sequence only to fill up.
     pub(super) thrown: u32,
     /// How many particles the last level was meant to end with.

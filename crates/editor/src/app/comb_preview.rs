@@ -15,7 +15,7 @@ use crate::viewport::overlay::{Comb, CombPreviewStroke};
 const MAX_STROKES: usize = 600;
 /// Shown strokes are at least this far apart, so that the picture stays visible.
 const MIN_GAP_PX: f64 = 11.0;
-/// A stroke is shown with the length that strokes of its region have, but at least 6 pixels and at most this.
+/// A stroke is shown with the length that strokes of its region have, but at least 6 points and at most this.
 const MAX_LENGTH_PX: f32 = 28.0;
 /// Time to fade in and out, seconds.
 const FADE_S: f32 = 0.15;

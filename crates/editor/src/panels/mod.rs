@@ -118,7 +118,8 @@ impl<'a> PanelInput<'a> {
         self.keymap.shortcut_text_in(action, scope).unwrap_or_default()
     }
 
-    /// `words` with `{}` replaced by the shortcut of an action; empty if it has none.
+    /// `words` with `{}` replaced by the shortcut of an action; empty if it has none. For keys within a sentence. Hints
+    /// of the form `[F] radius` go through [`Keymap::in_own_keys`] instead.
     pub fn with_keys_of(&self, action: Action, words: &str) -> String {
         let keys = self.keys_of(action);
         if keys.is_empty() { String::new() } else { words.replace("{}", &keys) }

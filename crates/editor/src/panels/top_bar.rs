@@ -13,7 +13,7 @@ use crate::widgets::{self, Button, Tip};
 pub(super) const WIDE: f32 = 1600.0;
 /// The mode switch begins at least this far from the left, in points, which leaves room for the document's name. In a
 /// narrow window it begins further left, if need be at [`LEFT`], so that the controls at its right fit. If they do not
-/// fit even so, it stays at this distance.
+/// fit even so, it stays where it begins in a wide one.
 const SWITCH_LEFT: f32 = 525.0;
 /// Room for the menus and for undo at the left end, points.
 const LEFT: f32 = 346.0;

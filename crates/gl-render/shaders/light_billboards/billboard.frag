@@ -11,7 +11,7 @@ uniform float icon;              // layer of `icons`; below 0: a thin ring inste
 uniform float px;                // a pixel as a share of half the quad's side
 uniform vec4 ink;                // encoded sRGB, straight alpha
 uniform float depth;             // depth of the icon along the gaze
-uniform float softness;          // how far behind a surface, in depth, the icon is dimmed fully
+uniform float softness;          // from this depth behind a surface on, the icon is dimmed fully
 
 out vec4 over;                   // premultiplied, encoded
 

@@ -38,8 +38,9 @@ macro_rules! keys {
 
 keys!(BackgroundKey, CameraKey, LightKey, ObjectKey, StrokesKey);
 
-/// The values of a light at a frame. A value that is left out stays as it was at the key before. Before the first key
-/// that states a value, the light's own value holds; if the light states none, that key's value holds from the start.
+/// The values of a light at a frame. A value that is left out stays as it was at the key before. At the keys before the
+/// first that states a value, the light has its own value; if it states none, it has that key's value from the start.
+/// Before its first key a light is as at that key.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct LightKey {

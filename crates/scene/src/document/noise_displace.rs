@@ -28,7 +28,7 @@ usual_fields! {
         pub space: NoiseSpace = NoiseSpace::World,
         /// How many times the texture repeats in one unit along X and along Y, from -1000 to 1000.
         pub value: [f64; 2] = [0.1; 2],
-        /// How far apart the least and the greatest noise put a vertex, units of the object's own space.
+        /// How far apart the least and the greatest noise put a vertex on each axis, units of the object's own space.
         pub scale: f64 = 0.1; within NOISE_RATE,
         /// What the vertices are moved along.
         pub along: NoiseAlong = NoiseAlong::Channels,

@@ -81,7 +81,8 @@ fn layer(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, laye
     if let EditedLayer::Paint(kind) = layer {
         let resolved = place.resolved[0].layer_of(kind);
         mix = &resolved.brushes;
-        idle = resolved.coverage == 0.0 || !presets::paints_layer(asker.scene(), kind);
+        let has_strokes = asker.scene().style.settings().preparation().has_strokes;
+        idle = resolved.coverage == 0.0 || !has_strokes || !presets::paints_layer(asker.scene(), kind);
     }
     let mut used = brushes::by_count(mix);
     // Pictures are shown of the two brushes that the layer uses most.
@@ -146,7 +147,7 @@ fn drag(ui: &Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, rows: &[(
 /// The brushes and numbers of a layer.
 fn selected(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, kind: LayerKind) {
     let layer = EditedLayer::Paint(kind);
-    // The body layer takes these from the stroke settings, so another section shows them.
+    // The body layer takes these from the stroke settings, and the section of those shows them.
     let is_twin = |field: &str| {
         kind == LayerKind::Body && matches!(field, "brush" | "length_px" | "width_px" | "coverage")
     };
