@@ -486,7 +486,7 @@ fn layers_that_ink_does_not_draw_have_no_strokes() {
         scene.style = style;
         scene.objects[0].particles = None;
         // A preset in which every layer has strokes.
-        scene.strokes = StrokeSettings { preset: Some("oil".to_owned()), ..Default::default() };
+        scene.strokes = StrokeSettings { preset: Some("oil study".to_owned()), ..Default::default() };
         let frame = painting(scene, [shapes::sphere(96, 48)]).at(0.0, &FrameOptions::new(SIZE_PX));
         frame.layers.iter().filter(|layer| layer.count > 0).map(|layer| layer.kind).collect::<Vec<_>>()
     };
