@@ -41,23 +41,19 @@ pub fn run(root: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Runs clippy with the editor's window and without it, and allows no warning. Every command names the whole workspace,
-/// so that crates which both share have the same features and are not checked twice. Where `.ci/rustc_and_clippy`
-/// stands in for the compiler, clippy reads what is built, so all targets are built: programs as they run and as their
-/// tests.
+/// Runs clippy with the editor's window and without it, and allows no warning. Both runs name the whole workspace and all
+/// targets, so that crates which both share have the same features and are not checked twice. Where
+/// `.ci/rustc_and_clippy` stands in for the compiler, clippy reads what is built. All targets are also what the tests
+/// need, with the same features.
 fn clippy(root: &Path) -> anyhow::Result<()> {
     let wrapper = std::env::var_os("RUSTC_WORKSPACE_WRAPPER");
     let lints_as_it_builds = wrapper.is_some_and(|path| Path::new(&path).ends_with(".ci/rustc_and_clippy"));
-    let (commands, strict): (&[&[&str]], &[&str]) = match lints_as_it_builds {
-        true => (&[&["build", "--bins"], &["test", "--no-run", "--all-targets"]], &[]),
-        false => (&[&["clippy", "--all-targets"]], &["--", "-D", "warnings"]),
-    };
+    let (command, strict): (&str, &[&str]) =
+        if lints_as_it_builds { ("build", &[]) } else { ("clippy", &["--", "-D", "warnings"]) };
     // The build with the window comes last, so that the command which the next steps run has it.
     for features in [&["--no-default-features"][..], &[]] {
-        for command in commands {
-            let arguments = [*command, &["--workspace", "--locked"], features, strict].concat();
-            steps::run(root, &cargo(), &arguments)?;
-        }
+        let arguments = [&[command, "--workspace", "--all-targets", "--locked"], features, strict].concat();
+        steps::run(root, &cargo(), &arguments)?;
     }
     Ok(())
 }
