@@ -41,8 +41,8 @@ pub fn run(root: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Runs clippy with the editor's window and without it, and allows no warning. Both runs name the whole workspace and all
-/// targets, so that crates which both share have the same features and are not checked twice. Where
+/// Runs clippy with the editor's window and without it, and allows no warning. Both runs name the whole workspace and
+/// all targets, so that crates which both share have the same features and are not checked twice. Where
 /// `.ci/rustc_and_clippy` stands in for the compiler, clippy reads what is built. All targets are also what the tests
 /// need, with the same features.
 fn clippy(root: &Path) -> anyhow::Result<()> {
