@@ -51,9 +51,12 @@ fn run(folder: &Path, arguments: &[&str]) -> Output {
     Command::new(impasto()).current_dir(folder).args(arguments).output().unwrap()
 }
 
-fn good(folder: &Path, arguments: &[&str]) {
+/// Runs a command that must succeed. Returns what it prints to stderr.
+fn good(folder: &Path, arguments: &[&str]) -> String {
     let done = run(folder, arguments);
-    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let words = String::from_utf8(done.stderr).unwrap();
+    assert!(done.status.success(), "{words}");
+    words
 }
 
 /// Runs a command that must be refused. Returns what it prints to stderr.
@@ -227,6 +230,10 @@ fn the_tasks_of_a_slurm_script_paint_all_frames_once() {
     let words = String::from_utf8(done.stderr).unwrap();
     assert!(done.status.success() && words.contains("f_0001.png was there and does not say"), "{words}");
     assert_eq!(std::fs::read(here.join("out/f_0001.png")).unwrap(), bytes);
+    let render = ["render", "it's a pack/scene.ron", "-f", "0-3", "-o", "out/f.png", "--size", "24x16"];
+    let loud = good(here, &[&render[..], &["--skip-existing"]].concat());
+    assert!(loud.contains("f_0001.png was there and does not say"), "{loud}");
+    assert_eq!(good(here, &[&render[..], &["--skip-existing", "--quiet"]].concat()), "");
     assert!(!task(here, "job.sh", 7).status.success());
     // Frames of another shot are not taken for this one's.
     std::fs::write(here.join("it's a pack/other.ron"), SCENE).unwrap();

@@ -2,6 +2,8 @@
 
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use impasto_editor_model::command::{Amounts, Command, RegionTarget, Touches};
+use impasto_editor_model::keymap::{CommandId, Keymap};
+use impasto_editor_model::session::Mode;
 use impasto_scene::document::{Amount, AmountDab, Color, Touch, TouchPoint};
 
 use super::{Column, click, harness, region, type_in, with_guides};
@@ -45,6 +47,27 @@ fn a_curve_is_told_from_a_comb_and_a_drag_changes_the_order() {
     harness.drop_at(first + down);
     harness.run();
     assert_eq!(harness.state().document.undo_count(), count);
+}
+
+#[test]
+fn notes_name_the_keys_that_are_in_use() {
+    let mut harness = harness("still_life.ron", region("lemon"));
+    harness.state_mut().session.mode = Mode::Paint;
+    harness.run();
+    for section in ["Guides", "Painted amounts"] {
+        click(&mut harness, section);
+    }
+    let curve = CommandId::named("Guide curve").expect("a command");
+    let says = |harness: &mut egui_kittest::Harness<'_, Column>, words: &str| {
+        harness.run();
+        harness.query_by_label(words).is_some()
+    };
+    assert!(says(&mut harness, "No guides. Comb over the region, or draw a curve (V)."));
+    assert!(says(&mut harness, "Nothing is painted. Paint width, length, density or flatness (P)."));
+    harness.state_mut().keymap = Keymap::default().with(curve, vec!["Ctrl 7".parse().expect("a key")]);
+    assert!(says(&mut harness, "No guides. Comb over the region, or draw a curve (Ctrl 7)."));
+    harness.state_mut().keymap = Keymap::default().with(curve, Vec::new());
+    assert!(says(&mut harness, "No guides. Comb over the region, or draw a curve."));
 }
 
 #[test]

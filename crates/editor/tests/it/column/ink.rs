@@ -1,6 +1,7 @@
 //! Tests of the settings of ink in the inspector.
 
 use egui_kittest::kittest::Queryable as _;
+use impasto_editor_model::command::{Command, Regions, SceneEdit, StrokeChange, StrokesOf};
 use impasto_scene::document::{InkRule, Style, SumiE};
 
 use super::{Column, assert_named, click, drag, harness, harness_of, type_in};
@@ -45,9 +46,7 @@ fn ink_is_chosen_set_and_taken_back() {
 #[test]
 fn every_number_of_the_ink_has_its_place() {
     let mut column = Column::open("apple.ron");
-    column.apply(impasto_editor_model::command::Command::Scene(
-        impasto_editor_model::command::SceneEdit::SetStyle(Style::SumiE(SumiE::default()), String::new()),
-    ));
+    column.apply(Command::Scene(SceneEdit::SetStyle(Style::SumiE(SumiE::default()), String::new())));
     let harness = harness_of(column, impasto_editor::theme::Theme::Dark, egui::vec2(280.0, 1400.0));
     let names = [
         "Density",
@@ -72,4 +71,25 @@ fn every_number_of_the_ink_has_its_place() {
         "Paper follows camera",
     ];
     assert_named(&harness, &names);
+}
+
+#[test]
+fn layers_that_ink_does_not_draw_say_so() {
+    let idle = |style: &str, layer: &str| {
+        let mut harness = harness("apple.ron", None);
+        click(&mut harness, style);
+        // In this preset every layer has strokes.
+        let preset = StrokeChange::Preset(Some("oil study".to_owned()));
+        harness.state_mut().apply(Command::Regions(Regions::SetStroke(StrokesOf::Scene, preset)));
+        harness.run();
+        let at = harness.get_by_label(&format!("Layer {layer}")).rect().center();
+        harness.hover_at(at);
+        // A tooltip comes up once the pointer has rested for half a second.
+        harness.run_steps(12);
+        harness.query_by_label_contains("It paints nothing now.").is_some()
+    };
+    assert!(!idle("Style strokes", "contour") && !idle("Style ink", "form"));
+    for layer in ["contour", "lights", "underpainting"] {
+        assert!(idle("Style ink", layer), "{layer}");
+    }
 }

@@ -30,6 +30,7 @@ use impasto_scene::load::LoadOptions;
 pub struct Column {
     pub document: Document,
     pub session: Session,
+    pub keymap: Keymap,
     /// What the column asked, in order, in words: *preview*, *select*; for a command, its words in the history.
     pub log: Vec<String>,
     pub acts: Vec<Action>,
@@ -68,6 +69,7 @@ impl Column {
         Self {
             document,
             session,
+            keymap: Keymap::default(),
             log,
             acts,
             meshes,
@@ -86,12 +88,12 @@ impl Column {
 
     pub fn ui(&mut self, ui: &mut egui::Ui) {
         let mut asks = Vec::new();
-        let (time, keymap) = (Default::default(), Keymap::default());
+        let time = Default::default();
         let shown = PanelInput {
             numbers: Numbers { strokes_of: &self.strokes_of, ..Numbers::default() },
             likely_meshes: &self.likely_meshes,
             presets: &self.own_presets,
-            ..PanelInput::of(&self.document, &self.session, &time, &keymap)
+            ..PanelInput::of(&self.document, &self.session, &time, &self.keymap)
         };
         // The harness has margins, the window has none.
         let whole = ui.ctx().content_rect();
